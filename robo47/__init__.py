@@ -1,0 +1,1 @@
+"""robo47: derive it by hand, verify it against MuJoCo, record the number."""

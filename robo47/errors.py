@@ -1,0 +1,5 @@
+"""The one exception that a person is meant to read."""
+
+
+class Robo47Error(Exception):
+    """What is wrong, what was expected and what to do next, in plain words."""

@@ -1,0 +1,22 @@
+"""Where things are in the student's clone."""
+
+import os
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+METRICS_CSV = ROOT / "metrics" / "metrics.csv"
+TWIN_XML = ROOT / "robo47" / "models" / "panda_kinematics.xml"
+
+
+def menagerie_root() -> Path:
+    """Return the folder that holds `franka_emika_panda/`: MENAGERIE_ROOT, else ours."""
+    chosen = os.environ.get("MENAGERIE_ROOT")
+    return Path(chosen).expanduser() if chosen else ROOT / "mujoco_menagerie"
+
+
+def shown(path: Path) -> str:
+    """Return a path as people read it: relative to the clone, or from `~`."""
+    for base, prefix in ((ROOT, ""), (Path.home(), "~/")):
+        if path.is_relative_to(base):
+            return prefix + path.relative_to(base).as_posix()
+    return str(path)
