@@ -37,7 +37,7 @@ def find_python():
         if found:
             return found
     return stop(
-        "this is Python {}.{}; the kit needs 3.11 or newer.".format(  # noqa: UP032
+        "this is Python {}.{}; the kit needs 3.11 or newer.".format(
             *sys.version_info[:2]
         ),
         "Install one (python.org, or your package manager) and run make again with"
@@ -62,7 +62,7 @@ def run(command, doing):
         cwd=str(ROOT),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        universal_newlines=True,
+        text=True,
         check=False,
     )
     return done.returncode, done.stdout
@@ -78,7 +78,7 @@ def make_venv(python, uv):
         return
     shutil.rmtree(str(VENV), ignore_errors=True)
     if "ensurepip" in said:
-        version = "{}.{}".format(*sys.version_info[:2])  # noqa: UP032
+        version = "{}.{}".format(*sys.version_info[:2])
         stop(
             "this Python cannot make environments (no ensurepip).",
             "On Debian or Ubuntu: sudo apt install python3-venv (or python"
