@@ -1,0 +1,72 @@
+"""Checks on what a caller passes: shape, finite numbers, rigid matrices.
+
+Each check returns the value as float64, or raises a ValueError that names the
+argument, what it is and what was expected.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+# How far a matrix may be from rigid and still be taken for a pose. Wide enough for
+# float32 and for quaternions printed with 7 digits, far too narrow for any mistake.
+RIGID_TOL = 1e-6
+
+
+def array(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
+    """Return value as float64 after checking its trailing shape and finiteness."""
+    try:
+        checked = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is not an array of numbers: {error}") from None
+    if checked.shape[max(checked.ndim - len(shape), 0) :] != shape:
+        wanted = ", ".join(["...", *map(str, shape)])
+        raise ValueError(f"{name} has shape {checked.shape}; expected ({wanted})")
+    if not np.isfinite(checked).all():
+        raise ValueError(f"{name} holds a number that is not finite (NaN or infinity)")
+    return checked
+
+
+def unit(v: Array, name: str) -> Array:
+    """Return v scaled to length 1 along its last axis; length 0 is an error."""
+    scale = np.max(np.abs(v), axis=-1, keepdims=True)  # 1e-200 squared would be 0
+    if np.any(scale == 0.0):
+        raise ValueError(f"{name} has length 0, so it has no direction")
+    v = v / scale
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def rotation(R: ArrayLike, name: str) -> Array:
+    """Return R as float64, (..., 3, 3), after checking that it is a rotation."""
+    R = array(R, name, (3, 3))
+    if flaw := rotation_flaw(R, RIGID_TOL):
+        raise ValueError(f"{name} is not a rotation: {flaw}")
+    return R
+
+
+def pose(T: ArrayLike, name: str) -> Array:
+    """Return T as float64, (..., 4, 4), after checking that it is a pose."""
+    T = array(T, name, (4, 4))
+    if flaw := pose_flaw(T, RIGID_TOL):
+        raise ValueError(f"{name} is not a pose: {flaw}")
+    return T
+
+
+def rotation_flaw(R: Array, tol: float) -> str | None:
+    """Return what keeps R, (..., 3, 3), from being a rotation, or None."""
+    off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
+    if off > tol:
+        return f"R R^T differs from the identity by {off:.3g} (allowed {tol:.0e})"
+    if np.any(np.linalg.det(R) < 0.0):
+        return "det R = -1, a mirror image (left-handed)"
+    return None
+
+
+def pose_flaw(T: Array, tol: float) -> str | None:
+    """Return what keeps T, (..., 4, 4), from being a pose, or None."""
+    if np.abs(T[..., 3, :] - [0.0, 0.0, 0.0, 1.0]).max(initial=0.0) > tol:
+        worst = T.reshape(-1, 4, 4)[:, 3]
+        row = worst[np.argmax(np.abs(worst - [0, 0, 0, 1]).max(axis=-1))]
+        return f"its bottom row is {np.round(row, 6).tolist()}; expected [0, 0, 0, 1]"
+    return rotation_flaw(T[..., :3, :3], tol)

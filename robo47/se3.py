@@ -1,0 +1,266 @@
+"""Poses: 4x4 homogeneous transforms, and the rotations inside them.
+
+Conventions, here and everywhere in the kit:
+
+- `T_world_hand` maps hand coordinates to world coordinates, and it is also the pose
+  of the hand as the world sees it. Adjacent inner names cancel:
+  `T_world_tip = T_world_hand @ T_hand_tip`.
+- Points are columns: `p_world = T_world_hand @ p_hand`, with a 1 as fourth entry.
+- Lengths in metres, angles in radians, quaternions as (w, x, y, z), all float64.
+- Leading dimensions broadcast: a function that takes (4, 4) also takes (N, 4, 4).
+
+Sources: Lynch and Park, Modern Robotics (2017), chapter 3, for the group; Shepperd,
+"Quaternion from rotation matrix", J. Guidance and Control 1(3), 1978.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks
+from robo47.checks import RIGID_TOL, Array
+
+
+def make_T(R: ArrayLike, t: ArrayLike) -> Array:
+    """Return the pose that rotates by R and then moves by t.
+
+    Args:
+        R: rotation matrix, (..., 3, 3).
+        t: translation in metres, (..., 3).
+
+    Returns:
+        The homogeneous transform [[R, t], [0, 1]], (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or R is not a rotation.
+    """
+    R, t = checks.rotation(R, "R"), checks.array(t, "t", (3,))
+    T = np.zeros((*np.broadcast_shapes(R.shape[:-2], t.shape[:-1]), 4, 4))
+    T[..., :3, :3] = R
+    T[..., :3, 3] = t
+    T[..., 3, 3] = 1.0
+    return T
+
+
+def inverse(T: ArrayLike) -> Array:
+    """Return the inverse pose: `inverse(T_world_hand)` is `T_hand_world`.
+
+    R transposed and -R^T t, never a general matrix inverse, which would accept a
+    matrix that is no pose (Modern Robotics, eq. 3.64).
+
+    Args:
+        T: pose, (..., 4, 4).
+
+    Returns:
+        The inverse pose, (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or T is not a pose.
+    """
+    T = checks.pose(T, "T")
+    R_inv = np.swapaxes(T[..., :3, :3], -1, -2)
+    out = np.zeros_like(T)
+    out[..., :3, :3] = R_inv
+    out[..., :3, 3] = -(R_inv @ T[..., :3, 3:])[..., 0]
+    out[..., 3, 3] = 1.0
+    return out
+
+
+def Rx(theta: ArrayLike) -> Array:
+    """Return the rotation by theta about the x axis.
+
+    Args:
+        theta: angle in radians, (...).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: a non-finite angle.
+    """
+    return _turn_about(0, theta)
+
+
+def Ry(theta: ArrayLike) -> Array:
+    """Return the rotation by theta about the y axis.
+
+    Args:
+        theta: angle in radians, (...).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: a non-finite angle.
+    """
+    return _turn_about(1, theta)
+
+
+def Rz(theta: ArrayLike) -> Array:
+    """Return the rotation by theta about the z axis.
+
+    Args:
+        theta: angle in radians, (...).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: a non-finite angle.
+    """
+    return _turn_about(2, theta)
+
+
+def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
+    """Return the rotation by theta about any axis (Rodrigues' formula).
+
+    R = I + sin(theta) K + (1 - cos(theta)) K K, where K v = axis x v
+    (Modern Robotics, eq. 3.51).
+
+    Args:
+        axis: direction of the axis, (..., 3); its length does not matter.
+        theta: angle in radians, (...).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or an axis of length 0.
+    """
+    axis, theta = checks.array(axis, "axis", (3,)), checks.array(theta, "theta", ())
+    x, y, z = np.moveaxis(checks.unit(axis, "axis"), -1, 0)
+    zero = np.zeros_like(x)
+    K = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1)
+    K = K.reshape(*x.shape, 3, 3)
+    s, c = np.sin(theta)[..., None, None], np.cos(theta)[..., None, None]
+    return np.eye(3) + s * K + (1.0 - c) * (K @ K)
+
+
+def quat_to_R(q_wxyz: ArrayLike) -> Array:
+    """Return the rotation matrix of a quaternion, which is normalised first.
+
+    Normalising is not optional: model files write `quat="1 -1 0 0"`, of length
+    sqrt(2), and mean the unit quaternion in that direction.
+
+    Args:
+        q_wxyz: quaternion, scalar part first as in MuJoCo, (..., 4).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+    """
+    w, x, y, z = np.moveaxis(
+        checks.unit(checks.array(q_wxyz, "q_wxyz", (4,)), "q_wxyz"), -1, 0
+    )
+    rows = [
+        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def R_to_quat(R: ArrayLike) -> Array:
+    """Return the unit quaternion of a rotation matrix, with w >= 0.
+
+    q and -q are the same rotation; the sign is fixed so that two answers can be
+    compared. The largest of the four components is computed first, which keeps the
+    division away from zero for every angle (Shepperd 1978).
+
+    Args:
+        R: rotation matrix, (..., 3, 3).
+
+    Returns:
+        Quaternion (w, x, y, z), (..., 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or R is not a rotation.
+    """
+    R = checks.rotation(R, "R")
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(R, (-2, -1), (0, 1))
+    # Row k is 4 q_k times the whole quaternion; its k-th entry, 4 q_k^2, says how
+    # well conditioned that row is.
+    rows = [
+        [1 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
+        [zy - yz, 1 + xx - yy - zz, yx + xy, xz + zx],
+        [xz - zx, yx + xy, 1 - xx + yy - zz, zy + yz],
+        [yx - xy, xz + zx, zy + yz, 1 - xx - yy + zz],
+    ]
+    table = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    best = np.argmax(np.diagonal(table, axis1=-2, axis2=-1), axis=-1)
+    q = np.take_along_axis(table, best[..., None, None], axis=-2)[..., 0, :]
+    q /= np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.where(q[..., :1] < 0, -q, q)
+
+
+def is_rotation(R: ArrayLike, tol: float = RIGID_TOL) -> bool:
+    """Return whether every matrix is a rotation: orthonormal and right-handed.
+
+    Args:
+        R: matrix, (..., 3, 3).
+        tol: largest entry of R R^T - I that still counts as orthonormal.
+
+    Returns:
+        True when all are rotations; False for other shapes and non-finite numbers.
+    """
+    R = np.asarray(R, dtype=np.float64)
+    return (
+        R.shape[-2:] == (3, 3)
+        and bool(np.isfinite(R).all())
+        and checks.rotation_flaw(R, tol) is None
+    )
+
+
+def is_pose(T: ArrayLike, tol: float = RIGID_TOL) -> bool:
+    """Return whether every matrix is a pose: a rotation, and (0, 0, 0, 1) below.
+
+    Args:
+        T: matrix, (..., 4, 4).
+        tol: as in `is_rotation`, also for the bottom row.
+
+    Returns:
+        True when all are poses; False for other shapes and non-finite numbers.
+    """
+    T = np.asarray(T, dtype=np.float64)
+    return (
+        T.shape[-2:] == (4, 4)
+        and bool(np.isfinite(T).all())
+        and checks.pose_flaw(T, tol) is None
+    )
+
+
+def pose_error(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
+    """Return how far apart two poses are, as a distance and an angle.
+
+    The angle comes from the relative rotation's quaternion by atan2, which is exact
+    near 0 and near pi; arccos((trace - 1) / 2) loses half its digits there, or is
+    NaN where rounding takes the trace past 3.
+
+    Args:
+        T_a: pose, (..., 4, 4).
+        T_b: pose, (..., 4, 4).
+
+    Returns:
+        Distance in metres (...) and angle in radians in [0, pi] (...).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
+    """
+    T_a, T_b = checks.pose(T_a, "T_a"), checks.pose(T_b, "T_b")
+    metres = np.linalg.norm(T_a[..., :3, 3] - T_b[..., :3, 3], axis=-1)
+    R_ab = np.swapaxes(T_a[..., :3, :3], -1, -2) @ T_b[..., :3, :3]
+    q = R_to_quat(R_ab)
+    radians = 2.0 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), q[..., 0])
+    return metres, radians
+
+
+def _turn_about(k: int, theta: ArrayLike) -> Array:
+    theta = checks.array(theta, "theta", ())
+    i, j = (k + 1) % 3, (k + 2) % 3  # the turn takes axis i towards axis j
+    R = np.zeros((*theta.shape, 3, 3))
+    R[..., k, k] = 1.0
+    R[..., i, i] = R[..., j, j] = np.cos(theta)
+    R[..., j, i] = np.sin(theta)
+    R[..., i, j] = -R[..., j, i]
+    return R
