@@ -57,9 +57,9 @@ details { margin-top: 6px; } summary { cursor: pointer; color: var(--muted);
   margin-top: 8px; min-width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0;
   border-top: 1px solid var(--grid); } tr:first-child th { border-top: 0; }
-th, td:first-child { white-space: nowrap; } th { color: var(--muted); font-weight: 500; }
-td.note { min-width: 140px; } code { font: 12px/1.4 ui-monospace, Menlo, Consolas,
-  "DejaVu Sans Mono", monospace; }
+th, td { white-space: nowrap; } th { color: var(--muted); font-weight: 500; }
+td.note { white-space: normal; min-width: 150px; }
+code { font: 12px/1.4 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace; }
 @media print { body { max-width: none; } .card { break-inside: avoid; } }
 """
 
@@ -206,6 +206,8 @@ def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
         text = "" if value is None else _clipped(str(value))
         if name == "n_failures" and value is not None:
             text = f"{value} of {'?' if row['n_trials'] is None else row['n_trials']}"
+        if name == "value":
+            text = plot.number(value_of(row))
         kind = ' class="note"' if name == "notes" else ""
         yield f"<td{kind}>{escape(text)}</td>"
 
@@ -214,8 +216,8 @@ def _look(title: str, lines: list[Line]) -> str:
     if not lines:
         return ""
     rows = "".join(
-        f"<tr><td>{line.number}</td><td>{escape(line.problem)}</td>"
-        f"<td><code>{escape(_clipped(line.text))}</code></td></tr>"
+        f"<tr><td>{line.number}</td><td class=note>{escape(line.problem)}</td>"
+        f"<td class=note><code>{escape(_clipped(line.text))}</code></td></tr>"
         for line in lines[:LISTED]
     )
     more = len(lines) - LISTED

@@ -28,6 +28,7 @@ COLOURS = {
     "open": "#5c6670",
     "none": "#5c6670",
 }
+ABSENT = str.maketrans({"≤": "<=", "≥": ">=", "–": "-"})  # from Pillow's own font
 ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 
 
@@ -45,8 +46,7 @@ class _Canvas:
     ) -> None:
         font = ImageFont.load_default(size * self.k)
         place = (x * self.k, y * self.k)
-        words = words.replace("≤", "<=").replace("≥", ">=")  # not in Pillow's font
-        self.pen.text(place, words, COLOURS[role], font, anchor)
+        self.pen.text(place, words.translate(ABSENT), COLOURS[role], font, anchor)
 
     def line(
         self, points: Sequence[tuple[float, float]], role: str, wide: float
@@ -87,8 +87,7 @@ def render(report: Report, heading: str) -> bytes:
         y = HEAD + i // COLUMNS_WIDE * (CARD_H + GAP)
         image.paste(_card(series), (x * SCALE, y * SCALE))
     file = io.BytesIO()
-    # 128 flat colours are all there are: a third of the bytes
-    image.quantize(128).save(file, "PNG", optimize=True)
+    image.save(file, "PNG", optimize=True)
     return file.getvalue()
 
 
