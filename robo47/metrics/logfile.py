@@ -5,7 +5,6 @@ git branch switch a held handle writes to a file that nobody can see any more.
 """
 
 import contextlib
-import csv
 import errno
 import os
 import stat
@@ -16,6 +15,7 @@ from pathlib import Path
 
 from robo47.errors import Robo47Error
 from robo47.metrics import header, lock
+from robo47.metrics.rows import is_open_quote
 from robo47.paths import shown
 
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
@@ -88,16 +88,6 @@ def locked(name: str) -> Iterator[int]:
             lock.unlock(fd)
     finally:
         os.close(fd)
-
-
-def is_open_quote(line: str, delimiter: str = ",") -> bool:
-    """Return whether a line's last cell has a quote that it does not close."""
-    reader = csv.reader([line, ""], delimiter=delimiter)
-    try:
-        next(reader)
-    except csv.Error:  # longer than the csv module reads
-        return line.count('"') % 2 == 1
-    return reader.line_num > 1
 
 
 def note_repair(path: StrPath, line: str) -> None:
