@@ -13,6 +13,7 @@ plan of the elementary moves of `robo47.moves`, which uses what the chain knows:
 Units: metres and radians.
 """
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -141,7 +142,7 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     Raises:
         ValueError: a non-finite number, or a quaternion of length 0.
     """
-    flat = qpos.reshape(-1, qpos.shape[-1])
+    flat = qpos.reshape(math.prod(qpos.shape[:-1]), qpos.shape[-1])
     poses = {name: np.zeros((len(flat), 4, 4)) for name in plan.frames}
     for start in range(0, len(flat), CHUNK):
         chunk = slice(start, start + CHUNK)

@@ -103,8 +103,9 @@ def worst_difference(
     worst = Worst(-1.0, "", qpos[:0])
     for frame, T in ours.items():
         error = np.abs(T - truth[frame]).max(axis=(1, 2))
-        i = int(np.argmax(error))  # a NaN counts as the largest
-        if not error[i] <= worst.error:
+        error = np.where(np.isnan(error), np.inf, error)  # nothing is worse than NaN
+        i = int(np.argmax(error))
+        if error[i] > worst.error:
             worst = Worst(float(error[i]), frame, qpos[i].copy())
     return worst
 
