@@ -150,34 +150,24 @@ def function_lines(text: str, function: str) -> tuple[int, int, list[str]]:
     return -1, -1, []
 
 
-def restore_task(path: Path, starter: str, functions: tuple[str, ...]) -> list[str]:
-    """Put a task's gaps back into the student's file.
+def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
+    """Return a student's script with some functions as the starter has them.
 
     Args:
-        path: the student's file, rewritten in place.
+        text: the student's script.
         starter: the whole starter.
-        functions: the task's functions.
-
-    Returns:
-        The lines that were replaced, for the caller to keep.
-
-    Raises:
-        Robo47Error: the file is not text in UTF-8.
+        functions: which to put back; one that is gone is put above `main`.
     """
-    text = read_script(path)
-    replaced: list[str] = []
     for function in functions:
         gap = function_lines(starter, function)[2]
-        start, end, old = function_lines(text, function)
+        start, end, _ = function_lines(text, function)
         lines = text.splitlines()
-        if start < 0:  # deleted or renamed: put it where main() can see it
+        if start < 0:
             start = end = max(function_lines(text, "main")[0], 0) or len(lines)
             gap = [*gap, "", ""]
         lines[start:end] = gap
         text = "\n".join(lines) + "\n"
-        replaced += [*old, ""]
-    path.write_text(text, "utf-8")
-    return replaced
+    return text
 
 
 def read_script(path: Path) -> str:
@@ -191,6 +181,6 @@ def read_script(path: Path) -> str:
     except FileNotFoundError:
         raise Robo47Error(f"{shown(path)} is not there") from None
     except UnicodeDecodeError:
-        raise Robo47Error(f"{shown(path)} is not text in UTF-8: save it as such") from None
+        raise Robo47Error(f"{shown(path)} is not in UTF-8: save it as such") from None
     except OSError as error:
         raise Robo47Error(f"{shown(path)} cannot be read: {error.strerror}") from None

@@ -24,6 +24,7 @@ class Task:
         needs: ids of the tasks that its functions may call.
         read: the section to re-read.
         hints: questions and pointers, in the order to give them.
+        without: NumPy functions that would take the point out of it.
     """
 
     id: str
@@ -32,6 +33,7 @@ class Task:
     needs: tuple[str, ...]
     read: str
     hints: tuple[str, ...]
+    without: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,23 @@ def find_day(number: int, root: Path = ROOT) -> Day:
     return days[number]
 
 
+def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
+    """Return a task and its day.
+
+    Args:
+        task_id: such as "1.4".
+        root: as `find_day`.
+
+    Raises:
+        Robo47Error: not an id, or no such day or task.
+    """
+    number = task_id.partition(".")[0]
+    if not number.isdecimal():
+        raise Robo47Error(f"{task_id!r} is no task; expected an id such as 1.4")
+    day = find_day(int(number), root)
+    return day, day.task(task_id)
+
+
 def load_week(manifest: Path) -> list[Day]:
     """Return the days of a manifest.
 
@@ -158,7 +177,7 @@ class _Entries:
         return value
 
     def texts(self, name: str, *, at_least: int = 1) -> tuple[str, ...]:
-        values = self.get(name, list)
+        values = self.get(name, list) if at_least else self.table.get(name, [])
         if len(values) < at_least:
             raise Robo47Error(
                 f"{self.where}: {name} has {len(values)} entries; expected {at_least}"
@@ -215,6 +234,7 @@ def _task(entries: _Entries, day: int) -> Task:
         needs=entries.texts("needs", at_least=0),
         read=entries.get("read", str),
         hints=entries.texts("hints", at_least=2),
+        without=entries.texts("without", at_least=0),
     )
     if not task.id.startswith(f"{day}."):
         raise Robo47Error(f"{entries.where}: id {task.id} is not one of day {day}")
@@ -222,12 +242,13 @@ def _task(entries: _Entries, day: int) -> Task:
 
 
 def _check_order(tasks: tuple[Task, ...], where: str) -> None:
-    """Refuse an id that is used twice, and a need that comes later or does not exist."""
+    """Refuse an id that is used twice, and a need that is no earlier task."""
     earlier: set[str] = set()
     for task in tasks:
         if task.id in earlier:
             raise Robo47Error(f"{where}: two tasks have the id {task.id}")
         for need in task.needs:
             if need not in earlier:
-                raise Robo47Error(f"{where}: {task.id} needs {need}, not an earlier task")
+                why = f"{task.id} needs {need}, which is no earlier task"
+                raise Robo47Error(f"{where}: {why}")
         earlier.add(task.id)

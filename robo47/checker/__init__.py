@@ -1,6 +1,8 @@
 """Check a day: run the student's code where it can do no harm, and say what it shows.
 
-    sandbox       runs the student's file in a process of its own; returns plain arrays
+    sandbox       runs the student's file in processes of its own
+    process       one of them, from its start to its end
+    replies       what is asked, and what comes back: plain arrays
     inside/       what runs in that process: limits, guard, stand-ins, the runner
     resources     memory and processes of the sandbox, per platform
     model_copy    the Panda as plain data, for the sandbox's stand-in of MjModel

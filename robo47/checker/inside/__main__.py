@@ -45,16 +45,14 @@ def main() -> None:
         channel.write(line.encode("ascii"))
         channel.flush()
 
-    watch = guard.Guard(
-        request["folder"], LIBRARIES + sys.argv[1:], request["closed"]
-    )
+    watch = guard.Guard(request["folder"], LIBRARIES + sys.argv[1:], request["closed"])
     models = [_model_maker(standins, wire, data) for data in request["models"]]
-    sys.modules.update(
-        standins.make_modules(watch.refuse, models[0], request["facts"])
-    )
+    sys.modules.update(standins.make_modules(watch.refuse, models[0], request["facts"]))
+    names = {name for call in request["calls"] for name in call["without"]}
+    shut_out = standins.shut_out(sorted(names), watch.refuse)
     limits.tighten()
     watch.arm()
-    _answer(request, send, watch.refused, wire, models)
+    _answer(request, send, watch.refused, shut_out, wire, models)
     os._exit(0)  # no atexit of the student's, no thread to wait for
 
 
@@ -64,7 +62,12 @@ def _model_maker(standins: Any, wire: Any, data: Any) -> Callable[[], Any]:
 
 
 def _answer(
-    request: Any, send: Callable[..., None], refused: list, wire: Any, models: Any
+    request: Any,
+    send: Callable[..., None],
+    refused: list[str],
+    shut_out: set[str],
+    wire: Any,
+    models: Any,
 ) -> None:
     """Load the student's file, then make the calls one by one."""
     path = Path(request["file"])
@@ -83,6 +86,8 @@ def _answer(
     for index, call in enumerate(request["calls"]):
         send(at=index)
         refused.clear()
+        shut_out.clear()
+        shut_out.update(call["without"])
         sys.stdout = sys.stderr = printed = _Kept()
         try:
             function = getattr(module, call["function"], None)
@@ -91,7 +96,7 @@ def _answer(
                 continue
             args = [_argument(packed, wire, models) for packed in call["args"]]
             reply = {"value": wire.pack_value(function(*args))}
-        except wire.Unsendable as error:
+        except wire.UnsendableError as error:
             reply = {"error": f"it returned {error}", "kind": "unsendable"}
         except BaseException as error:
             reply = _describe(error, path)

@@ -48,7 +48,7 @@ _CHANGES = {
 _WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
-class Refused(PermissionError):
+class RefusedError(PermissionError):
     """The guard said no; its text completes "your code tried to ..."."""
 
 
@@ -68,10 +68,10 @@ class Guard:
         self.closed = tuple(_below(path) for path in closed)
         self.refused: list[str] = []
 
-    def refuse(self, what: str) -> Refused:
+    def refuse(self, what: str) -> RefusedError:
         """Record a refusal and return the exception to raise."""
         self.refused.append(what)
-        return Refused(f"refused by the checker: {what}")
+        return RefusedError(f"refused by the checker: {what}")
 
     def arm(self) -> None:
         """Watch every event of this interpreter from now on."""

@@ -6,6 +6,7 @@ would compute the answer refuses, saying why.
 """
 
 import enum
+import sys
 import types
 from collections.abc import Callable
 from typing import Any
@@ -46,7 +47,7 @@ class MjModel:
         self.__dict__.update({name: array.copy() for name, array in arrays.items()})
         self._names: dict[str, list[str]] = data["names"]
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> Any:  # noqa: D105
         kind = _SHORT.get(name, name)
         if kind in KINDS:
             return lambda key: self._view(kind, key)
@@ -78,7 +79,9 @@ class MjModel:
             for name, array in vars(self).items()
             if name.startswith("dof_")
         }
-        return {**rows, "qpos0": self.qpos0[qpos], "qpos_spring": self.qpos_spring[qpos]}
+        for name in ("qpos0", "qpos_spring"):
+            rows[name] = vars(self)[name][qpos]
+        return rows
 
     def _index(self, kind: str, key: str | int) -> int:
         names = self._names[kind]
@@ -137,6 +140,31 @@ class _Lab:
         return lambda *args, **kwargs: None
 
 
+def shut_out(names: list[str], refuse: Refuse) -> set[str]:
+    """Make functions of NumPy refuse while their name is in the returned set.
+
+    Args:
+        names: such as "numpy.linalg.inv"; works however student code imports them,
+            since it happens before.
+        refuse: as in `make_modules`.
+    """
+    active: set[str] = set()
+
+    def refusing(name: str, original: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*args: Any, **kwargs: Any) -> Any:
+            if name in active:
+                raise refuse(f"call {name}")
+            return original(*args, **kwargs)
+
+        return call
+
+    for name in names:
+        path, _, attribute = name.rpartition(".")
+        module = sys.modules[path]
+        setattr(module, attribute, refusing(name, getattr(module, attribute)))
+    return active
+
+
 def make_modules(
     refuse: Refuse, panda: Callable[[], MjModel], facts: dict[str, Any]
 ) -> dict[str, types.ModuleType]:
@@ -154,7 +182,8 @@ def make_modules(
     mujoco = _Stand(
         "mujoco", refuse, MjModel=MjModel, __version__=facts["version"], **enums
     )
-    kinds = {int(enums["mjtObj"][row[2]]): kind for kind, row in KINDS.items()}
+    objects = facts["enums"]["mjtObj"]
+    kinds = {objects[row[2]]: kind for kind, row in KINDS.items()}
     mujoco.mj_name2id = lambda model, kind, name: (  # type: ignore[attr-defined]
         model._names[kinds[int(kind)]].index(name)
         if name in model._names[kinds[int(kind)]]
@@ -163,8 +192,13 @@ def make_modules(
     mujoco.mj_id2name = lambda model, kind, index: (  # type: ignore[attr-defined]
         model._names[kinds[int(kind)]][index] or None
     )
-    modules = {"mujoco": mujoco, "robo47": _Stand("robo47", refuse)}
-    modules["mujoco.viewer"] = mujoco.viewer = _Stand("mujoco.viewer", refuse)
+    robo47, viewer = _Stand("robo47", refuse), _Stand("mujoco.viewer", refuse)
+    mujoco.viewer = viewer  # type: ignore[attr-defined]
+    modules: dict[str, types.ModuleType] = {
+        "mujoco": mujoco,
+        "mujoco.viewer": viewer,
+        "robo47": robo47,
+    }
     has: dict[str, dict[str, Any]] = {
         "panda": {
             **{name: np.array(value) for name, value in facts["constants"].items()},
@@ -178,5 +212,5 @@ def make_modules(
     for name in facts["modules"]:
         inner = _Stand(f"robo47.{name}", refuse, **has.get(name, {}))
         modules[f"robo47.{name}"] = inner
-        setattr(modules["robo47"], name, inner)
+        setattr(robo47, name, inner)
     return modules

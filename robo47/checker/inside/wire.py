@@ -16,7 +16,7 @@ DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"
 LARGEST = 100_000  # numbers in one answer; a pose has 16
 
 
-class Unsendable(ValueError):
+class UnsendableError(ValueError):
     """A value that does not travel; its text completes "it returned ..."."""
 
 
@@ -24,16 +24,16 @@ def pack_array(array: np.ndarray) -> dict[str, Any]:
     """Return an array of numbers as JSON.
 
     Raises:
-        Unsendable: not plain numbers, or too many of them.
+        UnsendableError: not plain numbers, or too many of them.
     """
     plain = np.array(array, copy=True, order="C", subok=False)
     if plain.dtype == np.longdouble:
         plain = plain.astype(np.float64)
     code = plain.dtype.str[1:]
     if code not in DTYPES:
-        raise Unsendable(f"an array of dtype {plain.dtype}; expected float64")
+        raise UnsendableError(f"an array of dtype {plain.dtype}; expected float64")
     if plain.size > LARGEST:
-        raise Unsendable(f"an array of shape {plain.shape}, far too large")
+        raise UnsendableError(f"an array of shape {plain.shape}, far too large")
     data = plain.astype("<" + code).tobytes()
     return {
         "dtype": code,
@@ -66,18 +66,22 @@ def pack_value(value: Any) -> Any:
     """Return what a student's function returned as JSON.
 
     Raises:
-        Unsendable: not None, a number, an array, or a tuple or list of arrays.
+        UnsendableError: not None, a number, an array, or a tuple or list of those.
     """
     if value is None:
         return None
     if isinstance(value, (np.ndarray, np.generic, float, int)):
         return {"array": pack_array(np.asarray(value))}
-    if isinstance(value, (tuple, list)):
-        if value and all(isinstance(item, np.ndarray) for item in value):
+    if isinstance(value, (tuple, list)) and value:
+        if all(isinstance(item, np.ndarray) for item in value):
             return {"tuple": [pack_array(item) for item in value[:100]]}
-        kind = type(value).__name__
-        raise Unsendable(f"a {kind} of plain Python values; wrap it: np.array(...)")
-    raise Unsendable(f"a {type(value).__name__}; expected a NumPy array")
+        try:
+            return {"array": pack_array(np.array(value))}
+        except ValueError:  # rows of different lengths
+            raise UnsendableError(
+                f"a {type(value).__name__} that is no array"
+            ) from None
+    raise UnsendableError(f"a {type(value).__name__}; expected a NumPy array")
 
 
 def unpack_value(packed: Any) -> Any:
