@@ -439,6 +439,21 @@ def test_half_a_line_from_a_writer_without_a_lock_does_not_swallow_the_row(
         assert notes(log) == ["old", "new"]
 
 
+def test_an_echo_that_is_still_being_written_is_not_taken_for_a_cut_line(
+    log, monkeypatch
+):
+    log.write_text(f"{LINE}\n{OLD[:20]}", newline="")
+
+    def meanwhile(seconds):
+        with open(log, "ab") as other:
+            other.write(OLD[20:].encode() + b"\n")
+
+    monkeypatch.setattr(logfile.time, "sleep", meanwhile)
+    append_row(log, **ROW, notes="new")
+    assert notes(log) == ["note", "new"]
+    assert b"\n\n" not in log.read_bytes()
+
+
 def test_a_file_that_is_replaced_without_end_is_given_up_with_the_row(log, monkeypatch):
     append_row(log, **ROW)
     monkeypatch.setattr(logfile, "_is_at", lambda fd, name: name.endswith(".unsaved"))
