@@ -145,10 +145,10 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=ROWS, help="of the long log")
     result = run(parser.parse_args().rows)
     empty, long = (f"{size:,} rows" for size in result["rows"])
-    print(f"{'median, microseconds a row':28}{empty:>14}{long:>18}{'x naive':>16}")
+    print(f"{'median, microseconds a row':28}{empty:>14}{long:>18}{'x naive':>20}")
     for name, (first, last) in result["median_us"].items():
         ratio, grown = result["times_naive"][name]
-        print(f"{name:28}{first:14,.1f}{last:18,.1f}{ratio:9.1f}{grown:7.1f}")
+        print(f"{name:28}{first:14,.1f}{last:18,.1f}{ratio:9.1f}{grown:11,.1f}")
 
 
 if __name__ == "__main__":

@@ -126,8 +126,7 @@ def show_check(path: Path) -> int:
             print(f"line {line.number}: {line.problem}{end_of(line)}")
         elif line.text in back:
             notes.append(line)
-    wrong = header_problem(path)
-    if wrong:
+    if wrong := header_problem(path):
         print(f"line 1: {wrong}")
     for line in notes:
         print(
@@ -145,9 +144,8 @@ def show_check(path: Path) -> int:
 
 def show_repair(path: Path) -> int:
     """Write the mended copy and print what was done; return 1 if lines are left."""
-    wrong = header_problem(path) if path.exists() else ""
     done = repair(path, watched(scan(path, as_is=True), path))
-    if wrong:
+    if wrong := header_problem(path):
         print(f"line 1: {wrong}")
     for line in done.mended:
         print(f"line {line.number}: mended: {line.problem}{end_of(line)}")
@@ -156,7 +154,7 @@ def show_repair(path: Path) -> int:
     print(f"{shown(done.copy)}: {done.rows} rows, {len(done.mended)} of them mended")
     if done.rest:
         print(f"{shown(done.rest)}: {len(done.unread)} lines that are not rows")
-    print(f"{shown(path)} is as it was. Look, then: mv the copy over it")
+    print(f"{shown(path)} is as it was. If the copy is right, rename it to that.")
     return cli.EXIT_FAILED if done.unread else cli.EXIT_OK
 
 

@@ -108,10 +108,15 @@ def test_check_says_what_is_wrong_with_the_header(log):
     assert "line 1: its columns are separated by semicolons" in done.stdout
 
 
-def test_check_of_a_missing_log_cannot_run(log):
-    done = run(log, "--check")
+@pytest.mark.parametrize("what", ["--check", "--repair"])
+def test_a_log_that_cannot_be_read_is_told_in_one_line(log, what):
+    done = run(log, what)
     assert done.returncode == 2
     assert "does not exist" in done.stderr
+    log.mkdir()
+    done = run(log, what)
+    assert done.returncode == 2
+    assert "cannot be read" in done.stderr
 
 
 SWAPPED = LINE.replace("run_id,date", "date,run_id")
@@ -203,14 +208,15 @@ def test_check_names_rows_that_a_union_merge_brought_back(log):
     git(folder, "init", "-q", "-b", "main")
     (folder / ".gitattributes").write_text("metrics.csv merge=union\n")
     edited, deleted = OLD.replace("note", "first"), OLD.replace("note", "second")
-    log.write_text(f"{LINE}\n{OLD}\n{edited}\n{deleted}\n")
+    log.write_text(f"{LINE}\n{OLD}\n{edited}\n{deleted}\n", newline="")
     git(folder, "add", "-A")
     git(folder, "commit", "-qm", "base")
     git(folder, "checkout", "-qb", "side")
-    log.write_text(f"{LINE}\n{OLD}\n{edited.replace('first', 'better')}\n")
+    better = edited.replace("first", "better")
+    log.write_text(f"{LINE}\n{OLD}\n{better}\n", newline="")
     git(folder, "commit", "-qam", "edit one, delete one")
     git(folder, "checkout", "-q", "main")
-    with log.open("a") as file:
+    with log.open("a", newline="") as file:
         file.write(OLD.replace("note", "third") + "\n")
     git(folder, "commit", "-qam", "add")
     git(folder, "merge", "-q", "side", "-m", "both")

@@ -24,6 +24,7 @@ from robo47.metrics.scan import scan
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}
 OLD = "r,2026-09-01,1,fk,abc1234,0,home,manual,1,0,err,1e-16,note"
 HEADER = LINE.encode()
+BASH = shutil.which("bash")  # by its path: Windows would look in System32 first
 
 
 @pytest.fixture
@@ -144,7 +145,7 @@ def test_a_non_finite_value_is_recorded_when_asked_for(log):
     assert read_rows(log)[0]["value"] == float("inf")
 
 
-@pytest.mark.skipif(not shutil.which("bash"), reason="no bash on this machine")
+@pytest.mark.skipif(BASH is None, reason="no bash on this machine")
 @pytest.mark.parametrize("folder", [".", "w1-foundations"])
 def test_the_handouts_echo_gives_a_row_that_reads_back_equal(tmp_path, folder):
     log = tmp_path / "metrics" / "metrics.csv"
@@ -155,7 +156,7 @@ def test_the_handouts_echo_gives_a_row_that_reads_back_equal(tmp_path, folder):
     line = "day1_transforms,$(date +%F),1,fk_identity_check,abc1234,0,panda_home,manual"
     echo = f'ERR=2.2e-16; echo "{line},1,0,inv_err,$ERR,T @ T_inv" >> {where}'
     before = time.strftime("%Y-%m-%d")
-    subprocess.run(["bash", "-c", echo], cwd=tmp_path / folder, check=True)
+    subprocess.run([BASH, "-c", echo], cwd=tmp_path / folder, check=True)
     row = read_rows(log)[0]
     assert before <= row["date"] <= time.strftime("%Y-%m-%d")
     expected = append_row(

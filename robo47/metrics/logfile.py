@@ -218,12 +218,12 @@ def _keep(name: str, text: str) -> str:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
                     return (
-                        f"  kept in {_shown(kept)}; once that is mended:"
-                        f" python scripts/log_metric.py --restore\n  row: {text}"
+                        f"  row: {text}\n  kept in {_shown(kept)}; to add it later:"
+                        "\n  python scripts/log_metric.py --restore"
                     )
     except OSError:
         pass
-    return f"  the row is kept nowhere but here:\n  row: {text}"
+    return f"  row: {text}\n  kept nowhere but here: copy it"
 
 
 def _shown(name: str) -> str:
