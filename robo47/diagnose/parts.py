@@ -174,6 +174,7 @@ def _pose(S: Array, T: Array) -> Finding:
     slug, message = _rotation(R, R_true)
     if t_off == "0":
         return Finding(slug, f"The translation is right. {message}")
+    slug = "pose-off" if slug == "rotation-off" else slug
     return Finding(slug, f"{message} The translation is up to {t_off} off too.")
 
 
