@@ -74,7 +74,7 @@ def _lines(file: BinaryIO, plan: Layout, repaired: set[str]) -> Iterator[Line]:
     for number, raw in enumerate(file, 1):
         if number == 1:
             raw = raw.removeprefix(header.BOM)
-        if not raw.strip():
+        if not raw.strip(b"\0 \t\r\n"):
             continue
         if header_due:
             header_due = False
