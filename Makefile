@@ -41,6 +41,12 @@ docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
 
+bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in its own .venv-bench
+	@.venv-bench/$(PY:.venv/%=%) scripts/bench.py $(ARGS)
+
+.venv-bench/.ready-bench: pyproject.toml constraints.txt
+	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
+
 .venv/.ready-%: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py $*
 

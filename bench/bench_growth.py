@@ -26,8 +26,8 @@ def run(largest: int = COUNTS[-1]) -> dict:
     counts = [n for n in COUNTS if n <= largest]
     q = verify.random_q(panda.load("panda_nohand"), counts[-1], seed=47)
     return {
-        "by_count": {n: _us(chain, q[:n]) for n in counts},
-        "by_joints": {n: _us(_snake(n), _angles(n)) for n in JOINTS},
+        "by_count": {str(n): _us(chain, q[:n]) for n in counts},
+        "by_joints": {str(n): _us(_snake(n), _angles(n)) for n in JOINTS},
         "memory_mb": _extra_memory(chain, q) / 1e6,
     }
 
@@ -47,7 +47,7 @@ def _snake(joints: int) -> kinematics.Chain:
     """Return a chain of links that turn about x, y and z in turn."""
     axes = ["1 0 0", "0 1 0", "0 0 1"]
     bodies = "".join(
-        f'<body name="b{i}" pos="0 0 0.1"><joint axis="{axes[i % 3]}"/><geom size="0.01"/>'
+        f'<body name="b{i}" pos="0 0 0.1"><joint axis="{axes[i % 3]}"/><geom size="1"/>'
         for i in range(joints)
     )
     xml = f"<mujoco><worldbody>{bodies}{'</body>' * joints}</worldbody></mujoco>"
