@@ -50,6 +50,9 @@ soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
 report: .venv/.ready-report ## metrics/report.html and report.png from the log
 	@$(PY) scripts/report_metrics.py $(ARGS)
 
+test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
+	@$(PY) scripts/test_matrix.py $(ARGS)
+
 lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 
@@ -58,6 +61,12 @@ docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
+
+bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in its own .venv-bench
+	@.venv-bench/$(PY:.venv/%=%) scripts/bench.py $(ARGS)
+
+.venv-bench/.ready-bench: pyproject.toml constraints.txt
+	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
 
 .venv/.ready-%: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py $*
