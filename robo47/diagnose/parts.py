@@ -42,7 +42,7 @@ def all_the_same(S: Array, T: Array) -> Finding | None:
     """
     if difference(S, np.broadcast_to(S[0], S.shape)).max() > PASSED:
         return None
-    off = f"(Up to {apart(S, T)} off.)"
+    off = f"(Differs from the right answer by up to {apart(S, T)}.)"
     if S.shape[-1] == S.shape[-2] and np.array_equal(S[0], np.eye(S.shape[-1])):
         return Finding(
             "always-the-identity",

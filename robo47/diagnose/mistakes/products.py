@@ -13,7 +13,7 @@ from robo47.diagnose.arm import Arm, product
 from robo47.diagnose.cases import READY_Q
 from robo47.diagnose.matrices import pose, split, times
 from robo47.diagnose.mistakes.factors import JOINT_T, LINK_T
-from robo47.diagnose.mistakes.finished import OF_A_POSE
+from robo47.diagnose.mistakes.finished import of_a_pose
 from robo47.diagnose.mistakes.mistake import Mistake, applied, lifted
 
 
@@ -23,7 +23,7 @@ def of_a_product(arm: Arm) -> list[Mistake]:
         *_in_the_order(arm),
         *_in_the_angles(arm),
         *_in_the_offsets(arm),
-        *applied(OF_A_POSE, arm.fk),
+        *applied(of_a_pose(f"maps the world to {arm.end}"), arm.fk),
         *lifted(
             LINK_T,
             "in every link's factor, ",
@@ -62,15 +62,15 @@ def _in_the_order(arm: Arm) -> list[Mistake]:
             "each joint turns before its link's offset; the offset leads to the joint, "
             "so it comes first",
             pairs_swapped,
-            "with each pair swapped",
+            "the product with each pair swapped",
         ),
-        Mistake("chain-reversed", says, reversed_factors, "in reverse"),
-        Mistake("chain-reversed", says, reversed_steps, "in reverse"),
+        Mistake("chain-reversed", says, reversed_factors, "the product in reverse"),
+        Mistake("chain-reversed", says, reversed_steps, "the product in reverse"),
         Mistake(
             "multiplied-by-entries",
             "the factors are multiplied entry by entry, not as matrices",
             by_entries,
-            "by entries",
+            "the product by entries",
         ),
     ]
 
@@ -82,7 +82,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "off-by-one-joint",
             "each joint is given its neighbour's angle: q is indexed one off",
             lambda q: arm.fk(np.insert(q, 7, 0.0, axis=1)[:, columns]),
-            "with q shifted by one",
+            "the pose with q shifted by one",
         )
 
     return [
@@ -91,13 +91,13 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "the links are right, but no joint turns: whatever q is, your pose is the "
             "one at q = 0",
             lambda q: arm.fk(np.zeros_like(q)),
-            "with q = 0",
+            "the pose at q = 0",
         ),
         Mistake(
             "home-whatever-q",
             "whatever q is, your pose is the one at home",
             lambda q: arm.fk(np.broadcast_to(READY_Q, q.shape)),
-            "with q at home",
+            "the pose at home",
         ),
         shifted([6, 0, 1, 2, 3, 4, 5]),
         shifted([7, 0, 1, 2, 3, 4, 5]),
@@ -107,7 +107,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "joints-in-reverse",
             "q is read backwards: joint1 gets the last angle",
             lambda q: arm.fk(q[:, ::-1]),
-            "with q backwards",
+            "the pose with q backwards",
         ),
     ]
 
@@ -128,8 +128,8 @@ def _in_the_offsets(arm: Arm) -> list[Mistake]:
     return [
         Mistake(
             "local-taken-for-world",
-            f"{last}'s pos and quat in the file are taken for its pose in the world; "
-            "they only lead there from its parent",
+            f"the pos and quat of {last} in the file are taken for its pose in the "
+            "world; they only lead there from its parent",
             local,
             "the numbers in the file",
         ),
@@ -138,27 +138,27 @@ def _in_the_offsets(arm: Arm) -> list[Mistake]:
             "R is right, but the offsets are added as they stand in the file; each is "
             "told in its parent's turned axes",
             offsets_summed,
-            "with a plain sum",
+            "the right one with a plain sum",
         ),
         Mistake(
             "offset-turned-too-late",
             "R is right, but each offset is turned by the joint that comes after it",
             lambda q: _walk(arm, q, late=True),
-            "with R turned first",
+            "the right one with R turned first",
         ),
         Mistake(
             "turns-in-reverse",
             "the turns are multiplied in the wrong order: a new one belongs to the "
             "right of what is there",
             lambda q: _walk(arm, q, left=True),
-            "with each turn on the left",
+            "the right one with each turn on the left",
         ),
         Mistake(
             "point-with-w-0",
             f"R is right, but {last}'s offset is only turned, not moved: with a 0 as "
             "fourth entry a point is a direction",
             point_with_w_0,
-            "with that 0",
+            "the right one with that 0",
         ),
     ]
 
