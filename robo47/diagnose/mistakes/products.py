@@ -52,6 +52,16 @@ def _in_the_order(arm: Arm) -> list[Mistake]:
         factors = [f for step in arm.steps(q) for f in step]
         return product(factors[::-1], len(q))
 
+    def links_left(q: Array) -> Array:
+        steps = arm.steps(q)
+        left, right = [s[0] for s in steps[::-1]], [f for s in steps for f in s[1:]]
+        return product(left + right, len(q))
+
+    def joints_left(q: Array) -> Array:
+        steps = arm.steps(q)
+        left, right = [f for s in steps[::-1] for f in s[1:]], [s[0] for s in steps]
+        return product(left + right, len(q))
+
     def by_entries(q: Array) -> Array:
         factors = [f for step in arm.steps(q) for f in step]
         return reduce(np.multiply, factors, np.eye(4)) + np.zeros((len(q), 4, 4))
@@ -70,6 +80,20 @@ def _in_the_order(arm: Arm) -> list[Mistake]:
         ),
         Mistake("chain-reversed", says, reversed_factors, "the product in reverse"),
         Mistake("chain-reversed", says, reversed_steps, "the product in reverse"),
+        Mistake(
+            "links-on-the-left",
+            "the links' factors are put to the left of what is there, the joints' to "
+            "the right; both belong to the right",
+            links_left,
+            "the product in that order",
+        ),
+        Mistake(
+            "joints-on-the-left",
+            "the joints' factors are put to the left of what is there, the links' to "
+            "the right; both belong to the right",
+            joints_left,
+            "the product in that order",
+        ),
         Mistake(
             "multiplied-by-entries",
             "the factors are multiplied entry by entry, not as matrices",
