@@ -39,6 +39,11 @@ class Arm:
     quat: Array
     joints: int
 
+    @property
+    def end(self) -> str:
+        """Return what the last body is called in a sentence."""
+        return "the end effector" if self.names[-1] == LAST_OFFSET else self.names[-1]
+
     def steps(
         self, q: Array, link: Factor = link, turn: Factor = turn
     ) -> list[list[Array]]:

@@ -9,7 +9,8 @@ from robo47.diagnose.form import Finding
 from robo47.diagnose.matrices import pose
 from robo47.diagnose.mistakes.rotations import UNNORMALISED
 
-SINGLE = 5e-6  # what a product in float32 may leave, of entries up to a few units
+SINGLE = 5e-6  # what products in float32 may leave at worst
+SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
 FLANGE_QUAT = np.array([0.3826834, 0.0, 0.0, 0.9238795])  # as the file rounds it
 
 
@@ -26,7 +27,7 @@ def explain(function: str, S: Array, T: Array) -> Finding:
     off = difference(S, T).max()
     why = (
         "as single precision leaves: is there a float32 somewhere?"
-        if off < SINGLE
+        if off < SINGLE_INSIDE
         else "so a number is rounded: is one typed by hand, such as 3.14 or 0.707?"
     )
     return Finding(

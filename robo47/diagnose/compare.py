@@ -16,7 +16,9 @@ def difference(a: Array, b: Array) -> Array:
     """Return the largest difference of any entry per case, (n,); NaN counts as inf."""
     with np.errstate(invalid="ignore"):
         gap = np.where(a == b, 0.0, np.abs(a - b))  # inf equals inf
-    return np.nan_to_num(gap, nan=np.inf).reshape(len(gap), -1).max(axis=1)
+    return (
+        np.nan_to_num(gap, nan=np.inf, posinf=np.inf).reshape(len(gap), -1).max(axis=1)
+    )
 
 
 def matches(a: Array, b: Array) -> bool:

@@ -34,10 +34,9 @@ def look(answers: list[Answer], shape: tuple[int, ...]) -> Array | Finding:
         answers: of one function, one per call.
         shape: what each must have; (2, 3) may come as a tuple of two vectors.
     """
-    broken = [a.error for a in answers if a.error]
-    if broken:
-        often = f" ({len(broken)} of {len(answers)} calls)" if len(answers) > 1 else ""
-        return Finding("raises", f"It stops with {broken[0]}{often}.")
+    if broken := [answer.error for answer in answers if answer.error]:
+        often = f"in {len(broken)} of {len(answers)} calls"
+        return Finding("raises", f"It stops with {broken[0]}, {often}.")
     if any(answer.value is None for answer in answers):
         return Finding(
             "nothing-returned",

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,7 @@ def _judge(function: str, answers: list[Answer]) -> Verdict:
     S = form.look(answers, T.shape[1:])
     if isinstance(S, Finding):
         return Verdict("wrong", *S)
-    measured, off = parts.measured(S, T), difference(S, T).max()
+    measured, off = _measured(function, S, T), difference(S, T).max()
     if off <= PASSED:
         return Verdict("passed", "", "", measured)
     if off <= close.SINGLE and form.single_precision(answers, S):
@@ -66,13 +67,18 @@ def _judge(function: str, answers: list[Answer]) -> Verdict:
     return Verdict("wrong", *_diagnose(function, S, T), measured)
 
 
+def _measured(function: str, S: Array, T: Array) -> tuple[str, ...]:
+    lines = parts.measured(S, T)
+    return (*lines, _arm().measured(S, T)) if function in ON_THE_ARM else lines
+
+
 def _diagnose(function: str, S: Array, T: Array) -> Finding:
     """Return the first of: a named mistake, one place in the arm, what is wrong."""
     arguments = truth.stacked_arguments(function)
     given = [in_words(args) for args in cases.arguments(function)]
     found = (
         parts.nothing_there(S)
-        or redone(_mistakes(function), arguments, S, T)
+        or redone(mistakes_of(function), arguments, S, T)
         or parts.not_finite(S, given)
         or parts.all_the_same(S, T)
         or close.rounded(S, T)
@@ -80,19 +86,23 @@ def _diagnose(function: str, S: Array, T: Array) -> Finding:
     if found:
         return found
     if function in ON_THE_ARM:
-        from robo47.diagnose import on_the_arm
-
-        return on_the_arm.diagnose(function, S, T, arguments[0], given)
+        return _arm().diagnose(function, S, T, arguments[0], given)
     return parts.what_is_wrong(S, T, given)
 
 
 @cache
-def _mistakes(function: str) -> list[Mistake]:
-    if function in ON_THE_ARM:
-        from robo47.diagnose import on_the_arm
+def mistakes_of(function: str) -> list[Mistake]:
+    """Return the named mistakes of a function, the more general first."""
+    return (
+        _arm().mistakes(function) if function in ON_THE_ARM else OF_FUNCTION[function]
+    )
 
-        return on_the_arm.mistakes(function)
-    return OF_FUNCTION[function]
+
+def _arm() -> ModuleType:
+    """Return what needs the robot; MuJoCo's import is a student's 0.1 s, so late."""
+    from robo47.diagnose import on_the_arm
+
+    return on_the_arm
 
 
 def redone(
@@ -112,8 +122,8 @@ def redone(
             says = mistake.says[0].upper() + mistake.says[1:]
             return Finding(
                 mistake.slug,
-                f"{says}. (Up to {apart(S, T)} off; {mistake.redone}: "
-                f"{apart(S, again)}.)",
+                f"{says}. (Differs from the right answer by up to {apart(S, T)}, from "
+                f"{mistake.redone} by {apart(S, again)}.)",
             )
     return None
 

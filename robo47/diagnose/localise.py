@@ -29,7 +29,7 @@ def one_place(S: Array, T: Array, q: Array, arm: Arm) -> Finding | None:
         q: joint angles, (n, 7).
         arm: the right chain.
     """
-    rest = f"(Up to {apart(S, T)} off; the other factors are right.)"
+    rest = f"(Differs by up to {apart(S, T)}; with that put right, by 0.)"
     links = [(k, X) for k, X in _in_place_of(S, q, arm, 0) if steady(X)]
     joints = list(_in_place_of(S, q, arm, 1))
     for k, X in links:
@@ -45,7 +45,8 @@ def first_wrong_joint(S: Array, T: Array, arm: Arm) -> str:
     """Return from which joint on the student's chain is wrong, in a sentence, or "".
 
     Turning one joint alone moves the pose by S_turned @ inv(S_base), which depends on
-    that joint's axis in the world only: on the chain up to it.
+    that joint's axis in the world only: on the chain up to it. A step that is wrong
+    along joint k's own axis shows at joint k + 1 first, so both steps are named.
 
     Args:
         S: the student's poses at `cases.configurations()`, rigid, (n, 4, 4).
@@ -60,11 +61,14 @@ def first_wrong_joint(S: Array, T: Array, arm: Arm) -> str:
         return ""
     k = int(np.argmin(right))
     if k == 0:
-        return "Already joint1, turned alone, does not move it as the right one."
-    before = "joint1" if k == 1 else f"joints 1 to {k}"
+        return (
+            "Already joint1, turned alone, does not move it as it should: look at the "
+            "step to link1 and the order of the product."
+        )
+    before = "joint1 moves it" if k == 1 else f"joints 1 to {k} move it"
     return (
-        f"Turned alone, {before} move it as the right one, but joint{k + 1} does not: "
-        f"look at what stands between the two."
+        f"Turned alone, {before} as it should, but joint{k + 1} does not: look at the "
+        f"steps to link{k} and link{k + 1}."
     )
 
 

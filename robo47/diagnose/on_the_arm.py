@@ -46,6 +46,19 @@ def diagnose(function: str, S: Array, T: Array, q: Array, given: list[str]) -> F
     return Finding(found.slug, f"{found.message} {where}".strip())
 
 
+def measured(S: Array, T: Array) -> str:
+    """Return how far off poses are at zero, at home and elsewhere, for --explain.
+
+    Args:
+        S: the student's poses at `cases.configurations()`, (n, 4, 4).
+        T: the right ones.
+    """
+    zero, home, other = (
+        apart(S[i], T[i]) for i in (slice(1), slice(1, 2), slice(2, None))
+    )
+    return f"off at q = 0 by {zero}, at home by {home}, elsewhere by up to {other}"
+
+
 def _two_mistakes(S: Array, T: Array, q: Array) -> Finding | None:
     """Return a mistake all along the arm and a wrong end, if together they fit."""
     right = whole().fk(q)
@@ -66,6 +79,6 @@ def _two_mistakes(S: Array, T: Array, q: Array) -> Finding | None:
 def _both(first: Mistake, second: Mistake, S: Array, T: Array) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things: {first.says}; and {second.says}. (Up to {apart(S, T)} off; with "
-        "both made on purpose: 0.)",
+        f"Two things: {first.says}; and {second.says}. (Differs from the right answer "
+        f"by up to {apart(S, T)}, from ours with both by 0.)",
     )

@@ -43,10 +43,10 @@ def wrong_lengths(arm: Arm, whole: Arm) -> list[Mistake]:
             ("stops-early", "stops at") if short else ("too-long", "goes on to")
         )
         if k != len(arm.names):
-            says = f"your chain {verb} {name}; {arm.names[-1]} is where it should end"
-            out.append(Mistake(slug, says, to_there.fk, f"the pose of {name}"))
+            says = f"your chain {verb} {to_there.end}; it should end at {arm.end}"
+            out.append(Mistake(slug, says, to_there.fk, f"the pose of {to_there.end}"))
         if short:
-            says = f"your chain stops at {name}, and before that one's joint turns it"
+            says = f"your chain stops at {name}, before that one's joint turns it"
             out.append(Mistake(slug, says, unturned.fk, f"{name}, unturned"))
     return out
 
@@ -79,7 +79,7 @@ def _frames(arm: Arm) -> list[tuple[str, str, Array, str]]:
                 "your pose is where fingertips would be (a TCP); this Panda has no "
                 "hand and ends at the flange",
                 end,
-                "103.4 mm further on",
+                "the pose 103.4 mm further on",
             )
             for end in (tip, to_hand @ tip)
         ),
@@ -94,30 +94,30 @@ def _frames(arm: Arm) -> list[tuple[str, str, Array, str]]:
             "flange-not-turned",
             f"{placed}the flange's own turn is missing at every q",
             back @ pose(np.eye(3), t),
-            "without that turn",
+            "the right one without that turn",
         ),
         (
             "flange-turned-backwards",
             f"{placed}the flange is turned the wrong way at every q",
             back @ pose(transposed(R), t),
-            "with that turn reversed",
+            "the right one with that turn reversed",
         ),
         (
             "flange-turned-by-45",
             f"{placed}the flange is turned by 45 degrees, which is not its turn",
             back @ pose(se3.Rz(np.pi / 4), t),
-            "turned by 45 deg",
+            "the right one turned by 45 deg",
         ),
         (
             "flange-not-moved",
             "R is right, but the flange's distance from link7 is missing at every q",
             back @ pose(R, nowhere),
-            "without that distance",
+            "the right one without it",
         ),
         (
             "flange-twice",
             "the step from link7 to the end effector is in it twice",
             flange,
-            "with that step twice",
+            "the right one with that step twice",
         ),
     ]

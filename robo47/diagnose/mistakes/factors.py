@@ -9,7 +9,7 @@ import numpy as np
 from robo47 import se3
 from robo47.checks import Array
 from robo47.diagnose.matrices import pose
-from robo47.diagnose.mistakes.finished import OF_A_POSE
+from robo47.diagnose.mistakes.finished import of_a_pose
 from robo47.diagnose.mistakes.mistake import Mistake, applied, lifted
 from robo47.diagnose.mistakes.poses import MAKE_T
 from robo47.diagnose.mistakes.rotations import QUAT_TO_R, RZ
@@ -35,8 +35,8 @@ JOINT_T = [
         "slides-along-z",
         "the joint moves along z by q metres; the Panda's joints turn about z",
         lambda q: pose(np.eye(3), q[..., None] * [0.0, 0.0, 1.0]),
-        "slid by q",
+        "a slide by q",
     ),
     *lifted(RZ, "", lambda redo: lambda q: pose(redo(q), np.zeros(3))),
-    *applied(OF_A_POSE, turn),
+    *applied(of_a_pose("maps the parent to the body"), turn),
 ]

@@ -17,7 +17,7 @@ TRUNCATED = Mistake(
     "whole-numbers",
     "only whole numbers are left: an array of integers cuts off what is stored in it",
     np.trunc,
-    "cut to whole numbers",
+    "the right one cut to whole numbers",
 )
 
 
@@ -71,73 +71,82 @@ OF_A_ROTATION = [
         "left-handed",
         "the third axis points the wrong way: det R = -1, a left-handed frame",
         _mirrored,
-        "with that axis reversed",
+        "the right one with that axis reversed",
     ),
-    Mistake("all-signs", "every entry has the wrong sign", np.negative, "negated"),
+    Mistake("all-signs", "every entry has the wrong sign", np.negative, "its negative"),
     TRUNCATED,
 ]
 
-OF_A_POSE = [
-    Mistake(
-        "R-transposed",
-        "your pose is right except that R is transposed: T[:3, :3] maps the wrong way",
-        _parts(R=transposed),
-        "with R transposed",
-    ),
-    Mistake(
-        "inverse-returned",
-        "your pose is the inverse of the right one: it maps the wrong way",
-        rigid_inverse,
-        "its inverse",
-    ),
-    Mistake(
-        "T-transposed",
-        "the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1)",
-        transposed,
-        "its transpose",
-    ),
-    Mistake(
-        "t-in-last-row",
-        "the translation is in the last row, and the last column is empty",
-        _in_last_row,
-        "with t moved there",
-    ),
-    Mistake(
-        "corner-zero",
-        "the bottom row is (0, 0, 0, 0): points lose their 1, and so every move "
-        "after this one",
-        _corner_zero,
-    ),
-    Mistake("ones-below", "the bottom row is all ones, not (0, 0, 0, 1)", _ones_below),
-    Mistake(
-        "t-lost",
-        "the rotation is right, but the translation is missing",
-        _parts(t=_nothing),
-        "without t",
-    ),
-    Mistake(
-        "R-lost",
-        "the translation is right, but there is no rotation: R is the identity",
-        _parts(R=_unturned),
-        "without R",
-    ),
-    Mistake(
-        "t-negated",
-        "the rotation is right, but the translation has the wrong sign",
-        _parts(t=np.negative),
-        "with t negated",
-    ),
-    Mistake(
-        "left-handed",
-        "the third axis points the wrong way: det R = -1, a left-handed frame",
-        _parts(R=_mirrored),
-        "with that axis reversed",
-    ),
-    Mistake(
-        "millimetres",
-        "the rotation is right, but the translation is in millimetres",
-        _parts(t=lambda t: 1000.0 * t),
-        "in millimetres",
-    ),
-    TRUNCATED,
-]
+
+def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
+    """Return mistakes made with a finished pose.
+
+    Args:
+        wrong_way: what its R does when transposed: "maps the world to the hand".
+    """
+    return [
+        Mistake(
+            "R-transposed",
+            f"all is right except that R is transposed: T[:3, :3] {wrong_way}",
+            _parts(R=transposed),
+            "the right one with R transposed",
+        ),
+        Mistake(
+            "inverse-returned",
+            f"this is the inverse of what was asked for: it {wrong_way}",
+            rigid_inverse,
+            "its inverse",
+        ),
+        Mistake(
+            "T-transposed",
+            "the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1)",
+            transposed,
+            "its transpose",
+        ),
+        Mistake(
+            "t-in-last-row",
+            "the translation is in the last row, and the last column is empty",
+            _in_last_row,
+            "the right one with t moved there",
+        ),
+        Mistake(
+            "corner-zero",
+            "the bottom row is (0, 0, 0, 0): points lose their 1, and so every move "
+            "after this one",
+            _corner_zero,
+        ),
+        Mistake(
+            "ones-below", "the bottom row is all ones, not (0, 0, 0, 1)", _ones_below
+        ),
+        Mistake(
+            "t-lost",
+            "the rotation is right, but the translation is missing",
+            _parts(t=_nothing),
+            "the right one without t",
+        ),
+        Mistake(
+            "R-lost",
+            "the translation is right, but there is no rotation: R is the identity",
+            _parts(R=_unturned),
+            "the right one without R",
+        ),
+        Mistake(
+            "t-negated",
+            "the rotation is right, but the translation has the wrong sign",
+            _parts(t=np.negative),
+            "the right one with t negated",
+        ),
+        Mistake(
+            "left-handed",
+            "the third axis points the wrong way: det R = -1, a left-handed frame",
+            _parts(R=_mirrored),
+            "the right one with that axis reversed",
+        ),
+        Mistake(
+            "millimetres",
+            "the rotation is right, but the translation is in millimetres",
+            _parts(t=lambda t: 1000.0 * t),
+            "the right one in millimetres",
+        ),
+        TRUNCATED,
+    ]

@@ -17,13 +17,13 @@ class Mistake:
             follow "In the links' factors, ".
         redo: the function with the mistake in it. It takes all calls' arguments
             stacked, one array (n, ...) per argument, and returns (n, ...).
-        redone: what to call the redone answer in "...; its transpose by 0".
+        redone: what to call that answer, as in "it differs from its transpose by 0".
     """
 
     slug: str
     says: str
     redo: Callable[..., Array]
-    redone: str = "with that mistake made on purpose"
+    redone: str = "ours with this mistake"
 
 
 def lifted(

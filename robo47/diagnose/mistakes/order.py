@@ -107,6 +107,6 @@ PREDICT_ORDER = [m for row in _HALVES for m in _of_half(*row)] + [
         "only whole numbers are left: an array of integers cuts off what is stored in "
         "it",
         lambda T_ee, T_extra: np.trunc(both(right)(T_ee, T_extra)),
-        "cut to whole numbers",
+        "the right ones cut to whole numbers",
     )
 ]

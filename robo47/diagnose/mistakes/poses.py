@@ -6,7 +6,7 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.diagnose.matrices import pose, rigid_inverse, split, times, transposed
-from robo47.diagnose.mistakes.finished import OF_A_POSE
+from robo47.diagnose.mistakes.finished import of_a_pose
 from robo47.diagnose.mistakes.mistake import Mistake, applied
 
 MAKE_T = [
@@ -22,7 +22,7 @@ MAKE_T = [
         "outer frame",
         lambda R, t: pose(R, times(transposed(R), t)),
     ),
-    *applied(OF_A_POSE, pose),
+    *applied(of_a_pose(), pose),
 ]
 
 
@@ -43,44 +43,44 @@ INVERSE = [
         "the whole 4x4 is transposed. Only R is undone that way; the translation "
         "is now in the bottom row",
         transposed,
-        "the whole T transposed",
+        "T transposed",
     ),
     Mistake(
         "t-only-negated",
         "R is right, but t is only negated: the way back has to be told in the "
         "turned frame's own axes",
         _undone(lambda R, t: pose(transposed(R), -t)),
-        "with t only negated",
+        "the right one with t only negated",
     ),
     Mistake(
         "t-not-negated",
         "R is right and t is in the right axes, but it points there, not back",
         _undone(lambda R, t: pose(transposed(R), times(transposed(R), t))),
-        "with its sign changed",
+        "the right one with t reversed",
     ),
     Mistake(
         "t-kept",
         "R is right, but t is still the old one",
         _undone(lambda R, t: pose(transposed(R), t)),
-        "with t kept",
+        "the right one with t kept",
     ),
     Mistake(
         "t-turned-forwards",
         "R is right, but t is turned by R itself, not by what undoes R",
         _undone(lambda R, t: pose(transposed(R), -times(R, t))),
-        "with t turned by R",
+        "the right one with t turned by R",
     ),
     Mistake(
         "R-kept",
         "the translation is right, but R is still the old one: the turn is not undone",
         _undone(lambda R, t: pose(R, -times(transposed(R), t))),
-        "with R kept",
+        "the right one with R kept",
     ),
     Mistake(
         "R-kept-t-negated",
         "only t is negated: that undoes a plain move, but here the turn stays",
         _undone(lambda R, t: pose(R, -t)),
-        "with t only negated",
+        "the right one with t only negated",
     ),
     Mistake(
         "R-kept-t-turned-forwards",
@@ -91,13 +91,13 @@ INVERSE = [
         "all-signs",
         "every entry is negated; that undoes an addition, not a transform",
         np.negative,
-        "negated",
+        "its negative",
     ),
     Mistake(
         "one-over-each-entry",
         "each entry is inverted on its own; a matrix is undone as a whole",
         _reciprocal,
-        "with 1 over each entry",
+        "1 over each entry",
     ),
-    *applied(OF_A_POSE, rigid_inverse),
+    *applied(of_a_pose(), rigid_inverse),
 ]

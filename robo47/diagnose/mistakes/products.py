@@ -13,8 +13,12 @@ from robo47.diagnose.arm import Arm, product
 from robo47.diagnose.cases import READY_Q
 from robo47.diagnose.matrices import pose, split, times
 from robo47.diagnose.mistakes.factors import JOINT_T, LINK_T
-from robo47.diagnose.mistakes.finished import OF_A_POSE
+from robo47.diagnose.mistakes.finished import of_a_pose
 from robo47.diagnose.mistakes.mistake import Mistake, applied, lifted
+
+# Of the Panda's links, turned by 0 or 90 degrees, these two mistakes make
+# the same matrix. Task 1.4 tells them apart.
+_ALIKE_ON_THE_PANDA = ("factor-two-missing", "divided-by-length-squared")
 
 
 def of_a_product(arm: Arm) -> list[Mistake]:
@@ -23,9 +27,9 @@ def of_a_product(arm: Arm) -> list[Mistake]:
         *_in_the_order(arm),
         *_in_the_angles(arm),
         *_in_the_offsets(arm),
-        *applied(OF_A_POSE, arm.fk),
+        *applied(of_a_pose(f"maps the world to {arm.end}"), arm.fk),
         *lifted(
-            LINK_T,
+            (m for m in LINK_T if m.slug not in _ALIKE_ON_THE_PANDA),
             "in every link's factor, ",
             lambda redo: lambda q: arm.fk(q, link=redo),
         ),
@@ -48,6 +52,16 @@ def _in_the_order(arm: Arm) -> list[Mistake]:
         factors = [f for step in arm.steps(q) for f in step]
         return product(factors[::-1], len(q))
 
+    def links_left(q: Array) -> Array:
+        steps = arm.steps(q)
+        left, right = [s[0] for s in steps[::-1]], [f for s in steps for f in s[1:]]
+        return product(left + right, len(q))
+
+    def joints_left(q: Array) -> Array:
+        steps = arm.steps(q)
+        left, right = [f for s in steps[::-1] for f in s[1:]], [s[0] for s in steps]
+        return product(left + right, len(q))
+
     def by_entries(q: Array) -> Array:
         factors = [f for step in arm.steps(q) for f in step]
         return reduce(np.multiply, factors, np.eye(4)) + np.zeros((len(q), 4, 4))
@@ -62,15 +76,29 @@ def _in_the_order(arm: Arm) -> list[Mistake]:
             "each joint turns before its link's offset; the offset leads to the joint, "
             "so it comes first",
             pairs_swapped,
-            "with each pair swapped",
+            "the product with each pair swapped",
         ),
-        Mistake("chain-reversed", says, reversed_factors, "in reverse"),
-        Mistake("chain-reversed", says, reversed_steps, "in reverse"),
+        Mistake("chain-reversed", says, reversed_factors, "the product in reverse"),
+        Mistake("chain-reversed", says, reversed_steps, "the product in reverse"),
+        Mistake(
+            "links-on-the-left",
+            "the links' factors are put to the left of what is there, the joints' to "
+            "the right; both belong to the right",
+            links_left,
+            "the product in that order",
+        ),
+        Mistake(
+            "joints-on-the-left",
+            "the joints' factors are put to the left of what is there, the links' to "
+            "the right; both belong to the right",
+            joints_left,
+            "the product in that order",
+        ),
         Mistake(
             "multiplied-by-entries",
             "the factors are multiplied entry by entry, not as matrices",
             by_entries,
-            "by entries",
+            "the product by entries",
         ),
     ]
 
@@ -82,7 +110,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "off-by-one-joint",
             "each joint is given its neighbour's angle: q is indexed one off",
             lambda q: arm.fk(np.insert(q, 7, 0.0, axis=1)[:, columns]),
-            "with q shifted by one",
+            "the pose with q shifted by one",
         )
 
     return [
@@ -91,13 +119,13 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "the links are right, but no joint turns: whatever q is, your pose is the "
             "one at q = 0",
             lambda q: arm.fk(np.zeros_like(q)),
-            "with q = 0",
+            "the pose at q = 0",
         ),
         Mistake(
             "home-whatever-q",
             "whatever q is, your pose is the one at home",
             lambda q: arm.fk(np.broadcast_to(READY_Q, q.shape)),
-            "with q at home",
+            "the pose at home",
         ),
         shifted([6, 0, 1, 2, 3, 4, 5]),
         shifted([7, 0, 1, 2, 3, 4, 5]),
@@ -107,7 +135,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
             "joints-in-reverse",
             "q is read backwards: joint1 gets the last angle",
             lambda q: arm.fk(q[:, ::-1]),
-            "with q backwards",
+            "the pose with q backwards",
         ),
     ]
 
@@ -128,8 +156,8 @@ def _in_the_offsets(arm: Arm) -> list[Mistake]:
     return [
         Mistake(
             "local-taken-for-world",
-            f"{last}'s pos and quat in the file are taken for its pose in the world; "
-            "they only lead there from its parent",
+            f"the pos and quat of {last} in the file are taken for its pose in the "
+            "world; they only lead there from its parent",
             local,
             "the numbers in the file",
         ),
@@ -138,27 +166,27 @@ def _in_the_offsets(arm: Arm) -> list[Mistake]:
             "R is right, but the offsets are added as they stand in the file; each is "
             "told in its parent's turned axes",
             offsets_summed,
-            "with a plain sum",
+            "the right one with a plain sum",
         ),
         Mistake(
             "offset-turned-too-late",
             "R is right, but each offset is turned by the joint that comes after it",
             lambda q: _walk(arm, q, late=True),
-            "with R turned first",
+            "the right one with R turned first",
         ),
         Mistake(
             "turns-in-reverse",
             "the turns are multiplied in the wrong order: a new one belongs to the "
             "right of what is there",
             lambda q: _walk(arm, q, left=True),
-            "with each turn on the left",
+            "the right one with each turn on the left",
         ),
         Mistake(
             "point-with-w-0",
             f"R is right, but {last}'s offset is only turned, not moved: with a 0 as "
             "fourth entry a point is a direction",
             point_with_w_0,
-            "with that 0",
+            "the right one with that 0",
         ),
     ]
 

@@ -27,37 +27,41 @@ RZ = [
         "turns-backwards",
         "it turns the wrong way: a positive angle takes x towards -y",
         lambda theta: se3.Rz(-theta),
-        "turned by -theta",
+        "Rz(-theta)",
     ),
     Mistake(
         "radians-taken-for-degrees",
-        "theta is in radians already, and is converted from degrees once more",
+        "the angle is in radians already, and is converted from degrees once more",
         lambda theta: se3.Rz(np.deg2rad(theta)),
-        "with theta * pi / 180",
+        "the turn by pi / 180 times the angle",
     ),
     Mistake(
         "degrees-into-cos",
-        "cos and sin are given degrees; they expect radians, as theta comes",
+        "cos and sin are given degrees; they expect radians, as the angle comes",
         lambda theta: se3.Rz(np.rad2deg(theta)),
-        "with theta in degrees",
+        "the turn by 180 / pi times the angle",
     ),
-    Mistake("turns-about-x", "this turns about x, not about z", se3.Rx, "about x"),
-    Mistake("turns-about-y", "this turns about y, not about z", se3.Ry, "about y"),
+    Mistake(
+        "turns-about-x", "this turns about x, not about z", se3.Rx, "that turn about x"
+    ),
+    Mistake(
+        "turns-about-y", "this turns about y, not about z", se3.Ry, "that turn about y"
+    ),
     Mistake(
         "turns-about-x",
         "this turns about x, and backwards",
         lambda theta: se3.Rx(-theta),
-        "about x by -theta",
+        "that turn about x",
     ),
     Mistake(
         "turns-about-y",
         "this turns about y, and backwards",
         lambda theta: se3.Ry(-theta),
-        "about y by -theta",
+        "that turn about y",
     ),
     Mistake(
         "sin-and-cos-swapped",
-        "sin and cos have changed places: at theta = 0 it already turns",
+        "sin and cos have changed places: at 0 it already turns",
         _from_cos_sin(
             lambda c, s: [
                 [
@@ -69,43 +73,43 @@ RZ = [
                 [0, 0, 1],
             ]
         ),
-        "with the two swapped",
+        "the right one with the two swapped",
     ),
     Mistake(
         "minus-missing",
         "one of the two sines needs a minus: as it is, lengths change (R R^T is not I)",
         _from_cos_sin(lambda c, s: [[c, s, 0], [s, c, 0], [0, 0, 1]]),
-        "without the minus",
+        "the right one without that minus",
     ),
     Mistake(
         "minus-twice",
         "only one of the two sines has a minus: as it is, lengths change",
         _from_cos_sin(lambda c, s: [[c, -s, 0], [-s, c, 0], [0, 0, 1]]),
-        "with both negated",
+        "the right one with both negated",
     ),
     Mistake(
         "reflection",
         "a cosine has a minus that belongs to a sine: this mirrors (det R = -1)",
         _from_cos_sin(lambda c, s: [[c, s, 0], [s, -c, 0], [0, 0, 1]]),
-        "with that sign",
+        "the right one with that sign",
     ),
     Mistake(
         "z-lost",
         "whatever is along z disappears: the last entry is 0, so det R = 0",
         _from_cos_sin(lambda c, s: [[c, -s, 0], [s, c, 0], [0, 0, 0]]),
-        "with that entry 0",
+        "the right one with a 0 there",
     ),
     Mistake(
         "half-angle",
-        "it turns by half of theta",
+        "it turns by half of the angle",
         lambda theta: se3.Rz(theta / 2),
-        "with half the angle",
+        "the turn by half of it",
     ),
     Mistake(
         "double-angle",
-        "it turns by twice theta",
+        "it turns by twice the angle",
         lambda theta: se3.Rz(2 * theta),
-        "with twice the angle",
+        "the turn by twice as much",
     ),
     *applied(OF_A_ROTATION, se3.Rz),
 ]
@@ -156,41 +160,46 @@ QUAT_TO_R = [
         "wxyz-read-as-xyzw",
         "the quaternion is read as (x, y, z, w); here, as in MuJoCo, w comes first",
         lambda quat: se3.quat_to_R(np.roll(quat, 1, axis=-1)),
-        "read with w last",
+        "the right one read with w last",
     ),
     Mistake(
         "xyzw-rolled-wrongly",
         "w is not the only number that moved: the four are rolled the wrong way round",
         lambda quat: se3.quat_to_R(quat[..., [2, 3, 0, 1]]),
-        "rolled by two",
+        "the right one read as y, z, w, x",
     ),
     *(
-        Mistake("not-normalised", NOT_NORMALISED, formula, "without normalising")
+        Mistake(
+            "not-normalised",
+            NOT_NORMALISED,
+            formula,
+            "the right formula without normalising",
+        )
         for formula in UNNORMALISED
     ),
     Mistake(
         "divided-by-length-squared",
         "the quaternion is divided by its squared length; the square root is missing",
         lambda quat: _plain(quat / _length(quat) ** 2),
-        "divided by the square",
+        "the right formula with that division",
     ),
     Mistake(
         "half-angle",
         "it turns by half the angle: w is the cosine of half the angle",
         _half,
-        "with half the angle",
+        "the turn by half of it",
     ),
     Mistake(
         "factor-two-missing",
         "the products are there, but the factor 2 in front of them is missing",
         _factor_two_missing,
-        "without the 2",
+        "the right formula without the 2",
     ),
     Mistake(
         "z-before-x",
         "x, y and z are read in the order z, y, x",
         lambda quat: se3.quat_to_R(quat[..., [0, 3, 2, 1]]),
-        "read as w, z, y, x",
+        "the right one read as w, z, y, x",
     ),
     *applied(OF_A_ROTATION, se3.quat_to_R),
 ]
