@@ -378,6 +378,37 @@ class TestAnAttack:
         """
         assert check(code, "1.6")["1.6"].mistake == "looked-up"
 
+    @pytest.mark.skipif(not LINUX, reason="needs Linux's Landlock")
+    def test_below_pythons_audit_hooks_meets_the_kernel(self, tmp_path):
+        precious = tmp_path / "precious.txt"
+        precious.write_text("mine")
+        code = """
+import os, sys
+sys.path.insert(0, sys.argv[1])
+import landlock
+os.makedirs(sys.argv[2] + "/own")
+print(landlock.fence(sys.argv[2] + "/own", sys.path[1:]))
+open(sys.argv[2] + "/own/x", "w").write("x")
+for action in (
+    lambda: open(sys.argv[2] + "/precious.txt"),
+    lambda: open(sys.argv[2] + "/precious.txt", "w"),
+    lambda: os.remove(sys.argv[2] + "/precious.txt"),
+    lambda: os.truncate(sys.argv[2] + "/precious.txt", 0),
+    lambda: os.execv("/bin/sh", ["sh", "-c", "echo PASSED"]),
+):
+    try: action()
+    except PermissionError: print("no")
+"""
+        inside = str(ROOT / "robo47" / "checker" / "inside")
+        command = [sys.executable, "-c", code, inside, str(tmp_path)]
+        said = subprocess.run(
+            command, capture_output=True, text=True, check=True
+        ).stdout
+        if said.startswith("False"):
+            pytest.skip("needs a kernel with Landlock")
+        assert said.split() == ["True", *["no"] * 5]
+        assert precious.read_text() == "mine"
+
     @pytest.mark.skipif(not LINUX, reason="needs Linux's network namespaces")
     def test_has_no_network_below_python_either(self):
         code = (
