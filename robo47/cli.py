@@ -1,6 +1,7 @@
 """What every command of the kit does the same way: end well."""
 
 import sys
+import warnings
 from collections.abc import Callable
 
 from robo47.errors import Robo47Error
@@ -14,6 +15,7 @@ def run(main: Callable[[], int]) -> None:
     Args:
         main: returns the exit code: 0 all well, 1 something to fix, 2 could not run.
     """
+    warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
     try:
         code = main()
         sys.stdout.flush()

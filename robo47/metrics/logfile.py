@@ -1,0 +1,252 @@
+"""Adding lines to the log: one append, under a lock, checked before and after.
+
+Nothing is ever rewritten to add a row, and the file is never held open: after a
+git branch switch a held handle writes to a file that nobody can see any more.
+"""
+
+import contextlib
+import csv
+import errno
+import os
+import stat
+import sys
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+from robo47.errors import Robo47Error
+from robo47.metrics import header, lock
+from robo47.paths import shown
+
+UNSAVED = ".unsaved"  # beside the log: rows that it could not take
+REPAIRS = ".repairs"  # beside the log: lines that are not as their writer left them
+TRIES = 5
+_TAIL = 1 << 20  # bytes of an unfinished last line that are looked at
+_FLAGS = (
+    os.O_RDWR
+    | os.O_APPEND
+    | os.O_CREAT
+    | getattr(os, "O_BINARY", 0)
+    | getattr(os, "O_NOINHERIT", 0)
+)
+
+StrPath = str | os.PathLike[str]
+
+
+class CannotAppendError(Exception):
+    """The log cannot take the lines: which file, why, and what to do."""
+
+
+def append_or_keep(path: StrPath, text: str, sync: bool) -> None:
+    """Add lines to the log, or keep them beside it and say so.
+
+    Args:
+        path: the log; it is made, with its header, if it is not there.
+        text: one or more lines, without the last line end.
+        sync: force them to the disk before returning.
+
+    Raises:
+        Robo47Error: the log cannot take them; the message carries the text, which
+            is also kept in `<log>.unsaved` where that can be written.
+    """
+    try:
+        append(path, text, sync)
+    except CannotAppendError as error:
+        raise Robo47Error(f"{error}\n{_keep(os.fspath(path), text)}") from None
+
+
+def append(path: StrPath, text: str, sync: bool) -> None:
+    """Add lines to the log in a single write; arguments as in `append_or_keep`.
+
+    Raises:
+        CannotAppendError: nothing was added.
+    """
+    name = os.fspath(path)
+    try:
+        for _ in range(TRIES):
+            if _try_append(name, text, sync):
+                return
+    except OSError as error:
+        raise CannotAppendError(f"{_shown(name)}: {_in_words(error, name)}") from None
+    raise CannotAppendError(
+        f"{_shown(name)} keeps being replaced by another program."
+        " Close that and try again."
+    )
+
+
+@contextlib.contextmanager
+def locked(name: str) -> Iterator[int]:
+    """Open a file, made if absent, to read and append; nobody else may append."""
+    fd = os.open(name, _FLAGS, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(fd).st_mode):
+            raise OSError(errno.EINVAL, "not a file")
+        lock.lock(fd)
+        try:
+            yield fd
+        finally:
+            lock.unlock(fd)
+    finally:
+        os.close(fd)
+
+
+def is_open_quote(line: str, delimiter: str = ",") -> bool:
+    """Return whether a line's last cell has a quote that it does not close."""
+    reader = csv.reader([line, ""], delimiter=delimiter)
+    try:
+        next(reader)
+    except csv.Error:  # longer than the csv module reads
+        return line.count('"') % 2 == 1
+    return reader.line_num > 1
+
+
+def note_repair(path: StrPath, line: str) -> None:
+    """Remember, beside the log, a line that is not as its writer left it."""
+    with (
+        contextlib.suppress(OSError),
+        open(os.fspath(path) + REPAIRS, "a", encoding="utf-8", newline="\n") as file,
+    ):
+        file.write(line + "\n")
+
+
+def read_at(fd: int, offset: int, count: int) -> bytes:
+    """Return up to `count` bytes from an offset (os.pread, which Windows lacks)."""
+    os.lseek(fd, offset, os.SEEK_SET)
+    return os.read(fd, count)
+
+
+def _try_append(name: str, text: str, sync: bool) -> bool:
+    """Append once; False if the file was replaced or written over meanwhile."""
+    with locked(name) as fd:
+        if not _is_at(fd, name):
+            return False
+        before, end, cut = _continuation(fd, name)
+        data = before + text.encode().replace(b"\n", end) + end
+        start = _write(fd, data, sync)
+        if sync and start == 0:
+            _sync_folder(name)
+        # A writer without a lock (bash's echo of over 4,096 bytes comes in two
+        # parts) may have left half a line before ours: then ours goes again.
+        alone = before or read_at(fd, start - 1, 1) == b"\n"
+        done = alone and read_at(fd, start, len(data)) == data and _is_at(fd, name)
+    if cut is not None:
+        _report_cut(name, cut, before)
+    return bool(done)
+
+
+def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
+    """Return what to write first, the file's line end, and its last line if cut."""
+    head = read_at(fd, 0, header.LONGEST)
+    if head in (b"", header.BOM):
+        return header.LINE.encode() + b"\n", b"\n", None
+    end = header.line_end(head)
+    if end is None:
+        raise CannotAppendError(f"{_shown(name)}: {header.problem(head)}")
+    size = os.lseek(fd, 0, os.SEEK_END)
+    last = read_at(fd, size - 2, 2)
+    if header.is_utf16_end(last):
+        raise CannotAppendError(f"{_shown(name)}: {header.UTF16}")
+    if last.endswith(b"\n"):
+        return b"", end, None
+    start = max(0, size - _TAIL)
+    line = read_at(fd, start, size - start).rpartition(b"\n")[2]
+    text = line.decode("utf-8", "replace").rstrip("\r")
+    quote = b'"' if is_open_quote(text) else b""
+    return quote + (b"\n" if line.endswith(b"\r") else end), end, text
+
+
+def _report_cut(name: str, text: str, before: bytes) -> None:
+    note_repair(name, text + before.decode().strip())
+    warnings.warn(
+        f"{_shown(name)}: the last line had no line end, so it may be cut. It is"
+        f" kept, and the new row has a line of its own. It ends: {text[-40:]}",
+        stacklevel=6,  # the caller of append_row
+    )
+
+
+def _write(fd: int, data: bytes, sync: bool) -> int:
+    """Write all or nothing; return the offset where it went."""
+    before = os.lseek(fd, 0, os.SEEK_END)
+    try:
+        if os.write(fd, data) < len(data):
+            raise OSError(errno.ENOSPC, "only a part was written")
+        end = os.lseek(fd, 0, os.SEEK_CUR)
+        if sync:
+            _sync(fd)
+    except OSError:
+        with contextlib.suppress(OSError):
+            piece = read_at(fd, before, len(data) + 1)
+            if piece and data.startswith(piece):  # ours, and nothing after it
+                os.ftruncate(fd, before)
+        raise
+    return end - len(data)
+
+
+def _sync(fd: int) -> None:
+    if sys.platform == "darwin":  # there fsync stops at the drive's own cache
+        import fcntl
+
+        fcntl.fcntl(fd, fcntl.F_FULLFSYNC)
+    else:
+        os.fsync(fd)
+
+
+def _sync_folder(name: str) -> None:
+    """Make a new file's name as durable as its content."""
+    if os.name == "nt":
+        return
+    fd = os.open(os.path.dirname(name) or ".", os.O_RDONLY)
+    try:
+        os.fsync(fd)
+    finally:
+        os.close(fd)
+
+
+def _is_at(fd: int, name: str) -> bool:
+    try:
+        return os.path.samestat(os.fstat(fd), os.stat(name))
+    except FileNotFoundError:
+        return False
+
+
+def _keep(name: str, text: str) -> str:
+    """Put refused lines beside the log; return what to tell the person."""
+    kept = name + UNSAVED
+    try:
+        for _ in range(TRIES):
+            with locked(kept) as fd:
+                if _is_at(fd, kept):  # not just emptied and removed by a restore
+                    _write(fd, text.encode() + b"\n", sync=True)
+                    return (
+                        f"  kept in {_shown(kept)}; once that is mended:"
+                        f" python scripts/log_metric.py --restore\n  row: {text}"
+                    )
+    except OSError:
+        pass
+    return f"  the row is kept nowhere but here:\n  row: {text}"
+
+
+def _shown(name: str) -> str:
+    return shown(Path(name))
+
+
+def _in_words(error: OSError, name: str) -> str:
+    """Return what an error means for a person, and what to do about it."""
+    if os.path.isdir(name):
+        return "a folder is in the log's place. Move that folder away."
+    if error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)):
+        return "the disk is full. Free some space."
+    if error.errno == errno.EFBIG:
+        return "the file may not grow further (see `ulimit -f`). Raise that limit."
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return (
+            "it is read-only, or another program has it open. Make it and its"
+            " folder writable (chmod u+w), or close that program."
+        )
+    if error.errno in (errno.ENOENT, errno.ENOTDIR):
+        return "its folder does not exist. Make that folder, or mend the path."
+    if error.errno == errno.EINVAL:
+        return "it is not a regular file. Name a .csv file."
+    if isinstance(error, TimeoutError):
+        return f"{error}. End or continue that program."
+    return f"{error.strerror or error}. Mend that and try again."

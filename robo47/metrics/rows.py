@@ -1,0 +1,157 @@
+"""What a row of the log is: its columns, their types and its one line of text."""
+
+import datetime
+import difflib
+import math
+import operator
+import re
+from collections.abc import Iterable, Mapping
+
+from robo47.errors import Robo47Error
+
+COLUMNS = (
+    "run_id",
+    "date",
+    "day",
+    "check",
+    "git_sha",
+    "seed",
+    "config",
+    "method",
+    "n_trials",
+    "n_failures",
+    "metric",
+    "value",
+    "notes",
+)
+INTEGERS = frozenset({"day", "seed", "n_trials", "n_failures"})
+# Python's csv module, and with it many readers, gives up on a longer field.
+LONGEST = 131_072
+
+Cell = str | int | float | None
+Row = dict[str, Cell]
+
+# What would break "one row, one line" or "one UTF-8 file".
+_UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
+# A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
+_FORMULA = re.compile("'*[=+@-]")
+_GUARDED = re.compile("'+[=+@-]")
+
+
+def normalise(fields: Mapping[str, object], allow_nonfinite: bool) -> Row:
+    """Return a full row with each column's own type.
+
+    Args:
+        fields: values by column name; None or a missing name is an empty cell.
+        allow_nonfinite: let NaN and the infinities pass.
+
+    Raises:
+        Robo47Error: names the field, what it holds and what it may hold.
+    """
+    refuse_unknown(fields)
+    row: Row = {}
+    for name in COLUMNS:
+        given = fields.get(name)
+        if not allow_nonfinite and _is_nonfinite(name, given):
+            raise Robo47Error(
+                f'"{name}" is {given}, which no threshold can judge. Find out why;'
+                " to record it as it is, pass allow_nonfinite=True"
+                " (--allow-nonfinite)."
+            )
+        try:
+            row[name] = _typed(name, given)
+        except ValueError as error:
+            raise Robo47Error(f"not recorded: {error}.") from None
+    return row
+
+
+def refuse_unknown(names: Iterable[str]) -> None:
+    """Raise a Robo47Error for the first name that is no column, with a near one."""
+    for name in names:
+        if name not in COLUMNS:
+            close = difflib.get_close_matches(name, COLUMNS, 1)
+            hint = f' Did you mean "{close[0]}"?' if close else ""
+            raise Robo47Error(
+                f'there is no field "{name}".{hint} The fields: {", ".join(COLUMNS)}.'
+            )
+
+
+def encode(row: Row) -> str:
+    """Return a normalised row as one CSV line, without the line end."""
+    return ",".join([_cell(name, row[name]) for name in COLUMNS])
+
+
+def decode(cells: list[str]) -> Row:
+    """Return the row that one line's 13 cells hold.
+
+    Raises:
+        ValueError: names the first cell that its column cannot hold.
+    """
+    row: Row = {}
+    for name, text in zip(COLUMNS, cells, strict=True):
+        if text[:1] == "'" and _GUARDED.match(text):
+            text = text[1:]
+        row[name] = _typed(name, text)
+    return row
+
+
+def _typed(name: str, given: object) -> Cell:
+    """Return a value with its column's type; ValueError says what is expected."""
+    if name in INTEGERS or name == "value":
+        return None if given is None or given == "" else _number(name, given)
+    text = "" if given is None else _UNWRITABLE.sub(" ", str(given))
+    if len(text) > LONGEST:
+        raise ValueError(
+            f'"{name}" has {len(text):,} characters and a cell holds {LONGEST:,};'
+            " keep the text in a file of its own and record its name"
+        )
+    if name == "date" and text:
+        _check_date(text)
+    return text
+
+
+def _number(name: str, given: object) -> int | float:
+    try:
+        if name == "value":
+            return float(given)  # type: ignore[arg-type]
+        if isinstance(given, str):
+            return int(given)
+        return int(operator.index(given))  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        kind = "a number" if name == "value" else "a whole number"
+        raise ValueError(f'"{name}" is {_short(given)}, not {kind}') from None
+
+
+def _check_date(text: str) -> None:
+    try:
+        if len(text) != 10:  # fromisoformat also takes forms that do not sort
+            raise ValueError
+        datetime.date.fromisoformat(text)
+    except ValueError:
+        raise ValueError(f'"date" is {_short(text)}, not YYYY-MM-DD') from None
+
+
+def _is_nonfinite(name: str, given: object) -> bool:
+    if isinstance(given, str) and name != "value":
+        return False  # a note may say "nan"
+    try:
+        return not math.isfinite(float(given))  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
+def _cell(name: str, value: Cell) -> str:
+    if value is None:
+        return ""
+    if not isinstance(value, str):
+        return repr(value)
+    if _FORMULA.match(value):
+        value = "'" + value
+    if "," in value or '"' in value:
+        return '"' + value.replace('"', '""') + '"'
+    return value
+
+
+def _short(given: object) -> str:
+    text = repr(given)
+    return text if len(text) <= 40 else text[:37] + "..."

@@ -1,0 +1,162 @@
+"""Reading the log line by line: what each holds, was mended to hold, or why not.
+
+One line is one row, so a quote that is never closed costs its own line only.
+"""
+
+import csv
+import io
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+
+from robo47.errors import Robo47Error
+from robo47.metrics import header
+from robo47.metrics.header import Layout
+from robo47.metrics.logfile import REPAIRS, is_open_quote
+from robo47.metrics.rows import COLUMNS, Row, decode
+from robo47.paths import shown
+
+WIDTH = len(COLUMNS)
+
+
+class Line(NamedTuple):
+    """One line: `row` is None if unreadable; `problem` is "" if nothing is wrong."""
+
+    number: int
+    text: str
+    row: Row | None
+    problem: str
+    size: int  # bytes in the file, for a progress bar
+
+
+def scan(path: str | os.PathLike[str], as_is: bool = False) -> Iterator[Line]:
+    """Yield every line of the log that is not blank, the header left out.
+
+    Args:
+        path: the CSV.
+        as_is: read also a file whose header is wrong, as well as can be told.
+
+    Raises:
+        Robo47Error: no file; or, unless `as_is`, a first line that is not the header.
+    """
+    chosen = Path(path)
+    with _opened(chosen) as file:
+        head = file.read(header.LONGEST)
+        if head in (b"", header.BOM):
+            return
+        plan = Layout() if header.line_end(head) else header.layout(head)
+        if not as_is and not header.line_end(head):
+            raise Robo47Error(f"{shown(chosen)}: {header.problem(head)}")
+        file.seek(0)
+        lines: BinaryIO = io.BytesIO(_from_utf16(file)) if plan.utf16 else file
+        yield from _lines(lines, plan, _known_repairs(chosen))
+
+
+def _opened(path: Path) -> BinaryIO:
+    try:
+        return open(path, "rb")
+    except FileNotFoundError:
+        raise Robo47Error(
+            f"{shown(path)} does not exist. `make day1` writes the first row, or bring"
+            " it back: git checkout metrics/metrics.csv"
+        ) from None
+    except OSError as error:
+        raise Robo47Error(
+            f"{shown(path)} cannot be read: {error.strerror or error}. Mend that."
+        ) from None
+
+
+def _lines(file: BinaryIO, plan: Layout, repaired: set[str]) -> Iterator[Line]:
+    header_due = plan.has_header
+    for number, raw in enumerate(file, 1):
+        if number == 1:
+            raw = raw.removeprefix(header.BOM)
+        if not raw.strip():
+            continue
+        if header_due:
+            header_due = False
+            continue
+        text, problem = _decoded(raw)
+        row, fault = _row_of(text, plan)
+        problem = problem or fault
+        if row is not None and not problem and text in repaired:
+            problem = "it had no line end when the next row came, so it may be cut"
+        yield Line(number, text, row, problem, len(raw))
+
+
+def _decoded(raw: bytes) -> tuple[str, str]:
+    """Return a line's text, and what had to be mended to read it."""
+    problem = "" if raw.endswith(b"\n") else "it has no line end, so it may be cut"
+    raw = raw.rstrip(b"\r\n")
+    if b"\0" in raw:
+        raw = raw.replace(b"\0", b"").rstrip(b"\r\n")
+        problem = "it has NUL bytes (PowerShell's >>, or a power cut)"
+    try:
+        text = raw.decode()
+    except UnicodeDecodeError:
+        text = raw.decode("cp1252", "replace")
+        problem = "it is not UTF-8; read as Windows-1252"
+    return text.replace("\r", " "), problem
+
+
+def _row_of(text: str, plan: Layout) -> tuple[Row | None, str]:
+    """Return a line's row, or None, and what is wrong with the line."""
+    try:
+        cells, problem = _cells(text, plan.delimiter)
+        if plan.names != COLUMNS or plan.delimiter != ",":
+            cells = _in_order(cells, plan)
+        elif len(cells) != WIDTH:
+            cells, problem = _thirteen(cells)
+        return decode(cells), problem
+    except ValueError as error:
+        return None, str(error)
+
+
+def _cells(text: str, delimiter: str) -> tuple[list[str], str]:
+    if '"' not in text:
+        return text.split(delimiter), ""
+    problem = ""
+    if is_open_quote(text, delimiter):
+        text, problem = text + '"', "it has a quote that is never closed"
+    try:
+        cells = next(csv.reader([text], delimiter=delimiter, strict=True))
+    except csv.Error:
+        raise ValueError("its quotes do not match") from None
+    if len(cells) == 1 and delimiter in cells[0]:  # cmd.exe's echo keeps the quotes
+        return cells[0].split(delimiter), "the whole line is in quotes"
+    return cells, problem
+
+
+def _thirteen(cells: list[str]) -> tuple[list[str], str]:
+    """Return a row's cells from a few too many; too few may hide a cut number."""
+    # Two rows glued together share one cell, which makes 25 or more.
+    if WIDTH < len(cells) < 2 * WIDTH - 1:
+        notes = ",".join(cells[WIDTH - 1 :])
+        return [*cells[: WIDTH - 1], notes], "it has commas outside quotes in its notes"
+    why = "cut, or not a row" if len(cells) < WIDTH else "two rows on one line"
+    raise ValueError(f"{len(cells)} columns where {WIDTH} belong ({why})")
+
+
+def _in_order(cells: list[str], plan: Layout) -> list[str]:
+    """Return the cells of a file with other columns, in the log's own order."""
+    if len(cells) != len(plan.names):
+        raise ValueError(f"{len(cells)} columns where its header has {len(plan.names)}")
+    row = dict(zip(plan.names, cells, strict=True))
+    if plan.delimiter == ";":  # such spreadsheets write 0,5 for 0.5
+        row["value"] = row.get("value", "").replace(",", ".")
+    extra = [f"{k}={row[k]}" for k in plan.names if k not in COLUMNS and row[k]]
+    row["notes"] = " ".join([row.get("notes", ""), *extra]).strip()
+    return [row.get(name, "") for name in COLUMNS]
+
+
+def _from_utf16(file: BinaryIO) -> bytes:
+    return file.read().decode("utf-16", "replace").encode()
+
+
+def _known_repairs(path: Path) -> set[str]:
+    try:
+        text = Path(str(path) + REPAIRS).read_text("utf-8", "replace")
+    except OSError:
+        return set()
+    return set(text.split("\n"))

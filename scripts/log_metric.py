@@ -1,0 +1,170 @@
+"""Add a row to the metrics log from the shell, or look after the log.
+
+    python scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
+        value=2.2e-16 notes="after the fix"
+    python scripts/log_metric.py --check      every bad line, and why
+    python scripts/log_metric.py --repair     a mended copy beside it
+    python scripts/log_metric.py --restore    rows that were refused, put back
+
+check=, metric= and value= are needed; date= and git_sha= are filled in. The other
+fields: run_id day seed config method n_trials n_failures notes.
+"""
+
+import argparse
+from pathlib import Path
+
+from robo47 import cli
+from robo47.errors import Robo47Error
+from robo47.metrics import append_row
+from robo47.metrics.mend import (
+    came_back,
+    header_problem,
+    repair,
+    restore,
+    unsaved_rows,
+)
+from robo47.metrics.rows import Row, refuse_unknown
+from robo47.metrics.scan import Line, scan
+from robo47.paths import METRICS_CSV, shown
+from robo47.progress import watched
+
+NEEDED = ("check", "metric", "value")
+
+
+def main() -> int:
+    """Do the one thing that the command line asks for."""
+    args = parser().parse_args()
+    if args.check or args.repair or args.restore:
+        if args.fields:
+            raise Robo47Error(
+                "give fields to add a row, or one of --check, --repair and --restore;"
+                " not both."
+            )
+        return look_after(args)
+    fields = parse(args.fields)
+    row = append_row(
+        args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
+    )
+    print(f"added to {shown(args.file)}: {summary(row)}")
+    return cli.EXIT_OK
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the command line's description."""
+    about, usage = (__doc__ or "").split("\n", 1)
+    it = argparse.ArgumentParser(
+        description=about,
+        epilog=usage,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    it.add_argument("fields", nargs="*", metavar="FIELD=VALUE", help="one row's cells")
+    does = it.add_mutually_exclusive_group()
+    does.add_argument("--check", action="store_true", help="list every bad line")
+    does.add_argument("--repair", action="store_true", help="write a mended copy")
+    does.add_argument("--restore", action="store_true", help="add refused rows again")
+    it.add_argument(
+        "--file",
+        type=Path,
+        default=METRICS_CSV,
+        metavar="CSV",
+        help="the log; default metrics/metrics.csv",
+    )
+    it.add_argument(
+        "--sync",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="have the row on the disk before returning (default: yes)",
+    )
+    it.add_argument(
+        "--allow-nonfinite", action="store_true", help="record NaN and infinity"
+    )
+    return it
+
+
+def parse(given: list[str]) -> dict[str, str]:
+    """Return the fields of `name=value` words."""
+    example = "check=fk_identity_check metric=inv_err value=2.2e-16"
+    fields = {}
+    for word in given:
+        name, equals, value = word.partition("=")
+        if not equals:
+            raise Robo47Error(f'"{word}" is not FIELD=VALUE. Example: {example}')
+        if name in fields:
+            raise Robo47Error(f'"{name}" is given twice. Give it once.')
+        fields[name] = value
+    refuse_unknown(fields)
+    missing = [name for name in NEEDED if not fields.get(name)]
+    if missing:
+        raise Robo47Error(f"a row needs {', '.join(missing)}. Example: {example}")
+    return fields
+
+
+def summary(row: Row) -> str:
+    """Return a row in a few words."""
+    return f"{row['check']} {row['metric']} = {row['value']}"
+
+
+def look_after(args: argparse.Namespace) -> int:
+    """Check, repair or restore; return the exit code."""
+    path = args.file
+    if args.restore:
+        count = restore(path)
+        print(f"{count} rows put back into {shown(path)}")
+        return cli.EXIT_OK
+    return show_repair(path) if args.repair else show_check(path)
+
+
+def show_check(path: Path) -> int:
+    """Print what is wrong with the log; return 1 if anything is."""
+    lines, bad = 0, 0
+    back = came_back(path)
+    notes = []
+    for line in watched(scan(path, as_is=True), path):
+        lines += 1
+        if line.problem:
+            bad += 1
+            print(f"line {line.number}: {line.problem}{end_of(line)}")
+        elif line.text in back:
+            notes.append(line)
+    wrong = header_problem(path)
+    if wrong:
+        print(f"line 1: {wrong}")
+    for line in notes:
+        print(
+            f"note, line {line.number}: a commit took this row out or edited it, and a"
+            f" merge brought it back; remove it if it should go{end_of(line)}"
+        )
+    waiting = unsaved_rows(path)
+    if waiting:
+        print(f"{waiting} refused rows wait. Put them back: add --restore")
+    if bad:
+        print("a mended copy: python scripts/log_metric.py --repair")
+    print(f"{shown(path)}: {lines} rows, {bad + bool(wrong)} problems")
+    return cli.EXIT_FAILED if bad or wrong or waiting else cli.EXIT_OK
+
+
+def show_repair(path: Path) -> int:
+    """Write the mended copy and print what was done; return 1 if lines are left."""
+    wrong = header_problem(path) if path.exists() else ""
+    done = repair(path, watched(scan(path, as_is=True), path))
+    if wrong:
+        print(f"line 1: {wrong}")
+    for line in done.mended:
+        print(f"line {line.number}: mended: {line.problem}{end_of(line)}")
+    for line in done.unread:
+        print(f"line {line.number}: left out: {line.problem}{end_of(line)}")
+    print(f"{shown(done.copy)}: {done.rows} rows, {len(done.mended)} of them mended")
+    if done.rest:
+        print(f"{shown(done.rest)}: {len(done.unread)} lines that are not rows")
+    print(f"{shown(path)} is as it was. Look, then: mv the copy over it")
+    return cli.EXIT_FAILED if done.unread else cli.EXIT_OK
+
+
+def end_of(line: Line) -> str:
+    """Return a line's last characters, on a line of their own."""
+    text = line.text if len(line.text) <= 66 else "..." + line.text[-63:]
+    return f"\n    {text}"
+
+
+if __name__ == "__main__":
+    cli.run(main)
