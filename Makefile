@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: help day1 test lint docs oracle figures notebook
+.PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -25,6 +25,15 @@ day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
+
+soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
+	@$(PY) -m pytest -m soak -s $(ARGS)
+
+report: .venv/.ready-report ## metrics/report.html and report.png from the log
+	@$(PY) scripts/report_metrics.py $(ARGS)
+
+test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
+	@$(PY) scripts/test_matrix.py $(ARGS)
 
 lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
@@ -40,6 +49,12 @@ notebook: .venv/.ready-notebook $(ROBOT) ## turn the lab script into a notebook
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
+
+bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in its own .venv-bench
+	@.venv-bench/$(PY:.venv/%=%) scripts/bench.py $(ARGS)
+
+.venv-bench/.ready-bench: pyproject.toml constraints.txt
+	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
 
 .venv/.ready-%: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py $*

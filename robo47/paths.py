@@ -4,7 +4,8 @@ import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-METRICS_CSV = ROOT / "metrics" / "metrics.csv"
+# ROBO47_METRICS sends a run's rows elsewhere: tests, and trying things out.
+METRICS_CSV = Path(os.environ.get("ROBO47_METRICS") or ROOT / "metrics" / "metrics.csv")
 TWIN_XML = ROOT / "robo47" / "models" / "panda_kinematics.xml"
 
 

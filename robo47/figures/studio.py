@@ -48,8 +48,8 @@ def light_up(spec: mujoco.MjSpec) -> None:
         name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 0.05],
         material="floor",
     )  # fmt: skip
-    for light in list(spec.lights):  # the Panda brings one that would glare
-        spec.delete(light)
+    for light in spec.lights:  # the Panda brings one that would glare
+        light.active = False
     spec.worldbody.add_light(
         pos=[1.7, -1.6, 4.0], dir=[-1.4, 1.6, -3.6], cutoff=60, exponent=0,
         diffuse=[0.42] * 3, specular=[0.1] * 3,

@@ -50,7 +50,7 @@ Shape = Path | Dot | Words
 
 def number(value: float | None) -> str:
     """Return a value as the report prints it: three figures, no padding."""
-    return "none" if value is None else f"{value:.3g}"
+    return "–" if value is None else f"{value:.3g}"
 
 
 def draw(series: Series) -> list[Shape]:
@@ -63,7 +63,7 @@ def draw(series: Series) -> list[Shape]:
     for tick in axis.ticks():
         y = axis.y(tick)
         shapes.append(Path([(LEFT, y), (RIGHT, y)], "grid"))
-        shapes.append(Words(LEFT - 6, y + 3.5, f"{tick:g}", "end"))
+        shapes.append(Words(LEFT - 6, y + 3.5, axis.label(tick), "end"))
     shapes += _threshold(series, axis)
     chosen = _thinned([row for row in series.rows if _finite(row)])
     places = [(_x(i, len(chosen)), row) for i, row in enumerate(chosen)]
@@ -81,15 +81,18 @@ class _Axis:
 
     def __init__(self, series: Series) -> None:
         self.log = series.is_log
-        shown = [value for value in series.values if value > 0 or not self.log]
+        self.has_zero = False
+        shown = [_drawable(v) for v in series.values if v > 0 or not self.log]
         if series.threshold:
             bounds = (series.threshold.min, series.threshold.max)
             shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
         low, high = min(shown), max(shown)
         if self.log:
             low, high = math.floor(math.log10(low)), math.ceil(math.log10(high))
+            high = min(high, 308)
             # a decade below for exact zeros, which have no logarithm
-            low -= 0 in series.values or low == high
+            self.has_zero = 0 in series.values
+            low -= self.has_zero or low == high
         elif low == high:
             low, high = low - (abs(low) or 1) / 2, high + (abs(high) or 1) / 2
         self.low, self.high = low, high
@@ -98,20 +101,35 @@ class _Axis:
         """Return a value's height; on a log axis zero and below sit on the floor."""
         if self.log:
             value = math.log10(value) if value > 0 else self.low
-        share = (value - self.low) / (self.high - self.low)
+        share = (_drawable(value) - self.low) / (self.high - self.low)
         return BOTTOM - share * (BOTTOM - TOP)
 
     def ticks(self) -> list[float]:
         """Return up to five round values."""
         if self.log:
             step = max(1, math.ceil((self.high - self.low) / 4))
-            return [10.0**e for e in range(int(self.low), int(self.high) + 1, step)]
+            first = int(self.low) + self.has_zero
+            zero = [0.0] * self.has_zero
+            return zero + [10.0**e for e in range(first, int(self.high) + 1, step)]
         step = 10 ** math.floor(math.log10((self.high - self.low) / 2))
         while (self.high - self.low) / step > 4:
             step *= 2
         first = math.ceil(self.low / step)
         last = math.floor(self.high / step)
-        return [float(f"{i * step:.6g}") for i in range(first, last + 1)]
+        return [float(f"{i * step:.12g}") for i in range(first, last + 1)]
+
+    def label(self, tick: float) -> str:
+        """Return a tick's text, with the figures that tell it from the next."""
+        if self.log or tick == 0:
+            return f"{tick:g}"
+        span = (self.high - self.low) / 4
+        figures = math.ceil(math.log10(max(abs(tick) / span, 1))) + 2
+        return f"{tick:.{min(figures, 8)}g}"
+
+
+def _drawable(value: float) -> float:
+    """Return a value whose distance to any other is still a float."""
+    return max(-8e307, min(8e307, value))
 
 
 def _threshold(series: Series, axis: _Axis) -> list[Shape]:
@@ -145,7 +163,7 @@ def _under_axis(places: list[tuple[float, Row]]) -> list[Shape]:
     for x, row in places:
         sha = str(row["git_sha"])[:7]
         if sha != before and x - last_x >= LABEL_GAP:
-            shapes.append(Words(x, BOTTOM + 18, sha or "no commit", _anchor(x)))
+            shapes.append(Words(x, BOTTOM + 18, sha or "no commit"))
             last_x, before = x, sha
     first, last = str(places[0][1]["date"]), str(places[-1][1]["date"])
     if first == last:
@@ -153,12 +171,6 @@ def _under_axis(places: list[tuple[float, Row]]) -> list[Shape]:
     shapes.append(Words(LEFT, BOTTOM + 34, first, "start"))
     shapes.append(Words(RIGHT, BOTTOM + 34, last, "end"))
     return shapes
-
-
-def _anchor(x: float) -> str:
-    if x < LEFT + 30:
-        return "start"
-    return "end" if x > RIGHT - 30 else "middle"
 
 
 def _x(index: int, count: int) -> float:

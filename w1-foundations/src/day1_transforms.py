@@ -168,8 +168,8 @@ def main() -> int:
 
     lab.step(f"5. Every named frame at {CONFIGURATIONS:,} random configurations")
     errors = []
-    for entry in ("panda_nohand", "panda"):
-        worst = verify.verify_fk(panda.load(entry), CONFIGURATIONS, SEED)
+    for entry, robot in {"panda_nohand": model, "panda": panda.load("panda")}.items():
+        worst = verify.verify_fk(robot, CONFIGURATIONS, SEED)
         lab.check(f"{entry}, worst at {worst.frame}", worst.error, AGREES)
         print(f"        where q = {np.round(worst.q, 2)}")
         errors.append(worst.error)

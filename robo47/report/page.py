@@ -1,0 +1,234 @@
+"""The report as one HTML file that needs nothing else: no script, no font, no net."""
+
+from collections.abc import Iterator
+from html import escape
+from itertools import groupby
+
+from robo47.metrics.rows import Row
+from robo47.metrics.scan import Line
+from robo47.report import plot
+from robo47.report.series import Report, Series, value_of
+
+RECENT = 20  # runs listed under a plot
+LISTED = 200  # lines listed that need a look
+STATUS = {
+    "pass": ("✓", "pass"),
+    "fail": ("✗", "fail"),
+    "open": ("•", "no threshold"),
+    "none": ("○", "not run yet"),
+}
+
+STYLE = """
+:root { color-scheme: light dark; --paper: #f6f7f9; --card: #fff; --ink: #1b1f24;
+  --muted: #5c6670; --grid: #e3e7eb; --line: #3467b4; --pass: #1a7f37;
+  --fail: #c4232e; --limit: #8a5a00; }
+@media (prefers-color-scheme: dark) { :root { --paper: #0f1317; --card: #181d23;
+  --ink: #e6eaee; --muted: #98a3ae; --grid: #2a323a; --line: #78aaf5;
+  --pass: #4cc26a; --fail: #ff7b72; --limit: #dfae55; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 1240px; padding: 32px 20px 48px; color: var(--ink);
+  background: var(--paper); font: 15px/1.45 system-ui, -apple-system, "Segoe UI",
+  Roboto, "Noto Sans", "DejaVu Sans", sans-serif; font-variant-numeric: tabular-nums;
+  overflow-wrap: anywhere; }
+h1 { margin: 0; font-size: 28px; letter-spacing: -.01em; }
+h2 { margin: 36px 0 12px; font-size: 19px; }
+p { margin: 4px 0; } .muted { color: var(--muted); }
+.tiles { display: grid; gap: 12px; margin-top: 20px;
+  grid-template-columns: repeat(auto-fit, minmax(130px, 1fr)); }
+.tile, .card { background: var(--card); border: 1px solid var(--grid);
+  border-radius: 12px; padding: 14px 16px; }
+.tile b { display: block; font-size: 26px; line-height: 1.2; }
+.cards { display: grid; gap: 16px; align-items: start;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }
+.top { display: flex; gap: 10px; justify-content: space-between; align-items: start; }
+.top h3 { margin: 0; font-size: 16px; }
+.badge { flex: none; border: 1px solid; border-radius: 99px; padding: 1px 10px;
+  font-size: 13px; font-weight: 600; white-space: nowrap; }
+.pass { color: var(--pass); } .fail { color: var(--fail); }
+.open, .none { color: var(--muted); }
+dl { display: grid; grid-template-columns: repeat(4, auto); gap: 0 12px;
+  margin: 12px 0 8px; justify-content: space-between; }
+dt { grid-row: 1; color: var(--muted); font-size: 12px; }
+dd { grid-row: 2; margin: 0; font-weight: 600; white-space: nowrap; }
+svg { display: block; width: 100%; height: auto; font-size: 11px; }
+details { margin-top: 6px; } summary { cursor: pointer; color: var(--muted);
+  font-size: 13px; }
+.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: 13px;
+  margin-top: 8px; min-width: 100%; }
+th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0;
+  border-top: 1px solid var(--grid); } tr:first-child th { border-top: 0; }
+th, td { white-space: nowrap; } th { color: var(--muted); font-weight: 500; }
+td.note { white-space: normal; min-width: 150px; }
+code { font: 12px/1.4 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace; }
+@media print { body { max-width: none; } .card { break-inside: avoid; } }
+"""
+
+
+def render(report: Report, heading: str) -> str:
+    """Return the whole page.
+
+    Args:
+        report: what to show.
+        heading: one line of plain text on where the rows come from.
+    """
+    days = groupby(report.series, key=lambda series: series.day)
+    return "\n".join(
+        [
+            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
+            # text from the log cannot become a script even if escaping failed
+            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\';'
+            " style-src 'unsafe-inline'\">",
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f"<title>robo47 metrics</title><style>{STYLE}</style></head><body>",
+            f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}</p>',
+            _tiles(report),
+            *(_day(day, list(series)) for day, series in days),
+            *([] if report.series else [_nothing()]),
+            _look("Repaired while reading", report.repaired),
+            _look("Could not be read", report.unread),
+            "</body></html>\n",
+        ]
+    )
+
+
+def _tiles(report: Report) -> str:
+    attention = len(report.repaired) + len(report.unread)
+    tiles = [
+        ("pass", report.count("pass"), "passing"),
+        ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
+        ("none", report.count("open"), "without a threshold"),
+        ("none", report.count("none"), "not run yet"),
+        ("", report.rows, "rows"),
+        ("fail" if attention else "none", attention, "lines to look at"),
+    ]
+    cells = "".join(
+        f'<div class="tile"><b class="{role}">{count:,}</b>'
+        f'<span class="muted">{label}</span></div>'
+        for role, count, label in tiles
+    )
+    return f'<div class="tiles">{cells}</div>'
+
+
+def _nothing() -> str:
+    return '<h2>Nothing recorded yet</h2><p class="muted">Run: make day1</p>'
+
+
+def _day(day: int | None, series: list[Series]) -> str:
+    title = "No day" if day is None else f"Day {day}"
+    cards = "".join(_card(one) for one in series)
+    return f'<section><h2>{title}</h2><div class="cards">{cards}</div></section>'
+
+
+def _card(series: Series) -> str:
+    mark, words = STATUS[series.status]
+    best = "best" if series.threshold else "lowest"
+    latest = value_of(series.rows[-1]) if series.rows else None
+    facts = [
+        ("latest", plot.number(latest)),
+        (best, plot.number(series.best)),
+        ("runs", f"{len(series.rows):,}"),
+        ("threshold", str(series.threshold or "–")),
+    ]
+    terms = "".join(
+        f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
+        for name, value in facts
+    )
+    return (
+        f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
+        f'<span class="muted">{_text(series.metric)}</span></div>'
+        f'<span class="badge {series.status}">{mark} {words}</span></div>'
+        f"<dl>{terms}</dl>{_svg(series)}{_recent(series.rows)}</article>"
+    )
+
+
+def _colour(name: str, series: Series) -> str:
+    judged = name == "latest" and series.status in ("pass", "fail")
+    return f' class="{series.status}"' if judged else ""
+
+
+def _text(cell: object) -> str:
+    return escape(str(cell)) or '<span class="muted">(empty)</span>'
+
+
+def _svg(series: Series) -> str:
+    shapes = "".join(_shape(shape) for shape in plot.draw(series))
+    if not shapes:
+        return ""
+    label = escape(f"{series.check} {series.metric}, run by run")
+    return (
+        f'<svg viewBox="0 0 {plot.WIDTH} {plot.HEIGHT}" role="img"'
+        f' aria-label="{label}">{shapes}</svg>'
+    )
+
+
+def _shape(shape: plot.Shape) -> str:
+    colour = f"var(--{'line' if shape.role == 'halo' else shape.role})"
+    if isinstance(shape, plot.Path):
+        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
+        dashes = ' stroke-dasharray="5 4"' if shape.dashed else ""
+        return f'<polyline points="{points}" fill="none" stroke="{colour}"{dashes}/>'
+    if isinstance(shape, plot.Words):
+        return (
+            f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" text-anchor="{shape.anchor}"'
+            f' fill="{colour}">{escape(shape.text)}</text>'
+        )
+    paint = f'fill="{colour}"'
+    if shape.role == "halo":
+        paint += ' fill-opacity=".2"'
+    if shape.hollow:
+        paint = f'fill="var(--card)" stroke="{colour}" stroke-width="1.5"'
+    return (
+        f'<circle cx="{shape.x:.1f}" cy="{shape.y:.1f}" r="{shape.radius}" {paint}>'
+        f"<title>{escape(shape.tip)}</title></circle>"
+    )
+
+
+def _recent(rows: list[Row]) -> str:
+    if not rows:
+        return ""
+    names = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
+    heads = ("date", "value", "commit", "failures", "config", "method", "notes")
+    shown = list(reversed(rows[-RECENT:]))
+    body = "".join("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
+    title = "1 run" if len(rows) == 1 else f"{len(rows):,} runs"
+    if len(rows) > RECENT:
+        title = f"The latest {RECENT} of {title}"
+    head = "".join(f"<th>{name}</th>" for name in heads)
+    return (
+        f'<details><summary>{title}</summary><div class="scroll"><table>'
+        f"<tr>{head}</tr>{body}</table></div></details>"
+    )
+
+
+def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
+    for name in names:
+        value = row[name]
+        text = "" if value is None else _clipped(str(value))
+        if name == "n_failures" and value is not None:
+            text = f"{value} of {'?' if row['n_trials'] is None else row['n_trials']}"
+        if name == "value":
+            text = plot.number(value_of(row))
+        kind = ' class="note"' if name == "notes" else ""
+        yield f"<td{kind}>{escape(text)}</td>"
+
+
+def _look(title: str, lines: list[Line]) -> str:
+    if not lines:
+        return ""
+    rows = "".join(
+        f"<tr><td>{line.number}</td><td class=note>{escape(line.problem)}</td>"
+        f"<td class=note><code>{escape(_clipped(line.text))}</code></td></tr>"
+        for line in lines[:LISTED]
+    )
+    more = len(lines) - LISTED
+    rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
+    return (
+        f'<section><h2>{title} ({len(lines):,})</h2><div class="card scroll"><table>'
+        f"<tr><th>line</th><th>why</th><th>text</th></tr>{rows}</table>{rest}"
+        '<p class="muted">More: <code>python scripts/log_metric.py --check</code></p>'
+        "</div></section>"
+    )
+
+
+def _clipped(text: str, most: int = 300) -> str:
+    return text if len(text) <= most else f"{text[:200]} … {text[-90:]}"

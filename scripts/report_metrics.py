@@ -1,0 +1,111 @@
+"""Turn the metrics log into a page and a picture worth showing.
+
+    python scripts/report_metrics.py               metrics/report.html and .png
+    python scripts/report_metrics.py --day 1       one day of the course
+    python scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
+
+The page works offline, on a phone and in the dark. Thresholds come from the
+weeks' manifests (w1-foundations/week.toml). Rows that were mended while reading
+or could not be read are listed at the end of the page.
+"""
+
+import argparse
+import datetime
+from pathlib import Path
+
+from robo47 import cli
+from robo47.errors import Robo47Error
+from robo47.metrics.scan import scan
+from robo47.paths import METRICS_CSV, shown
+from robo47.progress import watched
+from robo47.report import page
+from robo47.report.series import Report, collect
+from robo47.report.thresholds import load
+
+NO_PILLOW = "no picture: Pillow is not installed (`make report` installs it)"
+
+
+def main() -> int:
+    """Write the report and say where it is."""
+    args = parser().parse_args()
+    lines = watched(scan(args.file), args.file)
+    since = args.since.isoformat() if args.since else ""
+    report = collect(lines, load(), since, args.day, args.check)
+    heading = describe(args, report)
+    out = args.out or args.file.parent
+    write(out / "report.html", page.render(report, heading).encode())
+    picture = render_picture(report, heading)
+    if picture:
+        write(out / "report.png", picture)
+    print(
+        f"{report.rows:,} rows: {report.count('pass')} checks pass,"
+        f" {report.count('fail')} fail, {report.count('none')} not run yet"
+    )
+    look = len(report.unread) + len(report.repaired)
+    if look:
+        print(f"{look} lines need a look: python scripts/log_metric.py --check")
+    return cli.EXIT_OK
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the command line's description."""
+    about, usage = (__doc__ or "").split("\n", 1)
+    it = argparse.ArgumentParser(
+        description=about,
+        epilog=usage,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    it.add_argument(
+        "--since",
+        type=datetime.date.fromisoformat,
+        metavar="YYYY-MM-DD",
+        help="rows of that date and later",
+    )
+    it.add_argument("--day", type=int, help="one day of the course")
+    it.add_argument("--check", default="", metavar="NAME", help="one check")
+    it.add_argument(
+        "--file",
+        type=Path,
+        default=METRICS_CSV,
+        metavar="CSV",
+        help="the log; default metrics/metrics.csv",
+    )
+    it.add_argument(
+        "--out", type=Path, metavar="FOLDER", help="default: the log's own folder"
+    )
+    return it
+
+
+def describe(args: argparse.Namespace, report: Report) -> str:
+    """Return one line on which rows these are."""
+    parts = [f"{report.rows:,} rows of {shown(args.file.absolute())}"]
+    parts += [f"since {args.since}"] if args.since else []
+    parts += [f"day {args.day}"] if args.day is not None else []
+    parts += [f"check {args.check}"] if args.check else []
+    return ", ".join(parts) + f"; made on {datetime.date.today()}"
+
+
+def render_picture(report: Report, heading: str) -> bytes | None:
+    """Return the PNG, or None where Pillow is absent: the page is enough."""
+    try:
+        from robo47.report import picture
+    except ImportError:
+        print(NO_PILLOW)
+        return None
+    return picture.render(report, heading)
+
+
+def write(path: Path, content: bytes) -> None:
+    """Write a file and name it."""
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise Robo47Error(
+            f"cannot write {shown(path)}: {error.strerror or error}. Choose another"
+            " folder with --out."
+        ) from None
+    print(f"wrote {shown(path.absolute())}")
+
+
+if __name__ == "__main__":
+    cli.run(main)

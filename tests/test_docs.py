@@ -1,0 +1,66 @@
+"""Documents: outputs come from runs, numbers in sentences are recomputed."""
+
+import re
+import shutil
+
+import pytest
+from conftest import ROOT, need
+
+WEEK = ROOT / "w1-foundations"
+DOCUMENTS = [ROOT / "README.md", *sorted(WEEK.rglob("*.md")), *ROOT.glob("C*.md")]
+
+
+def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
+    need(shutil.which("make") is not None, "make")
+    done = run("scripts/build_docs.py", "--check")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_drifted_output_is_found(run, tmp_path, monkeypatch):
+    import importlib.util
+
+    path = ROOT / "scripts" / "build_docs.py"
+    spec = importlib.util.spec_from_file_location("build_docs", path)
+    docs = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(docs)
+    monkeypatch.setattr(docs, "wanted", lambda request: "error 2.0e-15, 0.59 m\n")
+    block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
+    assert docs.rebuilt(block.format("error 9.1e-16, 0.59 m"))[1] == []
+    for old in ("error 9.1e-16, 0.60 m", "error 1e-3, 0.59 m", "errors 9e-16, 0.59 m"):
+        text, drifted = docs.rebuilt(block.format(old))
+        assert drifted == ["python x"]
+        assert text == block.format("error 2.0e-15, 0.59 m")
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
+def test_every_relative_link_leads_somewhere(path):
+    text = path.read_text("utf-8")
+    targets = re.findall(r"\]\((?!http|#)([^)#]+)", re.sub(r"`[^`]*`", "", text))
+    missing = [t for t in targets if not (path.parent / t).exists()]
+    assert missing == []
+
+
+def test_the_worksheet_asks_for_every_term_of_the_lab_guide():
+    guide = (WEEK / "docs/day1-lab.md").read_text("utf-8")
+    sheet = (WEEK / "docs/day1.md").read_text("utf-8")
+    terms = re.findall(r"^- \*\*(.+?)\*\*: ", guide, re.MULTILINE)
+    glossary = sheet.split("## Glossary")[1].split("\n## ")[0]
+    assert len(terms) == 8
+    assert re.findall(r"^### (.+)$", glossary, re.MULTILINE) == terms
+    assert len(re.findall(r"^### Drawing \d", sheet, re.MULTILINE)) == 3
+    questions = sheet.split("## Can you explain?")[1].split("\n## ")[0]
+    assert len(re.findall(r"^\d\. ", questions, re.MULTILINE)) == 5
+
+
+def test_the_readme_names_the_commands_that_ci_runs():
+    readme = (ROOT / "README.md").read_text("utf-8")
+    ci = (ROOT / ".ci/run").read_text("utf-8")
+    for command in ("make day1", "make test"):
+        assert command in readme
+    assert "make test" in ci
+    assert "make lint" in ci
+
+
+def test_no_document_holds_an_empty_output():
+    for path in DOCUMENTS:
+        assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", path.read_text("utf-8"))

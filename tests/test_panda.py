@@ -1,0 +1,152 @@
+"""The robot: real and embedded, its entries, its configurations, its provenance."""
+
+import re
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+
+from robo47 import kinematics, menagerie, panda, verify
+from robo47.errors import Robo47Error
+
+
+@pytest.mark.meshes
+@pytest.mark.parametrize("entry", ["panda", "panda_nohand"])
+def test_every_frame_of_the_twin_is_the_menageries(real_panda, monkeypatch, entry):
+    real = panda.load(entry)
+    monkeypatch.setattr(menagerie, "panda_folder", lambda: None)
+    twin = panda.load(entry)
+    q = verify.random_q(real, 1000, seed=47)
+    worst = verify.worst_difference(
+        verify.mujoco_poses(twin, q), verify.mujoco_poses(real, q), q
+    )
+    assert worst.error < 1e-12, worst
+
+
+@pytest.mark.meshes
+@pytest.mark.parametrize("entry", ["panda", "panda_nohand"])
+def test_the_twin_has_the_menageries_joints_limits_masses_and_home(
+    real_panda, monkeypatch, entry
+):
+    real = panda.load(entry)
+    monkeypatch.setattr(menagerie, "panda_folder", lambda: None)
+    twin = panda.load(entry)
+    assert kinematics.frame_names(twin) == kinematics.frame_names(real)
+    for name in ("jnt_range", "jnt_axis", "body_mass", "body_ipos", "body_inertia"):
+        assert_same(getattr(twin, name), getattr(real, name), 1e-12)
+    assert_same(panda.home_q(twin), panda.home_q(real), 0.0)
+
+
+@pytest.mark.meshes
+@pytest.mark.parametrize("entry", menagerie.ENTRIES)
+def test_dropping_the_meshes_does_not_change_the_kinematics(real_panda, entry):
+    whole, bare = panda.load(entry, meshes=True), panda.load(entry)
+    assert whole.nmesh > 40
+    assert bare.nmesh == bare.ngeom == 0
+    q = verify.random_q(whole, 200, seed=47)
+    ours, theirs = verify.mujoco_poses(bare, q), verify.mujoco_poses(whole, q)
+    assert verify.worst_difference(ours, theirs, q).error == 0.0
+    assert_same(bare.body_mass, whole.body_mass, 0.0)
+
+
+def test_the_entries_have_the_ends_that_the_menagerie_gives_them(either_panda):
+    assert kinematics.chain_to(either_panda, "attachment_site").nq == 7
+    with_hand = panda.load("panda")
+    assert with_hand.nq == 9
+    assert with_hand.nsite == 0, "panda.xml has no site: the handout's first mistake"
+    assert "body:hand" in kinematics.frame_names(panda.load("scene"))
+
+
+def test_hand_and_attachment_site_are_one_point_half_a_turn_apart(twin):
+    nohand, hand = panda.load("panda_nohand"), panda.load("panda")
+    q = verify.random_q(nohand, 10, seed=2)
+    T_ee = kinematics.fk(kinematics.chain_to(nohand, "attachment_site"), q)
+    q_hand = np.hstack([q, np.zeros((10, 2))])
+    T_hand = kinematics.fk(kinematics.chain_to(hand, "hand"), q_hand)
+    assert_same(T_ee, T_hand @ np.diag([-1.0, -1.0, 1.0, 1.0]), 1e-7)
+
+
+def test_ready_is_within_the_limits_and_zero_is_not(either_panda):
+    low, high = either_panda.jnt_range.T
+    assert np.all((low < panda.READY_Q) & (high > panda.READY_Q))
+    outside = (low > 0) | (high < 0)
+    assert [either_panda.joint(int(j)).name for j in np.flatnonzero(outside)] == [
+        "joint4"
+    ]
+
+
+def test_home_is_the_models_own_rounded_key(either_panda):
+    rounded = [0, 0, 0, -1.57079, 0, 1.57079, -0.7853]
+    assert_same(panda.home_q(either_panda), rounded, 0.0)
+    panda.home_q(either_panda)[0] = 9.0
+    assert panda.home_q(either_panda)[0] == 0.0
+
+
+def test_a_shared_configuration_cannot_be_changed_by_accident():
+    with pytest.raises(ValueError, match="read-only"):
+        panda.READY_Q[0] = 1.0
+
+
+def test_an_unknown_entry_is_refused_with_the_ones_that_exist():
+    with pytest.raises(ValueError, match="has panda, panda_nohand, scene"):
+        panda.load("panda_no_hand")
+
+
+def test_a_model_without_a_home_key_is_refused():
+    empty = mujoco.MjModel.from_xml_string("<mujoco/>")
+    with pytest.raises(Robo47Error, match="no keyframe `home`"):
+        panda.home_q(empty)
+
+
+def test_the_first_line_names_robot_source_and_version_in_80_columns(real_panda):
+    line = panda.describe("panda_nohand")
+    assert re.search(
+        r"Franka Panda \(panda_nohand\), .+, (commit|sha256) \w{7,8}$", line
+    )
+    assert len(line) <= 80
+
+
+def test_the_twin_says_that_it_is_one(twin):
+    assert "the kit's embedded twin" in panda.describe()
+    assert panda.provenance()["commit"] is None
+
+
+@pytest.fixture
+def broken(tmp_path, monkeypatch):
+    """A Menagerie whose panda_nohand.xml holds the text that is given."""
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path))
+    folder = tmp_path / menagerie.PANDA
+    folder.mkdir()
+    return folder / "panda_nohand.xml"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("<mujoco><worldbody>", "cannot be loaded"),
+        ("<mujoco><worldbody/></mujoco>", "has no site:attachment_site"),
+        ("<mujoco><include file='gone.xml'/></mujoco>", "cannot be loaded"),
+        (b"\xff\xfe\x00", "cannot be loaded"),
+    ],
+)
+def test_a_broken_file_is_named_with_what_to_do(broken, text, words):
+    broken.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(Robo47Error, match=words) as caught:
+        panda.load("panda_nohand")
+    assert "panda_nohand.xml" in str(caught.value)
+    assert "fetch_menagerie" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_named_with_what_to_do(broken):
+    with pytest.raises(Robo47Error, match=r"panda_nohand.xml is not there"):
+        panda.load("panda_nohand")
+
+
+def test_a_menagerie_root_that_leads_nowhere_is_an_error_not_the_twin(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path / "nowhere"))
+    with pytest.raises(Robo47Error, match="nowhere has no folder franka_emika_panda"):
+        panda.load()
