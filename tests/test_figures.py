@@ -1,4 +1,4 @@
-"""Pictures: drawn with every backend, frames where the links are, files committed."""
+"""Pictures: drawn with every backend, and the frames where the links are."""
 
 import os
 import sys
@@ -6,7 +6,8 @@ import sys
 import mujoco
 import numpy as np
 import pytest
-from conftest import ROOT, need
+from conftest import need
+from pictures import count, differing, pixels
 
 from robo47 import figures, panda
 from robo47.errors import Robo47Error
@@ -16,12 +17,9 @@ from robo47.figures.scene import FOVY, Camera, Ghost, Scene
 if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("PIL", reason="needs Pillow: make figures")
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
-from PIL import Image
 
 from robo47.figures import client, overlay, portrait, studio
 
-FOLDER = ROOT / "w1-foundations" / "figures"
-SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 800)}
 SMALL = (300, 200)
 AXIS_COLOURS = (overlay.X, overlay.Y, overlay.Z)
 
@@ -39,28 +37,6 @@ def fresh_start():
     client.close()
     yield
     client.close()
-
-
-@pytest.fixture
-def gl():
-    try:
-        backends.rendering_environment()
-    except Robo47Error as error:
-        need(False, f"an OpenGL backend: {error}")
-
-
-def pixels(picture):
-    return np.asarray(picture).astype(int)
-
-
-def differing(a, b):
-    """Return the share of pixels that differ by more than drivers' rounding."""
-    return float((np.abs(pixels(a) - pixels(b)).max(axis=2) > 40).mean())
-
-
-def count(picture, colour):
-    """Return how many pixels have nearly that colour."""
-    return int((np.abs(pixels(picture) - colour).max(axis=2) < 12).sum())
 
 
 @pytest.mark.gl
@@ -223,77 +199,6 @@ def test_a_frame_on_top_of_another_is_drawn_shorter():
     apart[0, 3] = 1.0
     lengths = overlay.axis_lengths({"a": np.eye(4), "b": np.eye(4), "c": apart})
     assert lengths[1] < lengths[0] == lengths[2]
-
-
-@pytest.mark.parametrize("name", SIZES)
-def test_the_committed_pictures_are_there(name):
-    path = FOLDER / f"day1_{name}.png"
-    picture = Image.open(path).convert("RGB")
-    assert picture.size == SIZES[name]
-    assert path.stat().st_size < 300_000
-    if name != "fk_error":
-        assert all(count(picture, colour) > 500 for colour in AXIS_COLOURS)
-
-
-@pytest.mark.gl
-@pytest.mark.meshes
-@pytest.mark.usefixtures("gl", "real_panda")
-def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
-    done = run("scripts/make_figures.py", "--out", tmp_path)
-    assert (done.returncode, done.stderr.count("rror")) == (0, 0), done.stderr
-    for name, size in SIZES.items():
-        fresh = Image.open(tmp_path / f"day1_{name}.png").convert("RGB")
-        kept = Image.open(FOLDER / f"day1_{name}.png").convert("RGB")
-        assert fresh.size == size
-        # Drivers and fonts round differently; another arm or label would not.
-        assert differing(fresh, kept) < 0.02
-
-
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
-def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
-    monkeypatch.syspath_prepend(str(ROOT / "w1-foundations" / "src"))
-    import day1_figures
-    from day1_transforms import HOME_Q, compose_fk
-
-    seen = {}
-    monkeypatch.setattr(
-        portrait,
-        "draw",
-        lambda scene, frames: seen.update(frames) or Image.new("RGB", SMALL),
-    )
-    day1_figures.order()
-    lab = run("w1-foundations/src/day1_transforms.py", "--no-log").stdout
-    T_world_ee = compose_fk(panda.load("panda_nohand"), HOME_Q)
-    np.testing.assert_allclose(seen["T_world_ee"], T_world_ee)
-    for name in ("T_world_ee @ T_extra", "T_extra @ T_world_ee"):
-        printed = lab.split(f"  {name}: ")[1].split("\n")[1].split()
-        np.testing.assert_allclose(seen[name][:3, 3], np.float64(printed), atol=1e-6)
-
-
-@pytest.mark.parametrize("choice", ["nonsense", "disable"])
-def test_without_a_backend_the_command_says_so_in_one_line(run, choice):
-    done = run("scripts/make_figures.py", MUJOCO_GL=choice)
-    assert done.returncode == 2
-    assert f"MUJOCO_GL={choice}" in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
-def test_the_command_names_the_pictures_that_there_are(run):
-    done = run("scripts/make_figures.py", "mona_lisa")
-    assert done.returncode == 2
-    assert "day1_reference, day1_order, day1_fk_error" in done.stderr
-
-
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
-def test_a_folder_that_cannot_be_written_to_is_told(run, tmp_path):
-    (tmp_path / "file").write_text("")
-    done = run("scripts/make_figures.py", "day1_reference", "--out", tmp_path / "file")
-    assert done.returncode == 2
-    assert "choose a folder with --out" in done.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")

@@ -6,10 +6,7 @@ import os
 import sys
 
 import pytest
-from conftest import ROOT, need
-
-from robo47.errors import Robo47Error
-from robo47.figures import backends
+from conftest import ROOT
 
 if not os.environ.get("ROBO47_CI"):
     for package in ("ipykernel", "ipywidgets", "jupytext", "nbclient"):
@@ -31,14 +28,6 @@ def generator(monkeypatch, tmp_path):
     monkeypatch.setattr(module, "NOTEBOOK", tmp_path / "notebooks" / "day1.ipynb")
     monkeypatch.setattr(sys, "argv", ["make_notebook.py"])
     return module
-
-
-@pytest.fixture
-def gl():
-    try:
-        backends.rendering_environment()
-    except Robo47Error as error:
-        need(False, f"an OpenGL backend: {error}")
 
 
 def cells(kind):

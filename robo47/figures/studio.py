@@ -25,29 +25,12 @@ VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collis
 
 
 def light_up(spec: mujoco.MjSpec) -> None:
-    """Put a robot into a light room: a white sky, a pale floor, two lights.
+    """Put a robot into a light room: a white sky, a pale floor, soft shadows.
 
     Args:
         spec: the robot alone, edited in place.
     """
-    texture, builtin = mujoco.mjtTexture, mujoco.mjtBuiltin
-    spec.add_texture(
-        name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=builtin.mjBUILTIN_FLAT,
-        rgb1=WHITE, rgb2=WHITE, width=8, height=48,
-    )  # fmt: skip
-    spec.add_texture(
-        name="floor", type=texture.mjTEXTURE_2D, builtin=builtin.mjBUILTIN_FLAT,
-        mark=mujoco.mjtMark.mjMARK_EDGE, rgb1=FLOOR, rgb2=FLOOR, markrgb=GRID,
-        width=512, height=512,
-    )  # fmt: skip
-    material = spec.add_material(
-        name="floor", texuniform=True, texrepeat=[4, 4], emission=0.36
-    )
-    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
-    spec.worldbody.add_geom(
-        name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 0.05],
-        material="floor",
-    )  # fmt: skip
+    _add_sky_and_floor(spec)
     for light in spec.lights:  # the Panda brings one that would glare
         light.active = False
     spec.worldbody.add_light(
@@ -57,8 +40,29 @@ def light_up(spec: mujoco.MjSpec) -> None:
     look = spec.visual
     look.headlight.ambient, look.headlight.diffuse = [0.42] * 3, [0.25] * 3
     look.headlight.specular = [0.0] * 3
+    # Above 1 the haze would reach the robot and cover its ghosts.
     look.rgba.haze, look.map.haze = [*WHITE, 1.0], 0.92
     look.map.shadowscale = 0.3  # spend the shadow map on the robot, not the room
+
+
+def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
+    texture, flat = mujoco.mjtTexture, mujoco.mjtBuiltin.mjBUILTIN_FLAT
+    spec.add_texture(
+        name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=flat,
+        rgb1=WHITE, rgb2=WHITE, width=8, height=48,
+    )  # fmt: skip
+    spec.add_texture(
+        name="floor", type=texture.mjTEXTURE_2D, builtin=flat, width=512, height=512,
+        mark=mujoco.mjtMark.mjMARK_EDGE, rgb1=FLOOR, rgb2=FLOOR, markrgb=GRID,
+    )  # fmt: skip
+    material = spec.add_material(
+        name="floor", texuniform=True, texrepeat=[4, 4], emission=0.36
+    )
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    spec.worldbody.add_geom(
+        name="floor", type=plane, size=[0, 0, 0.05], material="floor"
+    )
 
 
 @lru_cache(maxsize=2)
