@@ -5,8 +5,8 @@
     python scripts/make_figures.py day1_order       one of them
     python scripts/make_figures.py --out /tmp/pics  into another folder
 
-Works without a display. MuJoCo draws the robot; the frames over it are composed by
-hand, so a wrong one would be seen beside its link.
+Works without a display. MuJoCo draws the robot; the frames over it are composed
+by hand, so a wrong one would be seen beside its link.
 """
 
 import argparse

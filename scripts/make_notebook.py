@@ -4,8 +4,8 @@
     python scripts/make_notebook.py           the same
     python scripts/make_notebook.py --check   only say whether it is up to date
 
-The script is the only source: its functions and the steps of its main() become cells.
-What the notebook adds (set-up, pictures, sliders) is in this file.
+The script is the only source: its functions and the steps of its main() become
+cells. What the notebook adds (set-up, pictures, sliders) is in this file.
 """
 
 import argparse
