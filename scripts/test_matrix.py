@@ -30,7 +30,10 @@ def find_python(version: str) -> str | None:
     for name in (f"python{version}", "python3", sys.executable):
         path = shutil.which(name)
         test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
-        if path and subprocess.run([path, "-c", test], check=False).returncode == 0:
+        if (
+            path
+            and subprocess.run([path, "-c", test], capture_output=True).returncode == 0
+        ):
             return path
     return None
 
