@@ -9,6 +9,8 @@ import mujoco
 import pytest
 
 from robo47 import menagerie, panda
+from robo47.errors import Robo47Error
+from robo47.figures import backends
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -41,6 +43,15 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+@pytest.fixture
+def gl() -> None:
+    """Skip where no OpenGL backend draws pictures."""
+    try:
+        backends.rendering_environment()
+    except Robo47Error as error:
+        need(False, f"an OpenGL backend: {error}")
 
 
 @pytest.fixture
