@@ -11,6 +11,8 @@ import mujoco
 import pytest
 
 from robo47 import menagerie, panda
+from robo47.errors import Robo47Error
+from robo47.figures import backends
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -83,6 +85,15 @@ def run_in(clone):
         )
 
     return run_script
+
+
+@pytest.fixture
+def gl() -> None:
+    """Skip where no OpenGL backend draws pictures."""
+    try:
+        backends.rendering_environment()
+    except Robo47Error as error:
+        need(False, f"an OpenGL backend: {error}")
 
 
 @pytest.fixture

@@ -120,7 +120,7 @@ def _describe(error: BaseException, path: Path) -> dict[str, Any]:
         trace = trace.tb_next
     text = str(error)
     if isinstance(error, SyntaxError):
-        line, text = error.lineno, error.msg
+        line, text = error.lineno, error.msg or text
     return {"error": text[:500], "kind": type(error).__name__, "line": line}
 
 
