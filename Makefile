@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor
+.PHONY: start check hint run doctor bench test-matrix
 .PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
