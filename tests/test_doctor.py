@@ -1,7 +1,6 @@
 """The doctor: it answers on any machine, and says nothing of who asks."""
 
 import getpass
-import importlib.util
 import json
 import subprocess
 import sys
@@ -9,12 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from robo47 import doctor
 from robo47.paths import ROOT
-
-SCRIPT = ROOT / "scripts" / "doctor.py"
-spec = importlib.util.spec_from_file_location("doctor", SCRIPT)
-doctor = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(doctor)
 
 
 @pytest.fixture
