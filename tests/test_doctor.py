@@ -59,7 +59,9 @@ def test_it_runs_on_a_bare_python(clone):
 
 def test_a_reader_that_leaves_early_gets_no_traceback():
     with subprocess.Popen(
-        [sys.executable, str(SCRIPT)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [sys.executable, str(ROOT / "scripts" / "doctor.py")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     ) as process:
         process.stdout.close()
         assert process.stderr.read() == b""
