@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: help day1 test soak report lint docs oracle
+.PHONY: help day1 view test soak report lint docs oracle
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -22,6 +22,9 @@ help: ## this list
 
 day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
 	@$(PY) w1-foundations/src/day1_transforms.py $(ARGS)
+
+view: .venv/.ready-view $(ROBOT) ## look at the arm and its frames, in a window or a browser
+	@$(PY) scripts/view_panda.py $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
