@@ -12,6 +12,6 @@
     serve    listens until Ctrl-C
 
 `arm` and `words` need nothing new, `shapes` needs trimesh, and all the rest viser,
-which brings trimesh (the extra `view`). Meshes are drawn where MuJoCo
-puts the bodies, the triads where `robo47.kinematics` puts the frames: a wrong product would show.
+which brings trimesh (the extra `view`). Meshes are drawn where MuJoCo puts the bodies,
+the triads where `robo47.kinematics` puts the frames: a wrong product would show.
 """
