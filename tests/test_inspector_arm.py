@@ -112,7 +112,7 @@ def test_a_matrix_reads_back_as_the_numbers_it_shows(arm):
 
 def test_a_configuration_that_is_no_configuration_is_refused(arm):
     for wrong in ([0.0] * 6, [np.nan] * 7):
-        with pytest.raises(ValueError, match="^q "):
+        with pytest.raises(ValueError, match=r"^q "):
             arm.move(wrong)
 
 
