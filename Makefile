@@ -11,7 +11,8 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: help day1 view test soak report lint docs oracle
+.PHONY: start check hint run doctor bench test-matrix view
+.PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -23,8 +24,24 @@ help: ## this list
 day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
 	@$(PY) w1-foundations/src/day1_transforms.py $(ARGS)
 
-view: .venv/.ready-view $(ROBOT) ## look at the arm and its frames, in a window or a browser
+view: .venv/.ready-view $(ROBOT) ## the arm, its frames and the proof; ARGS=--web: in a browser
 	@$(PY) scripts/view_panda.py $(ARGS)
+
+start: .venv/.ready-core ## write your copy of DAY=1's lab; RESET=1.4 empties a task
+	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
+
+check: .venv/.ready-core $(ROBOT) ## check DAY=1, or TASK=1.4 alone; ARGS=--watch
+	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS)
+
+hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
+	@$(PY) scripts/hint.py $(TASK) --day $(DAY) $(ARGS)
+
+run: .venv/.ready-core $(ROBOT) ## run your own copy of DAY=1's lab, log its numbers
+	@$(PY) $(or $(wildcard w*/work/day$(DAY)_*.py),$(error no lab of yours \
+	yet; first: make start DAY=$(DAY))) $(ARGS)
+
+doctor: ## what this machine has and lacks; paste it when asking
+	@$(PYTHON) scripts/doctor.py $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
@@ -35,14 +52,29 @@ soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
 report: .venv/.ready-report ## metrics/report.html and report.png from the log
 	@$(PY) scripts/report_metrics.py $(ARGS)
 
+test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
+	@$(PY) scripts/test_matrix.py $(ARGS)
+
 lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ARGS)
 
+figures: .venv/.ready-figures $(ROBOT) ## draw the pictures of the lessons
+	@$(PY) scripts/make_figures.py $(ARGS)
+
+notebook: .venv/.ready-notebook $(ROBOT) ## turn the lab script into a notebook
+	@$(PY) scripts/make_notebook.py $(ARGS)
+
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
+
+bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in its own .venv-bench
+	@.venv-bench/$(PY:.venv/%=%) scripts/bench.py $(ARGS)
+
+.venv-bench/.ready-bench: pyproject.toml constraints.txt
+	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
 
 .venv/.ready-%: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py $*

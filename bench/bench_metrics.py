@@ -8,6 +8,7 @@ the machine falls on all of them; the first calls warm up and are not counted.
 """
 
 import argparse
+import contextlib
 import csv
 import importlib.util
 import sqlite3
@@ -55,8 +56,12 @@ def run(rows: int = ROWS, calls: int = CALLS) -> dict:
     """
     medians: dict[str, list[float]] = {}
     for size in (0, rows):
-        with tempfile.TemporaryDirectory() as folder:
-            for name, us in _timed(_ways(Path(folder), size), calls).items():
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            contextlib.closing(sqlite3.connect(Path(folder) / "log.db")) as base,
+        ):
+            ways = _ways(Path(folder), base, size)
+            for name, us in _timed(ways, calls).items():
                 medians.setdefault(name, []).append(us)
     naive = medians["naive csv append"]
     ratios = {
@@ -81,7 +86,7 @@ def _timed(ways: dict[str, Way], calls: int) -> dict[str, float]:
     }
 
 
-def _ways(folder: Path, rows: int) -> dict[str, Way]:
+def _ways(folder: Path, base: sqlite3.Connection, rows: int) -> dict[str, Way]:
     def log(name: str) -> Path:
         path = folder / name
         with open(path, "w", encoding="utf-8", newline="\n") as file:
@@ -95,7 +100,7 @@ def _ways(folder: Path, rows: int) -> dict[str, Way]:
         "naive csv append": lambda: _naive(naive),
         "robo47": lambda: append_row(ours, **ROW),
         "robo47, sync": lambda: append_row(synced, sync=True, **ROW),
-        "sqlite, WAL": _sqlite(folder / "log.db", rows),
+        "sqlite, WAL": _sqlite(base, rows),
     }
     if importlib.util.find_spec("pandas"):
         ways["pandas rewrite"] = _pandas(log("pandas.csv"))
@@ -107,8 +112,7 @@ def _naive(path: Path) -> None:
         csv.writer(file).writerow(ROW.values())
 
 
-def _sqlite(path: Path, rows: int) -> Way:
-    base = sqlite3.connect(path)
+def _sqlite(base: sqlite3.Connection, rows: int) -> Way:
     base.execute("PRAGMA journal_mode=WAL")
     base.execute("PRAGMA synchronous=NORMAL")
     base.execute("CREATE TABLE log (" + ", ".join(f'"{c}"' for c in COLUMNS) + ")")
@@ -145,10 +149,10 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=ROWS, help="of the long log")
     result = run(parser.parse_args().rows)
     empty, long = (f"{size:,} rows" for size in result["rows"])
-    print(f"{'median, microseconds a row':28}{empty:>14}{long:>18}{'x naive':>16}")
+    print(f"{'median, microseconds a row':28}{empty:>14}{long:>18}{'x naive':>20}")
     for name, (first, last) in result["median_us"].items():
         ratio, grown = result["times_naive"][name]
-        print(f"{name:28}{first:14,.1f}{last:18,.1f}{ratio:9.1f}{grown:7.1f}")
+        print(f"{name:28}{first:14,.1f}{last:18,.1f}{ratio:9.1f}{grown:11,.1f}")
 
 
 if __name__ == "__main__":

@@ -96,7 +96,7 @@ class Chain:
     @cached_property
     def plan(self) -> Plan:
         """The same chain as elementary moves, worked out once."""
-        plan = Plan()
+        plan = Plan(self.nq)
         end = Cursor(plan)
         for link in self.links:
             _add_link(end, link)
@@ -180,7 +180,7 @@ def frame_names(model: mujoco.MjModel) -> list[str]:
 
 def _plan_all(model: mujoco.MjModel) -> Plan:
     """Return one plan for the whole tree; MuJoCo lists parents before children."""
-    plan = Plan()
+    plan = Plan(model.nq)
     ends = [Cursor(plan)]
     for body in range(model.nbody):
         if body:

@@ -30,10 +30,21 @@ _EX, _EY, _EZ = np.eye(3)[:, :, None]
 WORLD = Columns(_EX, _EY, _EZ, np.zeros((3, 1)))
 
 
-class Step(Protocol):
-    """An elementary move: takes the frame before it and q, (nq, n), to the next."""
+class Chunk(NamedTuple):
+    """A batch of configurations, one row per number in qpos: each (nq, n).
 
-    def __call__(self, at: Columns, q: Array) -> Columns: ...
+    `q` is measured from the joint's reference; `cos` and `sin` are of q, for hinges.
+    """
+
+    q: Array
+    cos: Array
+    sin: Array
+
+
+class Step(Protocol):
+    """An elementary move: takes the frame before it to the one after it."""
+
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns: ...
 
 
 @dataclass(frozen=True)
@@ -42,7 +53,7 @@ class Shift:
 
     vector: Array
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
         return at._replace(p=at.p + combine(at, self.vector))
 
 
@@ -52,23 +63,21 @@ class Rotate:
 
     R: Array
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
         x, y, z = (combine(at, weights) for weights in self.R.T)
         return Columns(x, y, z, at.p)
 
 
 @dataclass(frozen=True)
 class Turn:
-    """Hinge: turn by q - ref about the frame's axis k, or minus that axis."""
+    """Hinge: turn by q about the frame's axis k, or about minus that axis."""
 
     k: int
     sign: float
     adr: int
-    ref: float
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
-        angle = q[self.adr] - self.ref if self.ref else q[self.adr]
-        c, s = np.cos(angle), np.sin(angle)
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
+        c, s = chunk.cos[self.adr], chunk.sin[self.adr]
         axes = list(at)
         # A turn about -k is a turn about k with the other two axes swapped.
         i, j = ((self.k + step) % 3 for step in ((1, 2) if self.sign > 0 else (2, 1)))
@@ -78,15 +87,13 @@ class Turn:
 
 @dataclass(frozen=True)
 class Slide:
-    """Slide: move the origin by q - ref along a fixed direction of the frame."""
+    """Slide: move the origin by q along a fixed direction of the frame."""
 
     direction: Array
     adr: int
-    ref: float
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
-        along = combine(at, self.direction)
-        return at._replace(p=at.p + along * (q[self.adr] - self.ref))
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
+        return at._replace(p=at.p + combine(at, self.direction) * chunk.q[self.adr])
 
 
 @dataclass(frozen=True)
@@ -96,8 +103,8 @@ class Ball:
     name: str
     adr: int
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
-        R = np.moveaxis(_rotation(q, self.adr, self.name), 0, -1)
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
+        R = np.moveaxis(_rotation(chunk.q, self.adr, self.name), 0, -1)
         x, y, z = (at.x * R[0, j] + at.y * R[1, j] + at.z * R[2, j] for j in range(3))
         return Columns(x, y, z, at.p)
 
@@ -109,9 +116,11 @@ class Free:
     name: str
     adr: int
 
-    def __call__(self, at: Columns, q: Array) -> Columns:
-        x, y, z = np.moveaxis(_rotation(q, self.adr + 3, self.name), (2, 1), (0, 1))
-        return Columns(x, y, z, q[self.adr : self.adr + 3])
+    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
+        x, y, z = np.moveaxis(
+            _rotation(chunk.q, self.adr + 3, self.name), (2, 1), (0, 1)
+        )
+        return Columns(x, y, z, chunk.q[self.adr : self.adr + 3])
 
 
 def combine(at: Columns, weights: Array) -> Array:

@@ -63,26 +63,24 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
         {"body:link1": T_world_link1, ...}, each (n, 4, 4), copies.
     """
     data = mujoco.MjData(model)
-    shape = (len(qpos), model.nbody + model.nsite)
-    position, rotation = np.empty((*shape, 3)), np.empty((*shape, 9))
+    # MuJoCo's own arrays, which it fills anew at every call: what is kept is copied.
+    theirs = (data.xpos, data.xmat, data.site_xpos, data.site_xmat)
+    ours = tuple(np.empty((len(qpos), *array.shape)) for array in theirs)
     for i, q in enumerate(tqdm(qpos, "MuJoCo", leave=False, delay=1)):
         data.qpos[:] = q
-        # Enough for xpos, xmat and their site_ namesakes; mj_forward would also
-        # compute velocities, contacts and forces.
+        # Enough for these four; mj_forward would also compute velocities and forces.
         mujoco.mj_kinematics(model, data)
-        position[i, : model.nbody], position[i, model.nbody :] = (
-            data.xpos,
-            data.site_xpos,
-        )
-        rotation[i, : model.nbody], rotation[i, model.nbody :] = (
-            data.xmat,
-            data.site_xmat,
-        )
-    T = np.zeros((*shape, 4, 4))
-    T[..., :3, :3] = rotation.reshape(*shape, 3, 3)
-    T[..., :3, 3] = position
-    T[..., 3, 3] = 1.0
-    return {name: T[:, index] for name, index in _index(model).items()}
+        for kept, array in zip(ours, theirs, strict=True):
+            kept[i] = array
+    bodies, sites = _poses(ours[0], ours[1]), _poses(ours[2], ours[3])
+    poses = {}
+    for full in frame_names(model):
+        kind, _, name = full.partition(":")
+        if kind == "body":
+            poses[full] = bodies[:, model.body(name).id]
+        else:
+            poses[full] = sites[:, model.site(name).id]
+    return poses
 
 
 def worst_difference(
@@ -125,12 +123,10 @@ def verify_fk(model: mujoco.MjModel, n: int, seed: int) -> Worst:
     return worst_difference(fk_all(model, q), mujoco_poses(model, q), q)
 
 
-def _index(model: mujoco.MjModel) -> dict[str, int]:
-    """Return where each named frame stands in bodies followed by sites."""
-    index = {}
-    for full in frame_names(model):
-        kind, _, name = full.partition(":")
-        index[full] = (
-            model.body(name).id if kind == "body" else model.nbody + model.site(name).id
-        )
-    return index
+def _poses(position: Array, rotation: Array) -> Array:
+    """Return poses, (n, m, 4, 4), of positions (n, m, 3) and rotations (n, m, 9)."""
+    T = np.zeros((*position.shape[:2], 4, 4))
+    T[..., :3, :3] = rotation.reshape(*position.shape, 3)
+    T[..., :3, 3] = position
+    T[..., 3, 3] = 1.0
+    return T

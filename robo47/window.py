@@ -77,6 +77,8 @@ def show() -> int:
 
     model = panda.load("scene", meshes=True)
     data = at_home(model)
+    model.vis.scale.framelength *= 0.6  # the default triads hide the arm
+    model.vis.scale.framewidth *= 0.4
     print("window: drag the sliders under Control; close it, or Ctrl-C here, to end")
     try:
         with mujoco.viewer.launch_passive(model, data) as viewer:

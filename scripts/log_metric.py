@@ -6,8 +6,8 @@
     python scripts/log_metric.py --repair     a mended copy beside it
     python scripts/log_metric.py --restore    rows that were refused, put back
 
-check=, metric= and value= are needed; date= and git_sha= are filled in. The other
-fields: run_id day seed config method n_trials n_failures notes.
+check=, metric= and value= are needed; date= and git_sha= are filled in. The
+other fields: run_id day seed config method n_trials n_failures notes.
 """
 
 import argparse
@@ -116,18 +116,17 @@ def look_after(args: argparse.Namespace) -> int:
 
 def show_check(path: Path) -> int:
     """Print what is wrong with the log; return 1 if anything is."""
-    lines, bad = 0, 0
+    rows, bad = 0, 0
     back = came_back(path)
     notes = []
     for line in watched(scan(path, as_is=True), path):
-        lines += 1
+        rows += line.row is not None
         if line.problem:
             bad += 1
             print(f"line {line.number}: {line.problem}{end_of(line)}")
         elif line.text in back:
             notes.append(line)
-    wrong = header_problem(path)
-    if wrong:
+    if wrong := header_problem(path):
         print(f"line 1: {wrong}")
     for line in notes:
         print(
@@ -139,15 +138,14 @@ def show_check(path: Path) -> int:
         print(f"{waiting} refused rows wait. Put them back: add --restore")
     if bad:
         print("a mended copy: python scripts/log_metric.py --repair")
-    print(f"{shown(path)}: {lines} rows, {bad + bool(wrong)} problems")
+    print(f"{shown(path)}: {rows} rows, {bad + bool(wrong)} problems")
     return cli.EXIT_FAILED if bad or wrong or waiting else cli.EXIT_OK
 
 
 def show_repair(path: Path) -> int:
     """Write the mended copy and print what was done; return 1 if lines are left."""
-    wrong = header_problem(path) if path.exists() else ""
     done = repair(path, watched(scan(path, as_is=True), path))
-    if wrong:
+    if wrong := header_problem(path):
         print(f"line 1: {wrong}")
     for line in done.mended:
         print(f"line {line.number}: mended: {line.problem}{end_of(line)}")
@@ -156,7 +154,7 @@ def show_repair(path: Path) -> int:
     print(f"{shown(done.copy)}: {done.rows} rows, {len(done.mended)} of them mended")
     if done.rest:
         print(f"{shown(done.rest)}: {len(done.unread)} lines that are not rows")
-    print(f"{shown(path)} is as it was. Look, then: mv the copy over it")
+    print(f"{shown(path)} is as it was. If the copy is right, rename it to that.")
     return cli.EXIT_FAILED if done.unread else cli.EXIT_OK
 
 

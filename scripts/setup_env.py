@@ -3,6 +3,7 @@
     python3 scripts/setup_env.py            what the labs need
     python3 scripts/setup_env.py test       and what `make test` needs
     python3 scripts/setup_env.py view ...   any extra named in pyproject.toml
+    python3 scripts/setup_env.py --venv .venv-bench bench    in a folder of its own
 
 Runs on a bare Python, so it uses the standard library alone, and no syntax
 that would keep an old Python from reading the message that it is too old.
@@ -18,8 +19,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-VENV = ROOT / ".venv"
-VENV_PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+PYTHON_IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
 OLDEST = (3, 11)
 
 
@@ -29,13 +29,14 @@ def stop(problem, remedy):
 
 
 def find_python():
-    """Return a Python that is new enough: this one, or a newer one on PATH."""
+    """Return a Python that is new enough, and its version: this one, or on PATH."""
     if sys.version_info[:2] >= OLDEST:
-        return sys.executable
+        # Run from inside an environment, the Python that it was made with.
+        return getattr(sys, "_base_executable", sys.executable), sys.version_info[:2]
     for minor in (13, 12, 11, 14):
-        found = shutil.which("python3.{}".format(minor))  # noqa: UP032 (old Pythons)
+        found = shutil.which(f"python3.{minor}")
         if found:
-            return found
+            return found, (3, minor)
     return stop(
         "this is Python {}.{}; the kit needs 3.11 or newer.".format(
             *sys.version_info[:2]
@@ -45,12 +46,10 @@ def find_python():
     )
 
 
-def fingerprint(python):
-    """Return a hash of everything that decides what the environment holds."""
-    parts = [str(ROOT), python]
-    parts += [
-        (ROOT / f).read_text("utf-8") for f in ("pyproject.toml", "constraints.txt")
-    ]
+def fingerprint():
+    """Return a hash of everything that decides what an environment holds."""
+    files = [ROOT / name for name in ("pyproject.toml", "constraints.txt")]
+    parts = [str(ROOT)] + [path.read_text("utf-8") for path in files]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -68,15 +67,15 @@ def run(command, doing):
     return done.returncode, done.stdout
 
 
-def make_venv(python, uv):
-    """Create `.venv`, replacing one whose Python is gone."""
-    command = [python, "-m", "venv", "--clear", VENV]
+def make_venv(venv, python, uv):
+    """Create the environment, replacing one that does not work."""
+    command = [python, "-m", "venv", "--clear", venv]
     if uv:
-        command = [uv, "venv", "--quiet", "--clear", "--seed", "--python", python, VENV]
-    code, said = run(command, "making .venv")
+        command = [uv, "venv", "--quiet", "--clear", "--seed", "--python", python, venv]
+    code, said = run(command, "making " + venv.name)
     if code == 0:
         return
-    shutil.rmtree(str(VENV), ignore_errors=True)
+    shutil.rmtree(str(venv), ignore_errors=True)
     if "ensurepip" in said:
         version = "{}.{}".format(*sys.version_info[:2])
         stop(
@@ -85,15 +84,16 @@ def make_venv(python, uv):
             + version
             + "-venv), then run make again.",
         )
-    stop("could not make .venv:\n" + said[-1500:], "Mend that and run make again.")
+    stop("could not make it:\n" + said[-1500:], "Mend that and run make again.")
 
 
-def install(extra, uv):
+def install(venv, extra, uv):
     """Install the kit, editable, with one extra, at the pinned versions."""
     what = ".[" + extra + "]" if extra != "core" else "."
-    command = [VENV_PYTHON, "-m", "pip", "install", "--disable-pip-version-check"]
+    python = venv / PYTHON_IN_VENV
+    command = [python, "-m", "pip", "install", "--disable-pip-version-check"]
     if uv:
-        command = [uv, "pip", "install", "--python", VENV_PYTHON]
+        command = [uv, "pip", "install", "--python", python]
     command += ["--quiet", "--constraint", "constraints.txt", "--editable", what]
     code, said = run(command, "installing robo47 (" + extra + "), a minute at most")
     if code == 0:
@@ -117,12 +117,13 @@ def install(extra, uv):
     stop("could not install:\n" + said[-1500:], "Mend that and run make again.")
 
 
-def works(python):
-    """Return whether that interpreter starts (a moved folder breaks a venv)."""
+def works(venv, version):
+    """Return whether its Python is the right one and starts (moving breaks it)."""
+    python = venv / PYTHON_IN_VENV
     if not python.exists():
         return False
-    probe = [str(python), "-c", "import sys; sys.exit(sys.version_info < (3, 11))"]
-    return subprocess.run(probe, check=False).returncode == 0
+    test = f"import sys; sys.exit(sys.version_info[:2] != {tuple(version)})"
+    return subprocess.run([str(python), "-c", test], check=False).returncode == 0
 
 
 def main():
@@ -134,19 +135,18 @@ def main():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("extras", nargs="*", default=["core"], help="default: core")
-    extras = parser.parse_args().extras
-    python = find_python()
+    parser.add_argument("--venv", default=".venv", help="its folder; default: .venv")
+    options = parser.parse_args()
+    venv = ROOT / options.venv
+    python, version = find_python()
     uv = shutil.which("uv")
-    wanted = fingerprint(python)
-    for extra in extras:
-        stamp = VENV / (".ready-" + extra)
-        current = stamp.exists() and stamp.read_text() == wanted
-        if not works(VENV_PYTHON):
-            make_venv(python, uv)
-            current = False
-        if not current:
-            install(extra, uv)
-        stamp.write_text(wanted)
+    if not works(venv, version):
+        make_venv(venv, python, uv)
+    for extra in options.extras:
+        stamp = venv / (".ready-" + extra)
+        if not (stamp.exists() and stamp.read_text() == fingerprint()):
+            install(venv, extra, uv)
+        stamp.write_text(fingerprint())
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ def web(entry: str, start: str, port: int) -> int:
     if menagerie.panda_folder() is None:
         missing = (
             "The robot's meshes are not here: simple shapes stand in, with the same "
-            "frames. To fetch them: python scripts/fetch_menagerie.py"
+            "frames (python scripts/fetch_menagerie.py fetches them)"
         )
         print(missing)
         about = f"{about}. {missing}"

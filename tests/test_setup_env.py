@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -18,8 +19,6 @@ def setup(monkeypatch, tmp_path):
     for name in ("pyproject.toml", "constraints.txt"):
         (tmp_path / name).write_text((ROOT / name).read_text("utf-8"), "utf-8")
     monkeypatch.setattr(module, "ROOT", tmp_path)
-    monkeypatch.setattr(module, "VENV", tmp_path / ".venv")
-    monkeypatch.setattr(module, "VENV_PYTHON", tmp_path / ".venv" / "python")
     monkeypatch.setattr(module.shutil, "which", lambda name: None)
     module.commands = []
     module.answers = {}
@@ -27,14 +26,14 @@ def setup(monkeypatch, tmp_path):
     def run(command, doing):
         module.commands.append([str(part) for part in command])
         if "venv" in module.commands[-1]:
-            (tmp_path / ".venv").mkdir(exist_ok=True)
+            Path(module.commands[-1][-1]).mkdir(exist_ok=True)
         for word, answer in module.answers.items():
             if word in module.commands[-1]:
                 return answer
         return 0, ""
 
     monkeypatch.setattr(module, "run", run)
-    monkeypatch.setattr(module, "works", lambda python: module.VENV.exists())
+    monkeypatch.setattr(module, "works", lambda venv, version: venv.exists())
     return module
 
 
@@ -74,6 +73,25 @@ def test_an_extra_is_installed_once_and_beside_the_core(setup, monkeypatch):
     assert call(setup, monkeypatch, "test") == []
 
 
+def test_another_folder_is_another_environment(setup, monkeypatch):
+    call(setup, monkeypatch)
+    make, install = call(setup, monkeypatch, "--venv", ".venv-bench", "bench")
+    assert make[-1].endswith(".venv-bench")
+    assert install[-1] == ".[bench]"
+
+
+def test_an_environment_that_does_not_start_or_is_too_old_is_made_anew(setup, tmp_path):
+    spec = importlib.util.spec_from_file_location("real", ROOT / "scripts/setup_env.py")
+    real = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(real)
+    python = tmp_path / "v" / real.PYTHON_IN_VENV
+    assert not real.works(tmp_path / "v", sys.version_info[:2])
+    python.parent.mkdir(parents=True)
+    python.symlink_to(sys.executable)
+    assert real.works(tmp_path / "v", sys.version_info[:2])
+    assert not real.works(tmp_path / "v", (3, 1))
+
+
 def test_uv_is_used_where_it_is_installed(setup, monkeypatch):
     monkeypatch.setattr(setup.shutil, "which", lambda n: "/uv" if n == "uv" else None)
     make, install = call(setup, monkeypatch)
@@ -100,7 +118,7 @@ def test_a_newer_python_on_the_path_is_used(setup, monkeypatch):
     monkeypatch.setattr(setup, "sys", old)
     paths = {"python3.12": "/usr/bin/python3.12"}
     monkeypatch.setattr(setup.shutil, "which", paths.get)
-    assert setup.find_python() == "/usr/bin/python3.12"
+    assert setup.find_python() == ("/usr/bin/python3.12", (3, 12))
 
 
 @pytest.mark.parametrize(

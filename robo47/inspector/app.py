@@ -32,11 +32,11 @@ class Inspector:
         gui = server.gui
         gui.set_panel_label(TITLE)
         self.scene = ArmScene(server, arm)
-        gui.add_html(words.line(about, "about"))
+        gui.add_html(words.line(f"{about}; ee is {arm.chain.frame}", "about"))
         self.frame = gui.add_dropdown("Frame", tuple(arm.names))
         self.proof = gui.add_html("")
         self.limits = gui.add_html("")
-        solid = gui.add_checkbox("See-through", True)
+        see_through = gui.add_checkbox("See-through", True)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Joints"):
             self.joints = Joints(server, arm, self.move)
@@ -49,11 +49,11 @@ class Inspector:
         async def _(_: object) -> None:
             self.update()
 
-        @solid.on_update
+        @see_through.on_update
         async def _(_: object) -> None:
-            self.scene.see_through(solid.value)
+            self.scene.see_through(see_through.value)
 
-        self.scene.see_through(solid.value)
+        self.scene.see_through(see_through.value)
         self.update()
 
     def move(self, q: ArrayLike) -> None:
@@ -67,11 +67,12 @@ class Inspector:
 
     def light(self) -> None:
         """Make the frame that the student is looking at stand out."""
-        chosen, shown = self.frame.value, None
+        chosen: str | None = self.frame.value
+        shown: list[str] | None = None
         if self.steps.lit:
             chosen, shown = self.steps.lit[-1], self.steps.lit
         elif self.order.side:
-            chosen, shown = END, [END]
+            chosen, shown = None, [END]  # its two products stand out instead
         self.scene.light(chosen, shown)
         self.scene.trace(self.steps.origins())
 

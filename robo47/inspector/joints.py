@@ -40,7 +40,7 @@ class Joints:
         for slider, q in zip(self.sliders, self.arm.q, strict=True):
             slider.value = float(q)  # type: ignore[misc]
         numbers = ", ".join(f"{q:.5g}" for q in self.arm.q)
-        self.exact.content = words.line(f"q = [{numbers}] rad", "q")
+        self.exact.content = words.line(f"q = [{numbers}]", "q")
 
     def _slider(
         self, server: viser.ViserServer, i: int

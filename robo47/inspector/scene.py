@@ -70,21 +70,8 @@ class ArmScene:
             server: where to draw.
             arm: what to draw.
         """
-        self.server, self.arm = server, arm
-        camera = server.initial_camera
-        camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
-        backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
-        server.scene.set_background_image(backdrop, format="png")
-        server.scene.add_grid(
-            "/floor",
-            2.0,
-            2.0,
-            cell_size=0.1,
-            section_size=0.5,
-            cell_thickness=0.5,
-            cell_color=(180, 187, 196),
-            section_thickness=0.8,
-        )
+        self.arm = arm
+        _set_stage(server)
         self.meshes: list[viser.MeshHandle] = []
         self.bodies: dict[str, viser.FrameHandle] = {}
         for i, shape in enumerate(shapes(arm.model)):
@@ -99,12 +86,7 @@ class ArmScene:
             )
             self.meshes.append(mesh)
         self.triads = {
-            name: Triad(
-                server,
-                f"/frames/{name}",
-                name,
-                ANCHORS[i % len(ANCHORS)],
-            )
+            name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
         self.way = _lines(server, "/way")
@@ -117,11 +99,11 @@ class ArmScene:
         for name, triad in self.triads.items():
             triad.place(self.arm.by_hand[self.arm.names[name]])
 
-    def light(self, chosen: str, shown: Collection[str] | None = None) -> None:
+    def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
         """Make one frame stand out.
 
         Args:
-            chosen: its short name.
+            chosen: its short name; None for no one.
             shown: the frames that are drawn at all; None for every one.
         """
         for name, triad in self.triads.items():
@@ -162,6 +144,24 @@ class TwoOrdersScene:
         self.right.show(chosen is not None, chosen == "right")
         self.left.show(chosen is not None, chosen == "left")
         self.lines.visible = chosen is not None
+
+
+def _set_stage(server: viser.ViserServer) -> None:
+    """Set camera, backdrop and floor."""
+    camera = server.initial_camera
+    camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
+    backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
+    server.scene.set_background_image(backdrop, format="png")
+    server.scene.add_grid(
+        "/floor",
+        2.0,
+        2.0,
+        cell_size=0.1,
+        section_size=0.5,
+        cell_thickness=0.5,
+        cell_color=(180, 187, 196),
+        section_thickness=0.8,
+    )
 
 
 def _lines(server: viser.ViserServer, path: str) -> viser.LineSegmentsHandle:

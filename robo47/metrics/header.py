@@ -45,7 +45,7 @@ def line_end(head: bytes) -> bytes | None:
 def layout(head: bytes) -> Layout:
     """Return how to read a file with these first bytes, as well as can be told."""
     utf16 = head[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-    first = _first_line(head, utf16)
+    first = _first_line(_decoded(head, utf16).lstrip())
     for delimiter in (",", ";", "\t"):
         names = tuple(
             name.strip().strip('"').strip() for name in first.split(delimiter)
@@ -61,7 +61,7 @@ def problem(head: bytes) -> str:
     seen = layout(head)
     if seen.utf16:
         return UTF16
-    if not _first_line(head, False).strip():
+    if not _first_line(_decoded(head, utf16=False)).strip():
         return f"its first line is blank. Make the first line: {LINE}"
     if not seen.has_header:
         return f"it has no header. Make the first line: {LINE}"
@@ -79,11 +79,13 @@ def is_utf16_end(end: bytes) -> bool:
     return end in (b"\n\0", b"\0\n")
 
 
-def _first_line(head: bytes, utf16: bool) -> str:
+def _decoded(head: bytes, utf16: bool) -> str:
     if utf16:
-        text = head[: len(head) // 2 * 2].decode("utf-16", "replace")
-    else:
-        text = head.removeprefix(BOM).decode("utf-8", "replace")
+        return head[: len(head) // 2 * 2].decode("utf-16", "replace")
+    return head.removeprefix(BOM).decode("utf-8", "replace")
+
+
+def _first_line(text: str) -> str:
     return text.partition("\n")[0].rstrip("\r")
 
 

@@ -5,22 +5,25 @@ git branch switch a held handle writes to a file that nobody can see any more.
 """
 
 import contextlib
-import csv
 import errno
 import os
 import stat
 import sys
+import time
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
 from robo47.errors import Robo47Error
 from robo47.metrics import header, lock
+from robo47.metrics.rows import is_open_quote
 from robo47.paths import shown
 
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
 REPAIRS = ".repairs"  # beside the log: lines that are not as their writer left them
 TRIES = 5
+# An echo takes no lock, and half of it shows while it is being written: look twice.
+MID_WRITE_S = 0.005
 _TAIL = 1 << 20  # bytes of an unfinished last line that are looked at
 _FLAGS = (
     os.O_RDWR
@@ -90,16 +93,6 @@ def locked(name: str) -> Iterator[int]:
         os.close(fd)
 
 
-def is_open_quote(line: str, delimiter: str = ",") -> bool:
-    """Return whether a line's last cell has a quote that it does not close."""
-    reader = csv.reader([line, ""], delimiter=delimiter)
-    try:
-        next(reader)
-    except csv.Error:  # longer than the csv module reads
-        return line.count('"') % 2 == 1
-    return reader.line_num > 1
-
-
 def note_repair(path: StrPath, line: str) -> None:
     """Remember, beside the log, a line that is not as its writer left it."""
     with (
@@ -142,8 +135,10 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
     end = header.line_end(head)
     if end is None:
         raise CannotAppendError(f"{_shown(name)}: {header.problem(head)}")
-    size = os.lseek(fd, 0, os.SEEK_END)
-    last = read_at(fd, size - 2, 2)
+    size, last = _last_two_bytes(fd)
+    if not last.endswith(b"\n"):
+        time.sleep(MID_WRITE_S)
+        size, last = _last_two_bytes(fd)
     if header.is_utf16_end(last):
         raise CannotAppendError(f"{_shown(name)}: {header.UTF16}")
     if last.endswith(b"\n"):
@@ -153,6 +148,11 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
     text = line.decode("utf-8", "replace").rstrip("\r")
     quote = b'"' if is_open_quote(text) else b""
     return quote + (b"\n" if line.endswith(b"\r") else end), end, text
+
+
+def _last_two_bytes(fd: int) -> tuple[int, bytes]:
+    size = os.lseek(fd, 0, os.SEEK_END)
+    return size, read_at(fd, size - 2, 2)
 
 
 def _report_cut(name: str, text: str, before: bytes) -> None:
@@ -218,12 +218,12 @@ def _keep(name: str, text: str) -> str:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
                     return (
-                        f"  kept in {_shown(kept)}; once that is mended:"
-                        f" python scripts/log_metric.py --restore\n  row: {text}"
+                        f"  row: {text}\n  kept in {_shown(kept)}; to add it later:"
+                        "\n  python scripts/log_metric.py --restore"
                     )
     except OSError:
         pass
-    return f"  the row is kept nowhere but here:\n  row: {text}"
+    return f"  row: {text}\n  kept nowhere but here: copy it"
 
 
 def _shown(name: str) -> str:

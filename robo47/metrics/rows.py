@@ -1,5 +1,6 @@
 """What a row of the log is: its columns, their types and its one line of text."""
 
+import csv
 import datetime
 import difflib
 import math
@@ -93,6 +94,16 @@ def decode(cells: list[str]) -> Row:
             text = text[1:]
         row[name] = _typed(name, text)
     return row
+
+
+def is_open_quote(line: str, delimiter: str = ",") -> bool:
+    """Return whether a line's last cell has a quote that it does not close."""
+    reader = csv.reader([line, ""], delimiter=delimiter)
+    try:
+        next(reader)
+    except csv.Error:  # longer than the csv module reads
+        return line.count('"') % 2 == 1
+    return reader.line_num > 1
 
 
 def _typed(name: str, given: object) -> Cell:

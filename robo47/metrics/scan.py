@@ -6,6 +6,7 @@ One line is one row, so a quote that is never closed costs its own line only.
 import csv
 import io
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
@@ -13,11 +14,12 @@ from typing import BinaryIO, NamedTuple
 from robo47.errors import Robo47Error
 from robo47.metrics import header
 from robo47.metrics.header import Layout
-from robo47.metrics.logfile import REPAIRS, is_open_quote
-from robo47.metrics.rows import COLUMNS, Row, decode
+from robo47.metrics.logfile import REPAIRS
+from robo47.metrics.rows import COLUMNS, Row, decode, is_open_quote
 from robo47.paths import shown
 
 WIDTH = len(COLUMNS)
+_DATE = re.compile(r"\d{4}-\d\d-\d\d")
 
 
 class Line(NamedTuple):
@@ -72,7 +74,7 @@ def _lines(file: BinaryIO, plan: Layout, repaired: set[str]) -> Iterator[Line]:
     for number, raw in enumerate(file, 1):
         if number == 1:
             raw = raw.removeprefix(header.BOM)
-        if not raw.strip():
+        if not raw.strip(b"\0 \t\r\n"):
             continue
         if header_due:
             header_due = False
@@ -130,12 +132,12 @@ def _cells(text: str, delimiter: str) -> tuple[list[str], str]:
 
 def _thirteen(cells: list[str]) -> tuple[list[str], str]:
     """Return a row's cells from a few too many; too few may hide a cut number."""
-    # Two rows glued together share one cell, which makes 25 or more.
-    if WIDTH < len(cells) < 2 * WIDTH - 1:
-        notes = ",".join(cells[WIDTH - 1 :])
-        return [*cells[: WIDTH - 1], notes], "it has commas outside quotes in its notes"
-    why = "cut, or not a row" if len(cells) < WIDTH else "two rows on one line"
-    raise ValueError(f"{len(cells)} columns where {WIDTH} belong ({why})")
+    if len(cells) < WIDTH:
+        raise ValueError(f"{len(cells)} columns where {WIDTH} belong (cut, or no row)")
+    if any(_DATE.fullmatch(cell) for cell in cells[2:]):
+        raise ValueError(f"{len(cells)} columns where {WIDTH} belong (two rows in one)")
+    notes = ",".join(cells[WIDTH - 1 :])
+    return [*cells[: WIDTH - 1], notes], "it has commas outside quotes in its notes"
 
 
 def _in_order(cells: list[str], plan: Layout) -> list[str]:

@@ -1,0 +1,200 @@
+"""Forward kinematics of the Panda: ours beside the tools people would pick instead.
+
+Each rival answers the same configurations for the same frame, the end effector of
+`panda_nohand`, and is checked against MuJoCo before it is timed. Rivals that only take
+one configuration at a time are called in a plain Python loop, doing nothing else.
+"""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from bench.timing import take_turns
+from robo47 import kinematics, panda, se3, verify
+from robo47.checks import Array
+
+N = 100_000
+FRAME = "site:attachment_site"
+SLOW_N = 300  # the textbook's own code needs 300 us for each
+CHECKED = 200
+
+
+@dataclass
+class Rival:
+    """A way to compute forward kinematics.
+
+    Attributes:
+        solve: configurations (n, 7) to poses (n, 4, 4), for the check.
+        time: the same work without collecting the answers.
+        n: how many configurations are timed.
+    """
+
+    solve: Callable[[Array], Array]
+    time: Callable[[Array], object]
+    n: int = N
+
+
+def ours() -> Rival:
+    """robo47.kinematics.fk, one call."""
+    chain = kinematics.chain_to(panda.load("panda_nohand"), FRAME)
+    fk = lambda q: kinematics.fk(chain, q)  # noqa: E731
+    return Rival(fk, fk)
+
+
+def plain_products() -> Rival:
+    """The same chain as stacks of 4x4 matrices, multiplied one after the other."""
+    chain = kinematics.chain_to(panda.load("panda_nohand"), FRAME)
+
+    def solve(q: Array) -> Array:
+        T = np.eye(4)
+        for link in chain.links:
+            T = T @ link.T_parent_link
+            for joint in link.joints:
+                turn = np.zeros((len(q), 4, 4))
+                c, s = np.cos(q[:, joint.qpos_adr]), np.sin(q[:, joint.qpos_adr])
+                turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1] = c, -s, s, c
+                turn[:, 2, 2] = turn[:, 3, 3] = 1.0
+                T = T @ turn
+        return T @ chain.T_link_frame
+
+    return Rival(solve, solve)
+
+
+def mujoco_loop() -> Rival:
+    """mj_kinematics, which computes every body, in a Python loop."""
+    model = panda.load("panda_nohand")
+    data = mujoco.MjData(model)
+
+    def loop(q: Array) -> None:
+        for row in q:
+            data.qpos[:] = row
+            mujoco.mj_kinematics(model, data)
+
+    return Rival(lambda q: verify.mujoco_poses(model, q)[FRAME], loop)
+
+
+def pinocchio_loop(*, frame: bool) -> Rival:
+    """Pinocchio's C++ in a Python loop: joints only, or with the frame's placement."""
+    pin = importlib.import_module("pinocchio")
+    from robo47 import menagerie
+
+    folder = menagerie.panda_folder()
+    if folder is None:
+        raise ImportError("the real Panda is not here")
+    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
+    data = model.createData()
+    index = model.getFrameId("attachment_site")
+
+    def loop(q: Array) -> None:
+        if frame:
+            for row in q:
+                pin.forwardKinematics(model, data, row)
+                pin.updateFramePlacement(model, data, index)
+        else:
+            for row in q:
+                pin.forwardKinematics(model, data, row)
+
+    def solve(q: Array) -> Array:
+        poses = []
+        for row in q:
+            pin.forwardKinematics(model, data, row)
+            poses.append(pin.updateFramePlacement(model, data, index).homogeneous)
+        return np.array(poses)
+
+    return Rival(solve, loop)
+
+
+def toolbox_batch() -> Rival:
+    """Robotics Toolbox's C code over the batch; its Panda ends at the fingertips."""
+    rtb = importlib.import_module("roboticstoolbox")
+    ets = rtb.models.Panda().ets()
+    T_tip_site = se3.make_T(np.diag([-1.0, -1.0, 1.0]), [0.0, 0.0, -0.1034])
+    return Rival(lambda q: ets.eval(q) @ T_tip_site, ets.eval)
+
+
+def textbook_loop() -> Rival:
+    """FKinSpace of Modern Robotics: the product of exponentials, in a Python loop."""
+    mr = importlib.import_module("modern_robotics")
+    chain = kinematics.chain_to(panda.load("panda_nohand"), FRAME)
+    M = kinematics.fk(chain, np.zeros(7))
+    screws, T = [], np.eye(4)
+    for link in chain.links:
+        T = T @ link.T_parent_link
+        for joint in link.joints:
+            w, p = T[:3, :3] @ joint.axis, T[:3, 3]
+            screws.append([*w, *-np.cross(w, p)])
+    S = np.array(screws).T
+    solve = lambda q: np.array([mr.FKinSpace(M, S, row) for row in q])  # noqa: E731
+    return Rival(solve, solve, SLOW_N)
+
+
+def any_robot() -> Rival:
+    """Ours on a Panda whose every axis is tilted, so that nothing can be folded."""
+    chain = kinematics.chain_to(tilted_panda(), FRAME)
+    fk = lambda q: kinematics.fk(chain, q)  # noqa: E731
+    return Rival(fk, fk)
+
+
+def tilted_panda() -> mujoco.MjModel:
+    """Return the Panda with random joint axes and anchors."""
+    model = panda.load("panda_nohand")
+    rng = np.random.default_rng(47)
+    axes = rng.normal(size=model.jnt_axis.shape)
+    model.jnt_axis[:] = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    model.jnt_pos[:] = 0.1 * rng.normal(size=model.jnt_pos.shape)
+    return model
+
+
+RIVALS: dict[str, Callable[[], Rival]] = {
+    "robo47 fk": ours,
+    "robo47 fk, any axes": any_robot,
+    "MuJoCo mj_kinematics, loop": mujoco_loop,
+    "Pinocchio, loop": lambda: pinocchio_loop(frame=False),
+    "Pinocchio with the frame, loop": lambda: pinocchio_loop(frame=True),
+    "Robotics Toolbox, C batch": toolbox_batch,
+    "plain 4x4 products, NumPy": plain_products,
+    "textbook FKinSpace, loop": textbook_loop,
+}
+
+
+def run(rounds: int = 7, n: int = N) -> dict:
+    """Check every rival against MuJoCo, then time them all, taking turns.
+
+    Args:
+        rounds: timed calls of each.
+        n: configurations, for those that can take many.
+
+    Returns:
+        {"n", "rows": {name: {"us", "low", "high", "error"}}, "left_out": {name: why}}.
+    """
+    q = verify.random_q(panda.load("panda_nohand"), n, seed=47)
+    left_out: dict[str, str] = {}
+    rivals: dict[str, Rival] = {}
+    errors: dict[str, float] = {}
+    for name, make in RIVALS.items():
+        try:
+            rivals[name] = make()
+        except ImportError as missing:
+            left_out[name] = str(missing)
+            continue
+        model = tilted_panda() if make is any_robot else panda.load("panda_nohand")
+        truth = verify.mujoco_poses(model, q[:CHECKED])[FRAME]
+        errors[name] = float(np.abs(rivals[name].solve(q[:CHECKED]) - truth).max())
+    used = {name: q[: min(rival.n, n)] for name, rival in rivals.items()}
+    timed = take_turns(
+        {name: lambda r=r, q=used[name]: r.time(q) for name, r in rivals.items()},
+        rounds,
+    )
+    rows = {
+        name: {
+            "us": t["median"] / len(used[name]) * 1e6,
+            "low": t["low"] / len(used[name]) * 1e6,
+            "high": t["high"] / len(used[name]) * 1e6,
+            "error": errors[name],
+        }
+        for name, t in timed.items()
+    }
+    return {"n": n, "rows": rows, "left_out": left_out}

@@ -1,0 +1,42 @@
+"""The whole lab beside the handout's own script, and beside the floor under both."""
+
+import shutil
+import subprocess
+import sys
+
+from bench.timing import take_turns
+from robo47 import menagerie
+from robo47.paths import ROOT
+
+LAB = ROOT / "w1-foundations/src/day1_transforms.py"
+HANDOUT = ROOT / "bench/handout_day1.py"
+
+
+def run(rounds: int = 9) -> dict:
+    """Time whole processes, warm, taking turns.
+
+    Args:
+        rounds: timed runs of each.
+
+    Returns:
+        {"seconds": {name: {"median", "low", "high"}}}.
+    """
+    folder = menagerie.panda_folder()
+    commands = {
+        "imports alone (python, numpy, mujoco)": [
+            sys.executable, "-c", "import numpy, mujoco",
+        ],
+        "our lab": [sys.executable, str(LAB), "--no-log"],
+    }  # fmt: skip
+    if shutil.which("make"):
+        commands["make day1"] = ["make", "day1", "ARGS=--no-log"]
+    if folder is not None:
+        xml = str(folder / "panda_nohand.xml")
+        commands["the handout's script, mended"] = [sys.executable, str(HANDOUT), xml]
+    candidates = {
+        name: lambda command=command: subprocess.run(
+            command, cwd=ROOT, check=True, capture_output=True
+        )
+        for name, command in commands.items()
+    }
+    return {"seconds": take_turns(candidates, rounds)}

@@ -1,0 +1,37 @@
+"""How long `make test` takes, and its ten slowest tests."""
+
+import re
+import subprocess
+import time
+
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+
+def run() -> dict:
+    """Run the tests once.
+
+    Returns:
+        {"seconds", "passed", "slowest": ["1.2s test_...", ...]}.
+
+    Raises:
+        Robo47Error: a test failed; a time without a pass says nothing.
+    """
+    start = time.perf_counter()
+    done = subprocess.run(
+        ["make", "test", "ARGS=-q --durations=10"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    seconds = time.perf_counter() - start
+    passed = re.search(r"(\d+) passed", done.stdout)
+    if done.returncode != 0 or not passed:
+        raise Robo47Error("`make test` fails: mend that before timing it")
+    slow = re.findall(r"^([\d.]+s) call +tests/\S+::(\S+)", done.stdout, re.MULTILINE)
+    return {
+        "seconds": seconds,
+        "passed": int(passed[1]),
+        "slowest": [f"{took} {name[:68]}" for took, name in slow],
+    }

@@ -1,0 +1,109 @@
+"""The results as plain text: ratios first, each with what it is a ratio of."""
+
+from typing import Any
+
+
+def render(results: dict[str, Any]) -> str:
+    """Return the tables of every part that has been run, in 80 columns.
+
+    Args:
+        results: what bench/results.json holds.
+    """
+    about = results["about"]
+    lines = [f"{about['date']}, {about['machine']}"]
+    tools = ("python", "mujoco", "numpy", "pin")
+    lines.append(", ".join(f"{name} {about[name]}" for name in tools if name in about))
+    parts = {
+        "fk": _fk,
+        "lab": _lab,
+        "growth": _growth,
+        "metrics": _metrics,
+        "checker": _checker,
+        "tests": _tests,
+        "first-minute": _first_minute,
+    }
+    for name, table in parts.items():
+        if name in results:
+            lines += ["", *table(results[name])]
+    return "\n".join(lines)
+
+
+def _fk(fk: dict[str, Any]) -> list[str]:
+    rows = fk["rows"]
+    ours = rows["robo47 fk"]["us"]
+    lines = [
+        f"Forward kinematics of the Panda, {fk['n']:,} configurations, one thread",
+        f"  {'':32}  {'us each':>8}  {'ours /':>6}  {'spread':>13}  {'error':>7}",
+    ]
+    for name, row in sorted(rows.items(), key=lambda item: item[1]["us"]):
+        spread = f"{row['low']:.3g}..{row['high']:.3g}"
+        lines.append(
+            f"  {name:32}  {row['us']:8.3f}  {ours / row['us']:6.3f}"
+            f"  {spread:>13}  {row['error']:7.0e}"
+        )
+    lines += [f"  left out: {name} ({why})" for name, why in fk["left_out"].items()]
+    return lines
+
+
+def _lab(lab: dict[str, Any]) -> list[str]:
+    seconds = lab["seconds"]
+    handout = seconds.get("the handout's script, mended")
+    lines = ["The lab, warm, as whole processes", f"  {'':38}  {'s':>5}  / handout's"]
+    for name, t in sorted(seconds.items(), key=lambda item: item[1]["median"]):
+        ratio = f"{t['median'] / handout['median']:8.2f}" if handout else ""
+        lines.append(f"  {name:38}  {t['median']:5.2f}  {ratio}")
+    return lines
+
+
+def _growth(growth: dict[str, Any]) -> list[str]:
+    counts = {f"1e{len(n) - 1}": us for n, us in growth["by_count"].items()}
+    return [
+        "How it grows, us per configuration",
+        *_two_rows("configurations", counts),
+        *_two_rows("joints", growth["by_joints"]),
+        f"  memory beyond input and output at most {growth['memory_mb']:.1f} MB",
+    ]
+
+
+def _two_rows(label: str, points: dict[str, float]) -> list[str]:
+    return [
+        f"  {label:14}" + "".join(f"{n:>6}" for n in points),
+        f"  {'':14}" + "".join(f"{us:6.2g}" for us in points.values()),
+    ]
+
+
+def _metrics(metrics: dict[str, Any]) -> list[str]:
+    empty, long = metrics["rows"]
+    lines = [
+        "One row of the metrics log",
+        f"  {'':28}  us at {empty} rows  us at {long:,}  / naive",
+    ]
+    for name, (first, last) in metrics["median_us"].items():
+        ratio = metrics["times_naive"][name][1]
+        lines.append(f"  {name:28}  {first:12.0f}  {last:15,.0f}  {ratio:7.1f}")
+    return lines
+
+
+def _checker(checker: dict[str, Any]) -> list[str]:
+    return [
+        "The checker, whole processes",
+        *(f"  {name:38}  {t['median']:5.2f} s" for name, t in checker.items()),
+    ]
+
+
+def _tests(tests: dict[str, Any]) -> list[str]:
+    return [
+        f"make test: {tests['passed']} tests, {tests['seconds']:.0f} s; the slowest",
+        *(f"  {line}" for line in tests["slowest"]),
+    ]
+
+
+def _first_minute(first: dict[str, Any]) -> list[str]:
+    got = first["downloaded_mb"]
+    return [
+        "The first minute: git clone and make day1, nothing cached",
+        f"  {first['seconds']:.0f} s to All checks PASSED"
+        + (f", {got:.0f} MB downloaded in all" if got is not None else ""),
+        f"  {first['robot_mb']:.1f} MB of it for the robot;"
+        f" the handout clones {first['handout_clone_mb']} MB",
+    ]

@@ -1,0 +1,229 @@
+"""scripts/log_metric.py, run as a person runs it."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from robo47.errors import Robo47Error
+from robo47.metrics import append_row, read_rows
+from robo47.metrics.header import LINE
+
+ROOT = Path(__file__).parent.parent
+SCRIPT = ROOT / "scripts" / "log_metric.py"
+OLD = "r,2026-09-01,1,fk,abc1234,0,home,manual,1,0,err,1e-16,note"
+FIELDS = ("check=fk", "metric=err", "value=1e-16")
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    return tmp_path / "metrics.csv"
+
+
+def run(log: Path, *words: str) -> subprocess.CompletedProcess:
+    done = subprocess.run(
+        [sys.executable, str(SCRIPT), "--file", str(log), *words],
+        capture_output=True,
+        encoding="utf-8",
+        env={**os.environ, "COLUMNS": "80", "PYTHONIOENCODING": "utf-8"},
+    )
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def test_a_row_is_added_from_the_shell(log):
+    done = run(log, "day=1", *FIELDS, "notes=a, b", "date=2026-09-01")
+    assert done.returncode == 0
+    assert "fk err = 1e-16" in done.stdout
+    (row,) = read_rows(log)
+    assert (row["day"], row["value"], row["notes"]) == (1, 1e-16, "a, b")
+    assert run(log, "--no-sync", *FIELDS).returncode == 0
+    assert len(read_rows(log)) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "a row needs check, metric, value. Example: check="),
+        (["check=fk"], "a row needs metric, value"),
+        ([*FIELDS, "vlaue=1"], 'Did you mean "value"?'),
+        ([*FIELDS, "path=1"], 'there is no field "path"'),
+        ([*FIELDS, "hello"], '"hello" is not FIELD=VALUE'),
+        ([*FIELDS, "check=x"], '"check" is given twice'),
+        (["check=fk", "metric=err", "value=nan"], "--allow-nonfinite"),
+        (["--check", *FIELDS], "not both"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(log, words, said):
+    done = run(log, *words)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert said in done.stderr
+    assert not log.exists()
+
+
+def test_a_non_finite_value_is_recorded_when_asked_for(log):
+    words = ("--allow-nonfinite", "check=fk", "metric=err", "value=nan")
+    assert run(log, *words).returncode == 0
+    assert log.read_text().endswith(",nan,\n")
+
+
+def test_a_warning_is_one_plain_line(log):
+    log.write_text(f"{LINE}\n{OLD}", newline="")
+    done = run(log, *FIELDS)
+    assert done.returncode == 0
+    assert done.stderr.startswith("warning: ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_help_teaches_and_fits_80_columns(log):
+    done = run(log, "--help")
+    assert "notes=" in done.stdout
+    assert max(len(line) for line in done.stdout.splitlines()) <= 80
+
+
+def test_check_is_content_with_a_good_log(log):
+    append_row(log, check="fk")
+    done = run(log, "--check")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "1 rows, 0 problems" in done.stdout
+
+
+def test_check_lists_every_bad_line_with_its_number_and_reason(log):
+    log.write_text(f"{LINE}\n{OLD}\ncut,2026\n{OLD},more\n{OLD}", newline="")
+    done = run(log, "--check")
+    assert done.returncode == 1
+    assert "line 3: 2 columns where 13 belong" in done.stdout
+    assert "line 4: it has commas outside quotes" in done.stdout
+    assert "line 5: it has no line end" in done.stdout
+    assert "3 rows, 3 problems" in done.stdout
+
+
+def test_check_says_what_is_wrong_with_the_header(log):
+    log.write_text(f"{LINE}\n{OLD}\n".replace(",", ";"))
+    done = run(log, "--check")
+    assert done.returncode == 1
+    assert "line 1: its columns are separated by semicolons" in done.stdout
+
+
+@pytest.mark.parametrize("what", ["--check", "--repair"])
+def test_a_log_that_cannot_be_read_is_told_in_one_line(log, what):
+    done = run(log, what)
+    assert done.returncode == 2
+    assert "does not exist" in done.stderr
+    log.mkdir()
+    done = run(log, what)
+    assert done.returncode == 2
+    assert "cannot be read" in done.stderr
+
+
+SWAPPED = LINE.replace("run_id,date", "date,run_id")
+SWAPPED_ROW = OLD.replace("r,2026-09-01", "2026-09-01,r")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        f"{LINE}\n{OLD}\n".encode("utf-16"),
+        f"{LINE}\n".encode() + f"{OLD}\r\n".encode("utf-16-le"),
+        f"{LINE}\n{OLD}\n".replace(",", ";").replace("1e-16", "0,1e-15").encode(),
+        f"{LINE}\n{OLD}\n".replace(",", "\t").encode(),
+        f"\n{LINE}\n\n{OLD}\n".encode(),
+        f"{OLD}\n".encode(),
+        f"{SWAPPED}\n{SWAPPED_ROW}\n".encode(),
+        f"\ufeff{LINE}\r\n{OLD}\r\n".encode(),
+        f"{LINE}\n{OLD}".encode(),
+        f'{LINE}\n"{OLD}"\n'.encode(),
+    ],
+    ids=[
+        "utf16",
+        "utf16-row",
+        "semicolons",
+        "tabs",
+        "blank lines",
+        "no header",
+        "order",
+        "bom-crlf",
+        "no line end",
+        "quoted line",
+    ],
+)
+def test_repair_writes_a_good_copy_and_leaves_the_log_alone(log, content):
+    log.write_bytes(content)
+    done = run(log, "--repair")
+    assert done.returncode == 0
+    assert log.read_bytes() == content
+    copy = log.with_name("metrics.mended.csv")
+    assert copy.read_text() == f"{LINE}\n{OLD}\n"
+    again = run(log, "--repair")
+    assert again.returncode == 0
+    assert log.with_name("metrics.mended-2.csv").exists()
+
+
+def test_repair_keeps_what_it_cannot_read_word_for_word(log):
+    log.write_text(f"{LINE}\n{OLD}\ncut,2026\n{OLD},more\n")
+    done = run(log, "--repair")
+    assert done.returncode == 1
+    assert "line 3: left out: 2 columns" in done.stdout
+    assert "line 4: mended: it has commas outside quotes" in done.stdout
+    assert log.with_name("metrics.mended.rest.txt").read_text() == "cut,2026\n"
+    copy = log.with_name("metrics.mended.csv")
+    assert [row["notes"] for row in read_rows(copy)] == ["note", "note,more"]
+    assert Path(f"{log}.repairs").read_text().count("\n") == 1
+
+
+def test_a_column_that_the_log_does_not_have_goes_to_the_notes(log):
+    log.write_text(f"{LINE},mood\n{OLD},good\n")
+    assert run(log, "--repair").returncode == 0
+    (row,) = read_rows(log.with_name("metrics.mended.csv"))
+    assert row["notes"] == "note mood=good"
+
+
+def test_refused_rows_are_offered_and_put_back(log):
+    log.write_text("something else\n")
+    for i in range(2):
+        with pytest.raises(Robo47Error):
+            append_row(log, check="fk", value=i)
+    assert "2 refused rows wait" in run(log, "--check").stdout
+    still = run(log, "--restore")
+    assert still.returncode == 2
+    assert "the rows are still in" in still.stderr
+    log.write_text(LINE + "\n")
+    done = run(log, "--restore")
+    assert (done.returncode, "2 rows put back" in done.stdout) == (0, True)
+    assert [row["value"] for row in read_rows(log)] == [0, 1]
+    assert "0 rows put back" in run(log, "--restore").stdout
+    assert run(log, "--check").returncode == 0
+
+
+def git(folder: Path, *words: str) -> None:
+    base = ["git", "-c", "user.name=t", "-c", "user.email=t@t"]
+    subprocess.run([*base, *words], cwd=folder, capture_output=True, check=True)
+
+
+def test_check_names_rows_that_a_union_merge_brought_back(log):
+    folder = log.parent
+    git(folder, "init", "-q", "-b", "main")
+    (folder / ".gitattributes").write_text("metrics.csv merge=union\n")
+    edited, deleted = OLD.replace("note", "first"), OLD.replace("note", "second")
+    log.write_text(f"{LINE}\n{OLD}\n{edited}\n{deleted}\n", newline="")
+    git(folder, "add", "-A")
+    git(folder, "commit", "-qm", "base")
+    git(folder, "checkout", "-qb", "side")
+    better = edited.replace("first", "better")
+    log.write_text(f"{LINE}\n{OLD}\n{better}\n", newline="")
+    git(folder, "commit", "-qam", "edit one, delete one")
+    git(folder, "checkout", "-q", "main")
+    with log.open("a", newline="") as file:
+        file.write(OLD.replace("note", "third") + "\n")
+    git(folder, "commit", "-qam", "add")
+    git(folder, "merge", "-q", "side", "-m", "both")
+    brought_back = [line for line in (edited, deleted) if line in log.read_text()]
+    assert brought_back
+    done = run(log, "--check")
+    assert done.returncode == 0
+    assert done.stdout.count("note, line") == len(brought_back)
+    for line in brought_back:
+        assert line[-40:] in done.stdout

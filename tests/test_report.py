@@ -1,0 +1,313 @@
+"""The report: every number right, every text harmless, good on a phone."""
+
+import html
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from robo47.errors import Robo47Error
+from robo47.metrics.header import LINE
+from robo47.metrics.rows import encode, normalise
+from robo47.metrics.scan import scan
+from robo47.report import page, plot
+from robo47.report.series import Report, Series, collect
+from robo47.report.thresholds import Threshold, load
+
+ROOT = Path(__file__).parent.parent
+SCRIPT = ROOT / "scripts" / "report_metrics.py"
+LIMITS = {("fk", "err"): Threshold(1, 1e-8, None)}
+EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
+
+
+def line(**fields: object) -> str:
+    base = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err"}
+    return encode(normalise(base | {"git_sha": "abc1234"} | fields, True))
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    return tmp_path / "metrics.csv"
+
+
+def report_on(log: Path, *lines: str, **filters) -> Report:
+    log.write_text("\n".join([LINE, *lines]) + "\n", encoding="utf-8")
+    return collect(scan(log), LIMITS, **filters)
+
+
+def run(*words: str) -> subprocess.CompletedProcess:
+    done = subprocess.run(
+        [sys.executable, str(SCRIPT), *words],
+        capture_output=True,
+        encoding="utf-8",
+        env={**os.environ, "COLUMNS": "80", "PYTHONIOENCODING": "utf-8"},
+    )
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def test_latest_best_runs_and_status_are_right(log):
+    report = report_on(log, *(line(value=v) for v in (1e-3, 1e-12, 1e-9)))
+    (series,) = report.series
+    assert [row["value"] for row in series.rows] == [1e-3, 1e-12, 1e-9]
+    assert (series.best, series.status, report.rows) == (1e-12, "pass", 3)
+
+
+@pytest.mark.parametrize(
+    ("value", "status"),
+    [(1e-8, "pass"), (1.1e-8, "fail"), (float("nan"), "fail"), (None, "fail")],
+)
+def test_a_value_passes_up_to_its_threshold(log, value, status):
+    assert report_on(log, line(value=value)).series[0].status == status
+
+
+def test_a_minimum_is_a_threshold_too(log):
+    limit = Threshold(4, None, 0.9)
+    series = Series((4, "reach", "rate"), limit)
+    series.rows = [normalise({"value": v}, False) for v in (0.95, 0.5)]
+    assert (series.best, series.status, str(limit)) == (0.95, "fail", "≥ 0.9")
+
+
+def test_what_the_manifest_asks_for_is_shown_before_it_is_run(log):
+    (series,) = report_on(log).series
+    assert (series.check, series.status) == ("fk", "none")
+    assert "not run yet" in page.render(report_on(log), "")
+
+
+def test_rows_that_a_merge_left_out_of_order_are_sorted_by_date(log):
+    report = report_on(
+        log, line(date="2026-09-02", value=2), line(date="2026-09-01", value=1)
+    )
+    assert [row["value"] for row in report.series[0].rows] == [1, 2]
+
+
+def test_the_filters_keep_what_they_name(log):
+    lines = [
+        line(value=1, date="2026-09-01"),
+        line(value=2, date="2026-09-05"),
+        line(value=3, day=2, check="ik", date="2026-09-05"),
+    ]
+
+    def kept(**filters) -> list:
+        report = report_on(log, *lines, **filters)
+        return [row["value"] for series in report.series for row in series.rows]
+
+    assert kept() == [1, 2, 3]
+    assert kept(since="2026-09-05") == [2, 3]
+    assert kept(day=2) == [3]
+    assert kept(check="fk") == [1, 2]
+
+
+def test_repaired_and_unreadable_lines_are_listed_not_hidden(log):
+    bad = ["cut,2026", line(value=1, notes="x") + ",with <b>commas</b>"]
+    text = page.render(report_on(log, *bad), "")
+    assert "Could not be read (1)" in text
+    assert "cut,2026" in text
+    assert "Repaired while reading (1)" in text
+    assert "with &lt;b&gt;commas&lt;/b&gt;" in text
+
+
+def test_text_from_the_log_is_shown_as_text(log):
+    fields = dict.fromkeys(("check", "metric", "notes", "config", "method"), EVIL)
+    report = report_on(log, line(value=1, git_sha=EVIL, **fields), EVIL)
+    text = page.render(report, EVIL)
+    assert "<script" not in text
+    assert "<img" not in text
+    assert html.escape(EVIL) in text
+
+
+def test_the_page_asks_for_nothing_from_outside(log):
+    text = page.render(report_on(log, line(value=1)), "")
+    assert not re.search(r"https?:|src=|href=|url\(|@import|<script|<link", text)
+
+
+def test_errors_get_a_log_axis_and_rates_a_linear_one():
+    def axis(metric: str, *values: float) -> bool:
+        series = Series((1, "c", metric), None)
+        series.rows = [normalise({"value": v}, False) for v in values]
+        return series.is_log
+
+    assert axis("inv_err", 1e-16, 1e-15)
+    assert axis("residual", 1.0, 1e-9)
+    assert not axis("rate", 0.5, 0.9)
+    assert not axis("err", -1, 1)
+    assert not axis("err", 0, 0)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        [0.0],
+        [0.0, 1e-16],
+        [1e-320, 1.7e308],
+        [-1.7e308, 1.7e308],
+        [5.0, 5.0],
+        [1.0, 1.0000000000000002],
+        [-3.0, 0.0, 4.0],
+        [1e-16] * 1000 + [1e-3],
+    ],
+)
+@pytest.mark.parametrize("metric", ["err", "rate"])
+def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
+    series = Series((1, "c", metric), Threshold(1, 1e-8, None))
+    series.rows = [normalise({"value": v, "git_sha": "abc1234"}, False) for v in values]
+    shapes = plot.draw(series)
+    places = [place for s in shapes if isinstance(s, plot.Path) for place in s.points]
+    places += [(s.x, s.y) for s in shapes if isinstance(s, plot.Dot)]
+    assert all(0 <= x <= plot.WIDTH and 0 <= y <= plot.HEIGHT for x, y in places)
+    assert plot.MOST + 20 > len(shapes) > 2
+
+
+def test_a_long_series_keeps_its_extremes_and_its_latest_run():
+    values = [1e-15] * 5000
+    values[1234], values[4321], values[-1] = 0.5, 1e-30, 2e-15
+    series = Series((1, "c", "err"), None)
+    series.rows = [normalise({"value": v}, False) for v in values]
+    tips = [s.tip for s in plot.draw(series) if isinstance(s, plot.Dot)]
+    for value in (0.5, 1e-30):
+        assert any(tip.startswith(repr(value)) for tip in tips)
+    assert tips[-1].startswith("2e-15")
+
+
+def test_each_point_names_its_commit(log):
+    text = page.render(
+        report_on(
+            log, line(value=1e-9, git_sha="1111111"), line(value=1e-9, git_sha="222")
+        ),
+        "",
+    )
+    assert "commit 1111111" in text
+    assert "commit 222" in text
+
+
+def test_the_weeks_manifest_of_this_kit_is_read():
+    limits = load()
+    assert limits["fk_identity_check", "inv_err"] == Threshold(1, 1e-10, None)
+    assert limits["fk_by_hand", "max_abs_err"] == Threshold(1, 1e-8, None)
+
+
+def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
+    assert load(tmp_path) == {}
+    (tmp_path / "w1-x").mkdir()
+    manifest = tmp_path / "w1-x" / "week.toml"
+    for text in ("[[days", "[[days]]\nnumber=1\n[[days.metrics]]\nmetric='m'"):
+        manifest.write_text(text)
+        with pytest.raises(Robo47Error, match=r"week\.toml"):
+            load(tmp_path)
+
+
+def test_the_command_writes_the_page_and_the_picture(log):
+    report_on(log, line(value=1e-9), "cut")
+    done = run("--file", str(log))
+    assert done.returncode == 0
+    assert "1 lines need a look" in done.stdout
+    assert "fk" in (log.parent / "report.html").read_text("utf-8")
+    with Image.open(log.parent / "report.png") as picture:
+        assert picture.size[0] > 2000
+        assert len(picture.getcolors(1 << 24) or []) > 20
+
+
+def test_the_command_works_without_pillow(log):
+    report_on(log, line(value=1e-9))
+    script = (
+        "import runpy, sys; sys.modules['PIL'] = None\n"
+        f"sys.argv = ['report', '--file', {str(log)!r}]\n"
+        f"runpy.run_path({str(SCRIPT)!r}, run_name='__main__')"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True
+    )
+    assert done.returncode == 0
+    assert "no picture: Pillow is not installed" in done.stdout
+    assert (log.parent / "report.html").exists()
+    assert not (log.parent / "report.png").exists()
+
+
+def test_an_empty_log_gives_a_page_that_says_what_to_do(log):
+    log.write_text(LINE + "\n")
+    done = run("--file", str(log), "--check", "nothing")
+    assert done.returncode == 0
+    assert "make day1" in (log.parent / "report.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("words", [["--file", "nowhere.csv"], ["--since", "soon"]])
+def test_a_mistake_is_told_without_a_traceback(words):
+    assert run(*words).returncode == 2
+
+
+def test_help_fits_80_columns():
+    assert max(len(text) for text in run("--help").stdout.splitlines()) <= 80
+
+
+def test_a_hundred_thousand_rows_make_a_small_page(log):
+    rows = [line(value=1e-9 / (i + 1), notes=f"run, {i}") for i in range(1000)]
+    log.write_text("\n".join([LINE, *rows * 100]) + "\n")
+    done = run("--file", str(log))
+    assert "100,000 rows" in done.stdout
+    assert (log.parent / "report.html").stat().st_size < 300_000
+
+
+# In a real browser.
+
+
+@pytest.fixture
+def chromium() -> str:
+    for name in ("chromium", "chromium-browser", "google-chrome"):
+        if found := shutil.which(name):
+            return found
+    if os.environ.get("ROBO47_CI"):
+        pytest.fail("CI must have Chromium: see .ci/run")
+    pytest.skip("no Chromium here (Debian, Ubuntu: sudo apt install chromium)")
+
+
+def dom(chromium: str, folder: Path, text: str) -> str:
+    """Return the page as Chromium has it after loading and running it."""
+    (folder / "page.html").write_text(text, "utf-8")
+    flags = "--headless --no-sandbox --disable-gpu --no-first-run"
+    flags += " --disable-background-networking --disable-dev-shm-usage --dump-dom"
+    done = subprocess.run(
+        [
+            chromium,
+            *flags.split(),
+            f"--user-data-dir={folder / 'profile'}",
+            (folder / "page.html").as_uri(),
+        ],
+        capture_output=True,
+        encoding="utf-8",
+        timeout=120,
+    )
+    return done.stdout
+
+
+MEASURE = """<body><iframe id=f style="width:{width}px;height:900px" srcdoc="{page}">
+</iframe><script>onload = () => {{
+  const d = document.getElementById('f').contentDocument;
+  const wide = [...d.querySelectorAll('.card, .tile, h3, dl, svg')]
+    .filter(e => e.getBoundingClientRect().right > {width} + 1).length;
+  document.title = [d.title, d.documentElement.scrollWidth, wide,
+    d.querySelectorAll('circle').length, d.querySelectorAll('.note').length,
+    d.querySelectorAll('script, img').length].join(' ');
+}}</script>"""
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_fits_and_runs_nothing_in_a_real_browser(
+    log, tmp_path, chromium, width
+):
+    lines = [line(value=v, notes=EVIL) for v in (1e-3, 1e-12, 0)]
+    lines.append(line(value=1, day=2, check="a_very_long_name" * 5, metric="m" * 90))
+    text = page.render(report_on(log, *lines, EVIL), EVIL)
+    harness = MEASURE.format(width=width, page=html.escape(text))
+    found = re.search(r"<title>(.*?)</title>", dom(chromium, tmp_path, harness))
+    assert found is not None
+    *title, scroll_width, too_wide, dots, note_cells, made = found[1].split()
+    assert " ".join(title) == "robo47 metrics"
+    assert int(scroll_width) <= width
+    assert (too_wide, made) == ("0", "0")
+    assert (dots, note_cells) == ("6", "6")
