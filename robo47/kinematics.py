@@ -168,11 +168,7 @@ def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:
 
 
 def frame_names(model: mujoco.MjModel) -> list[str]:
-    """Return the full name of every named body and site, bodies first.
-
-    Args:
-        model: any compiled MJCF model.
-    """
+    """Return the full name of every named body and site of a model, bodies first."""
     bodies = [model.body(i).name for i in range(model.nbody)]
     sites = [model.site(i).name for i in range(model.nsite)]
     return [f"body:{n}" for n in bodies if n] + [f"site:{n}" for n in sites if n]

@@ -81,13 +81,7 @@ def Rx(theta: ArrayLike) -> Array:
 
 
 def Ry(theta: ArrayLike) -> Array:
-    """Return the rotation by theta about the y axis.
-
-    Args:
-        theta: angle in radians, (...).
-
-    Returns:
-        Rotation matrix, (..., 3, 3).
+    """Return the rotation by theta, radians (...), about the y axis, (..., 3, 3).
 
     Raises:
         ValueError: a non-finite angle.
@@ -96,13 +90,7 @@ def Ry(theta: ArrayLike) -> Array:
 
 
 def Rz(theta: ArrayLike) -> Array:
-    """Return the rotation by theta about the z axis.
-
-    Args:
-        theta: angle in radians, (...).
-
-    Returns:
-        Rotation matrix, (..., 3, 3).
+    """Return the rotation by theta, radians (...), about the z axis, (..., 3, 3).
 
     Raises:
         ValueError: a non-finite angle.

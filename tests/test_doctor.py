@@ -1,7 +1,6 @@
 """The doctor: it answers on any machine, and says nothing of who asks."""
 
 import getpass
-import importlib.util
 import json
 import subprocess
 import sys
@@ -9,12 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from robo47 import doctor
 from robo47.paths import ROOT
-
-SCRIPT = ROOT / "scripts" / "doctor.py"
-spec = importlib.util.spec_from_file_location("doctor", SCRIPT)
-doctor = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(doctor)
 
 
 @pytest.fixture
@@ -64,7 +59,9 @@ def test_it_runs_on_a_bare_python(clone):
 
 def test_a_reader_that_leaves_early_gets_no_traceback():
     with subprocess.Popen(
-        [sys.executable, str(SCRIPT)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [sys.executable, str(ROOT / "scripts" / "doctor.py")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     ) as process:
         process.stdout.close()
         assert process.stderr.read() == b""
