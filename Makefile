@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor bench test-matrix
+.PHONY: start check hint run doctor bench test-matrix view
 .PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
@@ -23,6 +23,9 @@ help: ## this list
 
 day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
 	@$(PY) w1-foundations/src/day1_transforms.py $(ARGS)
+
+view: .venv/.ready-view $(ROBOT) ## the arm, its frames and the proof; ARGS=--web: in a browser
+	@$(PY) scripts/view_panda.py $(ARGS)
 
 start: .venv/.ready-core ## write your copy of DAY=1's lab; RESET=1.4 empties a task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)

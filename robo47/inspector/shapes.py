@@ -1,0 +1,113 @@
+"""What a MuJoCo model looks like: its visible geoms as triangle meshes per body.
+
+Geoms of the groups that MuJoCo's own viewer shows at start (0 to 2; collision shapes
+are in group 3), meshes as well as primitives. Metres.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from robo47 import se3
+from robo47.checks import Array
+
+VISIBLE_GROUPS = (0, 1, 2)
+Faces = NDArray[np.int32]
+Rgba = tuple[float, float, float, float]
+
+
+class Shape(NamedTuple):
+    """Everything of one body that has one colour.
+
+    Attributes:
+        body: its name.
+        rgba: colour and opacity, 0 to 1.
+        vertices: in the body's frame, metres, (n, 3).
+        faces: indices into vertices, (m, 3).
+    """
+
+    body: str
+    rgba: Rgba
+    vertices: Array
+    faces: Faces
+
+
+def shapes(model: mujoco.MjModel) -> list[Shape]:
+    """Return the model's looks, one shape per body and colour.
+
+    Args:
+        model: compiled with its meshes; planes and height fields are left out.
+    """
+    parts: dict[tuple[str, Rgba], list[tuple[Array, Faces]]] = {}
+    for geom in range(model.ngeom):
+        if model.geom_group[geom] in VISIBLE_GROUPS:
+            for vertices, faces in _triangles(model, geom):
+                R = se3.quat_to_R(model.geom_quat[geom])
+                placed = vertices @ R.T + model.geom_pos[geom]
+                body = model.body(model.geom_bodyid[geom]).name
+                key = body, _colour(model, geom)
+                parts.setdefault(key, []).append((placed, faces))
+    return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
+
+
+def _joined(parts: list[tuple[Array, Faces]]) -> tuple[Array, Faces]:
+    starts = np.cumsum([0] + [len(vertices) for vertices, _ in parts])
+    faces = [f + start for (_, f), start in zip(parts, starts[:-1], strict=True)]
+    return np.concatenate([v for v, _ in parts]), np.concatenate(faces)
+
+
+def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
+    material = model.geom_matid[geom]
+    rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
+    r, g, b, a = (float(x) for x in rgba)
+    return r, g, b, a
+
+
+def _triangles(model: mujoco.MjModel, geom: int) -> Iterator[tuple[Array, Faces]]:
+    """Yield the geom's triangles in its own frame; nothing for an endless shape."""
+    kind = mujoco.mjtGeom(model.geom_type[geom])
+    if kind == mujoco.mjtGeom.mjGEOM_MESH:
+        yield _mesh(model, model.geom_dataid[geom])
+    elif kind in _PRIMITIVES:
+        made = _PRIMITIVES[kind](model.geom_size[geom])
+        yield np.asarray(made.vertices), np.asarray(made.faces, dtype=np.int32)
+
+
+def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
+    """Return a mesh whose corners are split where the file's normals differ.
+
+    The browser smooths normals over shared corners; without the split every sharp
+    edge of the robot would look melted.
+    """
+    item = model.mesh(mesh)
+    first, count = int(item.faceadr[0]), int(item.facenum[0])
+    corners = model.mesh_face[first : first + count].ravel()
+    normals = model.mesh_facenormal[first : first + count].ravel()
+    pairs, faces = np.unique(
+        np.column_stack([corners, normals]), axis=0, return_inverse=True
+    )
+    vertices = model.mesh_vert[int(item.vertadr[0]) + pairs[:, 0]]
+    return vertices.astype(np.float64), faces.reshape(-1, 3).astype(np.int32)
+
+
+def _ellipsoid(size: Array) -> trimesh.Trimesh:
+    made = trimesh.creation.icosphere(subdivisions=3)
+    made.vertices *= size
+    return made
+
+
+_PRIMITIVES: dict[mujoco.mjtGeom, Callable[[Array], trimesh.Trimesh]] = {
+    mujoco.mjtGeom.mjGEOM_SPHERE: lambda s: _ellipsoid(np.full(3, s[0])),
+    mujoco.mjtGeom.mjGEOM_ELLIPSOID: _ellipsoid,
+    mujoco.mjtGeom.mjGEOM_BOX: lambda s: trimesh.creation.box(extents=2 * s),
+    mujoco.mjtGeom.mjGEOM_CAPSULE: lambda s: trimesh.creation.capsule(
+        radius=s[0], height=2 * s[1]
+    ),
+    mujoco.mjtGeom.mjGEOM_CYLINDER: lambda s: trimesh.creation.cylinder(
+        radius=s[0], height=2 * s[1], sections=48
+    ),
+}

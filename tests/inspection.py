@@ -1,0 +1,80 @@
+"""What the tests of the inspector share: a server to talk to, as a person starts it."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from queue import Queue
+
+ROOT = Path(__file__).resolve().parent.parent
+SCRIPT = ROOT / "scripts" / "view_panda.py"
+SECONDS = 60
+# Runs the script as if the robot had never been fetched.
+WITHOUT_ROBOT = (
+    "import runpy, sys; from robo47 import menagerie; "
+    f"menagerie.panda_folder = lambda: None; sys.argv[0] = {str(SCRIPT)!r}; "
+    "runpy.run_path(sys.argv[0], run_name='__main__')"
+)
+
+
+class Served:
+    """`view_panda.py --web` in a process of its own, ready to be looked at."""
+
+    def __init__(self, *arguments: str, robot: bool = True) -> None:
+        start = [str(SCRIPT)] if robot else ["-c", WITHOUT_ROBOT]
+        self.process = subprocess.Popen(
+            [sys.executable, *start, "--web", *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            encoding="utf-8",
+            cwd=ROOT,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+        self.lines: list[str] = []
+        self.ready: Queue[str] = Queue()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+        self.url = self.ready.get(timeout=SECONDS)
+        assert self.url, self.said
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append(line)
+            if found := re.search(r"http://127\.0\.0\.1:\d+", line):
+                self.ready.put(found[0])
+        self.ready.put("")  # it ended
+
+    @property
+    def said(self) -> str:
+        """Everything it printed so far."""
+        return "".join(self.lines)
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return int(self.url.rpartition(":")[2])
+
+    def press_ctrl_c(self) -> int:
+        """Do so, and return the exit code."""
+        windows = sys.platform == "win32"
+        self.process.send_signal(
+            signal.CTRL_BREAK_EVENT if windows else signal.SIGINT  # type: ignore[attr-defined]
+        )
+        code = self.process.wait(timeout=SECONDS)
+        self.reader.join(timeout=SECONDS)
+        return code
+
+    def close(self) -> None:
+        """End it, whatever state it is in."""
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait(timeout=SECONDS)
+        self.reader.join(timeout=SECONDS)
+        assert self.process.stdout is not None
+        self.process.stdout.close()

@@ -1,0 +1,192 @@
+"""Who may talk to the inspector: this machine's own browsers, and nobody else."""
+
+import importlib.util
+import socket
+import urllib.error
+import urllib.request
+from queue import Queue
+
+import pytest
+from conftest import need
+from inspection import SECONDS, Served
+
+
+def here(module: str) -> bool:
+    return importlib.util.find_spec(module) is not None
+
+
+@pytest.fixture(autouse=True)
+def viser():
+    need(here("viser"), "viser: make view")
+    import viser
+
+    return viser
+
+
+@pytest.fixture(scope="module")
+def served():
+    need(here("viser"), "viser: make view")
+    server = Served("--port", "0")
+    yield server
+    server.close()
+
+
+def connect(port: int, host: str | None = None, origin: str | None = None) -> None:
+    """Open a WebSocket as the page at some address would, and close it."""
+    import viser
+    from websockets.sync.client import connect
+
+    with (
+        socket.create_connection(("127.0.0.1", port)) as wire,
+        connect(
+            f"ws://{host or f'127.0.0.1:{port}'}/",
+            sock=wire,
+            origin=origin,
+            subprotocols=[f"viser-v{viser.__version__}"],
+            compression=None,
+            max_size=None,
+        ) as page,
+    ):
+        assert page.recv(timeout=30)  # the scene
+
+
+def get(port: int, host: str) -> int:
+    """Return the status of a request for the page that names this host."""
+    request = urllib.request.Request(
+        f"http://127.0.0.1:{port}/", headers={"Host": host}
+    )
+    try:
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.status
+    except urllib.error.HTTPError as refused:
+        with refused:
+            return refused.code
+
+
+def test_its_own_page_may_connect_by_every_name_of_this_machine(served):
+    for name in ("127.0.0.1", "localhost", "[::1]"):
+        host = f"{name}:{served.port}"
+        connect(served.port, host, f"http://{host}")
+        assert get(served.port, host) == 200
+
+
+def test_a_tunnel_may_end_at_another_port(served):
+    """As with ssh -L 9000:127.0.0.1:8080."""
+    connect(served.port, "localhost:9000", "http://localhost:9000")
+    assert get(served.port, "localhost:9000") == 200
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "http://evil.example",
+        "https://127.0.0.1",
+        "http://127.0.0.1:1",  # another program's page on this machine
+        "http://127.0.0.1.evil.example",
+        "null",  # a file, or a sandboxed frame
+        None,  # not a browser
+    ],
+)
+def test_a_websocket_from_any_other_page_is_refused(served, origin):
+    from websockets.exceptions import InvalidStatus
+
+    with pytest.raises(InvalidStatus) as refused:
+        connect(served.port, origin=origin)
+    assert refused.value.response.status_code == 403
+
+
+@pytest.mark.parametrize(
+    "name", ["evil.example", "localhost.evil.example", "0.0.0.0", "evil@127.0.0.1"]
+)
+def test_a_page_that_rebinds_its_name_to_this_machine_is_refused(served, name):
+    from websockets.exceptions import InvalidStatus
+
+    host = f"{name}:{served.port}"
+    with pytest.raises(InvalidStatus) as refused:
+        connect(served.port, host.rpartition("@")[2], f"http://{host}")
+    assert refused.value.response.status_code == 403
+    assert get(served.port, host) == 403
+
+
+def test_it_listens_on_the_loopback_address_alone(served):
+    need(here("psutil"), "psutil: scripts/setup_env.py browser")
+    import psutil
+
+    tree = [psutil.Process(served.process.pid)]
+    tree += tree[0].children(recursive=True)
+    listening = [
+        c.laddr
+        for process in tree
+        for c in process.net_connections(kind="all")
+        if c.status == psutil.CONN_LISTEN
+    ]
+    assert listening == [("127.0.0.1", served.port)]
+
+
+@pytest.fixture
+def tunnels(viser, monkeypatch) -> Queue:
+    """Record every share tunnel that viser would open, and open none."""
+    opened: Queue = Queue()
+
+    class Recorded:
+        def __init__(self, *_: object) -> None:
+            opened.put("a tunnel")
+            raise RuntimeError("recorded, not opened")
+
+    monkeypatch.setattr("viser._viser.ViserTunnel", Recorded)
+    return opened
+
+
+def ask_to_share(viser, port: int) -> None:
+    """Ask for a public share link, as any client can, and wait for an answer."""
+    import msgspec
+    from websockets.sync.client import connect
+
+    host = f"127.0.0.1:{port}"
+    with connect(
+        f"ws://{host}/",
+        origin=f"http://{host}",
+        subprotocols=[f"viser-v{viser.__version__}"],
+        compression=None,
+        max_size=None,
+    ) as page:
+        page.recv(timeout=30)
+        page.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
+
+
+def test_no_client_can_have_it_open_a_public_tunnel(viser, tunnels, monkeypatch):
+    from robo47.inspector.guard import LocalServer
+
+    answers: Queue = Queue()
+    refuse = LocalServer.request_share_url
+    monkeypatch.setattr(
+        LocalServer, "request_share_url", lambda self: answers.put(refuse(self))
+    )
+    server = LocalServer(0)
+    try:
+        ask_to_share(viser, server.get_port())
+        assert answers.get(timeout=SECONDS) is None
+    finally:
+        server.stop()
+    assert tunnels.empty()
+
+
+def test_the_same_request_does_open_one_in_viser_left_alone(viser, tunnels):
+    """Without this the test above could pass for want of a real request."""
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        ask_to_share(viser, server.get_port())
+        assert tunnels.get(timeout=SECONDS) == "a tunnel"
+    finally:
+        server.stop()
+
+
+def test_a_viser_whose_doors_cannot_be_watched_is_not_used(viser, monkeypatch):
+    from contextlib import nullcontext
+
+    from robo47.errors import Robo47Error
+    from robo47.inspector import guard
+
+    monkeypatch.setattr(guard, "_watched_doors", lambda: nullcontext([]))
+    with pytest.raises(Robo47Error, match="Install the pinned one"):
+        guard.LocalServer(0)

@@ -1,0 +1,370 @@
+"""The inspector as a student meets it: in a real browser, with the mouse."""
+
+import importlib.util
+import io
+import shutil
+import time
+import urllib.parse
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import need
+from inspection import Served
+
+from robo47 import panda, se3, verify
+from robo47.checks import Array
+
+pytestmark = pytest.mark.browser
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--no-first-run",
+]
+MILLISECONDS = 60_000  # software rendering on a busy machine
+SHOWN = 6e-7  # a matrix is shown with 6 decimals
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory) -> Iterator[Any]:
+    for module in ("viser", "playwright"):
+        found = importlib.util.find_spec(module) is not None
+        need(found, f"{module}: python scripts/setup_env.py view browser")
+    need(CHROMIUM is not None, "Chromium: apt install chromium")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="module")
+def served(browser) -> Iterator[Served]:
+    server = Served("--port", "0")
+    yield server
+    server.close()
+
+
+class Page:
+    """The inspector's page, read and moved as a person would."""
+
+    def __init__(self, browser: Any, url: str) -> None:
+        self.tab = browser.new_page(viewport={"width": 1280, "height": 800})
+        self.tab.set_default_timeout(MILLISECONDS)
+        self.asked: list[str] = []
+        self.tab.on("request", lambda request: self.asked.append(request.url))
+        self.tab.goto(url)
+        self.wait()
+
+    def wait(self) -> None:
+        self.tab.wait_for_selector("[data-matrix=by-hand]")
+
+    def matrix(self, key: str) -> Array:
+        text = self.tab.locator(f"[data-matrix={key}]:visible").inner_text()
+        return np.array(text.split(), dtype=float).reshape(4, 4)
+
+    def line(self, key: str) -> str:
+        return self.tab.locator(f"[data-line={key}]:visible").first.inner_text()
+
+    def until(self, true: Callable[[], bool]) -> None:
+        """Wait for the page to say so; fail with what it says instead."""
+        deadline = time.monotonic() + MILLISECONDS / 1000
+        while time.monotonic() < deadline:
+            if true():
+                return
+            self.tab.wait_for_timeout(100)
+        raise AssertionError(f"still: {self.tab.inner_text('body')}")
+
+    def press(self, name: str) -> None:
+        self.tab.get_by_role("button", name=name, exact=True).click()
+
+    def open(self, tab: str) -> None:
+        self.tab.get_by_role("tab", name=tab).click()
+
+    def choose(self, label: str, option: str) -> None:
+        self.tab.get_by_label(label, exact=True).click()
+        self.tab.get_by_role("option", name=option).click()
+
+    def slider(self, joint: int) -> Any:
+        return self.tab.get_by_role("slider").nth(joint - 1)
+
+    def angle(self, joint: int) -> float:
+        return float(self.slider(joint).get_attribute("aria-valuenow"))
+
+    def angles(self) -> Array:
+        return np.array([self.angle(joint) for joint in range(1, 8)])
+
+    def drag(self, joint: int, pixels: int) -> None:
+        box = self.slider(joint).bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.tab.mouse.move(x, y)
+        self.tab.mouse.down()
+        self.tab.mouse.move(x + pixels / 2, y, steps=3)
+        self.tab.mouse.move(x + pixels, y, steps=3)
+        self.tab.mouse.up()
+
+    def picture(self) -> Array:
+        """The part of the canvas beside the panel and the notices, (h, w, 3)."""
+        from PIL import Image
+
+        clip = {"x": 320, "y": 190, "width": 550, "height": 600}
+        shot = self.tab.screenshot(clip=clip)
+        return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"), dtype=float)
+
+
+@pytest.fixture(scope="module")
+def first_page(browser, served) -> Page:
+    return Page(browser, served.url)
+
+
+@pytest.fixture
+def page(first_page) -> Page:
+    """The page with the arm at the ready."""
+    first_page.open("Joints")
+    first_page.press("ready")
+    first_page.until(lambda: close(first_page.angles(), panda.READY_Q))
+    return first_page
+
+
+@pytest.fixture(scope="module")
+def model():
+    return panda.load("panda_nohand")
+
+
+def truth(model: Any, q: Array, frame: str = "site:attachment_site") -> Array:
+    return verify.mujoco_poses(model, np.asarray(q)[None])[frame][0]
+
+
+def close(a: Array, b: Array) -> bool:
+    return bool(np.abs(a - b).max() < SHOWN)
+
+
+def arm_pixels(picture: Array) -> int:
+    """Count what is brighter than the backdrop: the arm's white links."""
+    return int((picture.min(axis=2) > 216).sum())
+
+
+@pytest.mark.meshes
+def test_the_page_shows_the_arm_with_its_meshes_and_triads(page, real_panda):
+    page.until(lambda: arm_pixels(page.picture()) > 5_000)
+    picture = page.picture()
+    red, green, blue = (picture[..., i] for i in range(3))
+    assert (red - np.maximum(green, blue) > 80).sum() > 50
+    assert (green - np.maximum(red, blue) > 80).sum() > 50
+    assert (blue - np.maximum(red, green) > 80).sum() > 50
+
+
+@pytest.mark.meshes
+def test_the_arm_can_be_made_solid(page, real_panda):
+    def dark() -> int:  # the black rings of links 4 and 6, when nothing shines through
+        return int((page.picture().max(axis=2) < 70).sum())
+
+    see_through = page.tab.get_by_role("checkbox")
+    see_through.click()
+    page.until(lambda: dark() > 500)
+    see_through.click()
+    page.until(lambda: dark() < 100)
+
+
+def test_the_page_asks_nobody_else_for_anything(page, served):
+    hosts = {
+        urllib.parse.urlsplit(url.removeprefix("blob:")).netloc
+        for url in page.asked
+        if not url.startswith("data:")
+    }
+    assert hosts == {f"127.0.0.1:{served.port}"}
+
+
+def test_both_matrices_are_mujocos_pose_of_the_ready_arm(page, model):
+    expected = truth(model, panda.READY_Q)
+    for key in ("mujoco", "by-hand"):
+        np.testing.assert_allclose(page.matrix(key), expected, atol=SHOWN)
+    difference = page.tab.locator("[data-line=difference]").first
+    assert "they agree" in difference.inner_text()
+    assert difference.evaluate("e => getComputedStyle(e).color") == "rgb(46, 125, 50)"
+
+
+def test_dragging_joint2_moves_the_arm_to_that_angle(page, model):
+    page.drag(2, 40)
+    page.until(lambda: page.angle(2) > panda.READY_Q[1] + 0.3)
+    q = panda.READY_Q.copy()
+    q[1] = page.angle(2)
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+    page.until(lambda: close(page.matrix("by-hand"), truth(model, q)))
+    assert f"{q[1]:.5g}" in page.line("q")
+
+
+def test_an_angle_can_be_typed(page, model):
+    row = page.slider(4).locator(
+        "xpath=ancestor::*[.//input[@inputmode or @type='text']][1]"
+    )
+    row.locator("input[inputmode], input[type=text]").first.fill("-1.25")
+    page.tab.keyboard.press("Enter")
+    q = panda.READY_Q.copy()
+    q[3] = -1.25
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+
+
+def test_the_buttons_take_the_arm_home_to_zero_and_anywhere(page, model):
+    page.press("home")
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, panda.home_q(model))))
+    page.press("zero")
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, np.zeros(7))))
+    before = page.matrix("mujoco")
+    page.press("random")
+    page.until(lambda: not close(page.matrix("mujoco"), before))
+    page.until(lambda: close(page.matrix("by-hand"), truth(model, page.angles())))
+
+
+def test_zero_is_said_to_be_out_of_limits_and_ready_is_not(page):
+    warning = page.tab.locator("[data-line=limits]")
+    assert warning.count() == 0
+    page.press("zero")
+    warning.wait_for()
+    assert "OUT OF LIMITS: joint4 = 0.0000" in warning.inner_text()
+    page.press("ready")
+    warning.wait_for(state="detached")
+
+
+def test_another_frame_can_be_chosen(page, model):
+    page.choose("Frame", "link4")
+    expected = truth(model, panda.READY_Q, "body:link4")
+    page.until(lambda: close(page.matrix("mujoco"), expected))
+    assert "T_world_link4, MuJoCo" in page.tab.inner_text("body")
+    page.choose("Frame", "ee")
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, panda.READY_Q)))
+
+
+def test_the_steps_show_the_product_of_each_link(page, model):
+    page.open("Chain")
+    page.choose("Link", "link3")
+    page.until(lambda: "T_world_link3 = T_world_link2 @" in page.line("step"))
+    page.press("next")
+    page.until(lambda: "T_world_link4 = T_world_link3 @" in page.line("step"))
+    product = page.matrix("before") @ page.matrix("factor")
+    np.testing.assert_allclose(page.matrix("product"), product, atol=4 * SHOWN)
+    expected = truth(model, panda.READY_Q, "body:link4")
+    np.testing.assert_allclose(page.matrix("product"), expected, atol=SHOWN)
+    page.press("back")
+    page.until(lambda: "T_world_link3 =" in page.line("step"))
+    page.choose("Link", "all frames")
+    page.until(lambda: "Pick a link" in page.line("step"))
+
+
+def test_play_lights_the_frames_one_after_the_other_up_to_the_end(page):
+    page.open("Chain")
+    page.press("play")
+    seen: list[str] = []
+
+    def at_the_end() -> bool:
+        line = page.line("step").partition(":")[0]
+        if not seen or seen[-1] != line:
+            seen.append(line)
+        return line == "step 9 of 9"
+
+    page.until(at_the_end)
+    seen = [line for line in seen if line.startswith("step")]
+    assert seen == sorted(seen)
+    assert len(seen) >= 4
+    page.choose("Link", "all frames")
+    page.until(lambda: "Pick a link" in page.line("step"))
+
+
+def test_t_extra_on_either_side_is_shown_with_its_product(page, model):
+    T_world_ee = truth(model, panda.READY_Q)
+    T_extra = se3.make_T(se3.Rz(0.7854), [0.1, 0, 0])
+    page.open("Order")
+    page.choose("T_extra", "right")
+    page.until(lambda: "own axes" in page.line("says"))
+    np.testing.assert_allclose(page.matrix("order"), T_world_ee @ T_extra, atol=SHOWN)
+    page.choose("T_extra", "left")
+    page.until(lambda: "whole arm" in page.line("says"))
+    np.testing.assert_allclose(page.matrix("order"), T_extra @ T_world_ee, atol=SHOWN)
+    apart = np.linalg.norm((T_world_ee @ T_extra - T_extra @ T_world_ee)[:3, 3])
+    assert f"{apart:.4f} m apart" in page.line("apart")
+    page.choose("T_extra", "off")
+    page.until(lambda: "two places" in page.line("says"))
+
+
+def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
+    page.drag(2, 30)
+    page.until(lambda: page.angle(2) > panda.READY_Q[1] + 0.2)
+    angle = page.angle(2)
+    page.tab.reload()
+    page.wait()
+    page.until(lambda: abs(page.angle(2) - angle) < 1e-9)
+    page.drag(2, -30)
+    page.until(lambda: page.angle(2) < angle - 0.2)
+    q = panda.READY_Q.copy()
+    q[1] = page.angle(2)
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+
+
+def test_two_browsers_see_the_same_arm(page, browser, served, model):
+    other = Page(browser, served.url)
+    try:
+        page.drag(2, 40)
+        page.until(lambda: page.angle(2) > panda.READY_Q[1] + 0.3)
+        q = panda.READY_Q.copy()
+        q[1] = page.angle(2)
+        for each in (page, other):
+            each.until(lambda each=each: close(each.matrix("mujoco"), truth(model, q)))
+        other.until(lambda: abs(other.angle(2) - q[1]) < 1e-9)
+        other.press("home")
+        home = truth(model, panda.home_q(model))
+        page.until(lambda: close(page.matrix("by-hand"), home))
+    finally:
+        other.tab.close()
+
+
+def test_ctrl_c_ends_it_with_a_page_open(browser):
+    server = Served("--port", "0")
+    try:
+        page = Page(browser, server.url)
+        assert server.press_ctrl_c() == 0, server.said
+        assert server.said.endswith("inspector stopped\n")
+        assert "Traceback" not in server.said
+        page.tab.close()
+    finally:
+        server.close()
+
+
+def test_a_foreign_page_cannot_connect_in_a_real_browser_either(browser, served):
+    tab = browser.new_page()
+    tab.goto("data:text/html,<p>a page from elsewhere</p>")
+    ended = tab.evaluate(
+        """url => new Promise(end => {
+            const socket = new WebSocket(url, ['viser-v0']);
+            socket.onopen = () => end('open');
+            socket.onerror = () => end('refused');
+        })""",
+        served.url.replace("http", "ws"),
+    )
+    tab.close()
+    assert ended == "refused"
+
+
+def test_without_the_robot_the_twin_is_drawn_and_the_page_says_so(browser):
+    server = Served("--port", "0", robot=False)
+    try:
+        page = Page(browser, server.url)
+        assert "simple shapes stand in" in page.line("about")
+        assert "simple shapes stand in" in server.said
+        page.until(lambda: arm_pixels(page.picture()) > 5_000)
+        assert "they agree" in page.line("difference")
+        page.tab.close()
+    finally:
+        server.close()
+
+
+def test_nothing_went_wrong_on_the_servers_side(served):
+    """Last, so that it judges the whole module."""
+    assert "Traceback" not in served.said
+    assert "Error" not in served.said

@@ -1,0 +1,190 @@
+"""`scripts/view_panda.py`: what it says and how it ends, whatever the machine has."""
+
+import importlib.util
+import re
+import socket
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT, need
+from inspection import SCRIPT, Served
+
+VIEW = "scripts/view_panda.py"
+NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
+ON_LINUX = sys.platform.startswith("linux")
+
+
+@pytest.fixture
+def viser() -> None:
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+
+
+def run_after(preparation: str, *arguments: object) -> subprocess.CompletedProcess[str]:
+    """Run the script in a Python that was prepared first."""
+    code = (
+        f"import runpy, sys; sys.argv[:] = {[str(SCRIPT), *map(str, arguments)]!r}\n"
+        f"{preparation}\n"
+        "runpy.run_path(sys.argv[0], run_name='__main__')"
+    )
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+def is_one_line(text: str) -> bool:
+    return text.startswith("error: ") and text.count("\n") == 1
+
+
+def test_help_shows_every_way_to_look_and_fits_80_columns(run):
+    said = run(VIEW, "--help", COLUMNS=80).stdout
+    for way in ("--web", "--native", "--screenshot", "--port", "make view"):
+        assert way in said
+    assert max(map(len, said.splitlines())) <= 80
+
+
+def test_it_prints_the_robot_the_address_and_one_ssh_line(viser):
+    server = Served("--port", "0")
+    try:
+        server.press_ctrl_c()
+    finally:
+        server.close()
+    lines = server.said.splitlines()
+    assert lines[0].startswith("robot: Franka Panda (panda_nohand), ")
+    assert lines[1].startswith(f"inspector: {server.url} ")
+    ssh = [line.strip() for line in lines if line.strip().startswith("ssh ")]
+    assert len(ssh) == 1
+    end = f"{server.port}:127.0.0.1:{server.port}"
+    assert re.fullmatch(rf"ssh -L {end} \S+@\S+", ssh[0])
+    assert "viser" not in server.said  # its own banner would say it all twice
+
+
+def test_ctrl_c_ends_it_with_one_word_and_exit_code_0(viser):
+    server = Served("--port", "0")
+    try:
+        assert server.press_ctrl_c() == 0
+    finally:
+        server.close()
+    assert server.said.endswith("\ninspector stopped\n")
+    assert "Traceback" not in server.said
+
+
+def test_a_taken_port_moves_to_the_next_free_one_and_says_so(viser):
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        taken = other.getsockname()[1]
+        server = Served("--port", str(taken))
+        server.close()
+    assert server.port > taken
+    assert f"port {taken} is taken; using {server.port}\n" in server.said
+
+
+def test_two_inspectors_at_once_get_a_port_each(viser):
+    first = Served("--port", "0")
+    try:
+        second = Served("--port", str(first.port))
+        second.close()
+    finally:
+        first.close()
+    assert second.port != first.port
+
+
+def test_no_free_port_at_all_is_one_clear_line(viser, monkeypatch):
+    from robo47.errors import Robo47Error
+    from robo47.inspector import serve
+
+    monkeypatch.setattr(serve, "PORTS_TRIED", 1)
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        with pytest.raises(Robo47Error, match="choose another, such as --port"):
+            serve.free_port(other.getsockname()[1])
+
+
+@pytest.mark.parametrize("wrong", ["70000", "-1", "http"])
+def test_a_port_that_is_none_is_refused(run, wrong):
+    done = run(VIEW, "--web", f"--port={wrong}")
+    assert done.returncode == 2
+    assert "argument --port" in done.stderr
+
+
+def test_without_viser_it_names_the_command_that_installs_it():
+    hide = (
+        "import importlib.util as u; find = u.find_spec\n"
+        "u.find_spec = lambda name, *a: None if name == 'viser' else find(name, *a)"
+    )
+    done = run_after(hide, "--web")
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert "`make view` installs it" in done.stderr
+
+
+@pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
+def test_without_a_display_the_window_is_refused_in_one_line_that_names_web(run):
+    done = run(VIEW, "--native", **NO_DISPLAY)
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert "no display" in done.stderr
+    assert "--web" in done.stderr
+
+
+@pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
+def test_a_display_that_is_not_there_does_not_end_the_process_by_surprise(run):
+    done = run(VIEW, "--native", DISPLAY=":4747", WAYLAND_DISPLAY="")
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert "--web" in done.stderr
+
+
+@pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
+def test_without_a_display_the_browser_is_the_default(run):
+    hide = (
+        "import os, importlib.util as u; find = u.find_spec\n"
+        "os.environ.update(DISPLAY='', WAYLAND_DISPLAY='')\n"
+        "u.find_spec = lambda name, *a: None if name == 'viser' else find(name, *a)"
+    )
+    done = run_after(hide)
+    assert "no window: there is no display" in done.stderr
+    assert "the inspector needs viser" in done.stderr
+
+
+FIGURES = """
+import types
+figures = types.ModuleType("robo47.figures")
+class Picture:
+    def __init__(self, q): self.q = q
+    def save(self, path): path.write_text(repr(self.q.tolist()))
+figures.render_panda = Picture
+sys.modules["robo47.figures"] = figures
+"""
+
+
+def test_a_screenshot_is_of_the_configuration_that_was_asked_for(tmp_path):
+    path = tmp_path / "new" / "arm.png"
+    done = run_after(FIGURES, "--screenshot", path, "--start", "zero")
+    assert done.returncode == 0, done.stderr
+    assert path.read_text() == repr([0.0] * 7)
+    assert "wrote " in done.stdout
+
+
+def test_a_screenshot_never_replaces_a_file(tmp_path):
+    path = tmp_path / "mine.png"
+    path.write_text("mine")
+    done = run_after(FIGURES, "--screenshot", path)
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert path.read_text() == "mine"
+
+
+def test_without_the_means_to_draw_a_screenshot_says_what_installs_them(tmp_path):
+    path = tmp_path / "arm.png"
+    done = run_after("sys.modules['robo47.figures'] = None", "--screenshot", path)
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert not path.exists()
