@@ -39,8 +39,12 @@ class Served:
         self.ready: Queue[str] = Queue()
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
-        self.url = self.ready.get(timeout=SECONDS)
-        assert self.url, self.said
+        try:
+            self.url = self.ready.get(timeout=SECONDS)
+            assert self.url, self.said
+        except BaseException:
+            self.close()
+            raise
 
     def _read(self) -> None:
         assert self.process.stdout is not None
