@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor bench test-matrix view
+.PHONY: start check hint run doctor bench test-matrix setup view
 .PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
@@ -76,8 +76,14 @@ bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in it
 .venv-bench/.ready-bench: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
 
-.venv/.ready-%: pyproject.toml constraints.txt
+setup: ## make .venv anew, when it is broken
+	@$(PYTHON) scripts/setup_env.py --anew
+
+.venv/.ready-%: pyproject.toml constraints.txt $(PY)
 	@$(PYTHON) scripts/setup_env.py $*
+
+# No recipe: a .venv whose Python is gone makes the line above run.
+$(PY):
 
 # A student without a network still gets a lab: the embedded twin stands in.
 mujoco_menagerie/PROVENANCE.json: | .venv/.ready-core

@@ -1,11 +1,15 @@
 """What every command of the kit does the same way: end well."""
 
+import errno
 import sys
 import warnings
 from collections.abc import Callable
+from pathlib import Path
 
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
+_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
 EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
 
 
@@ -25,10 +29,16 @@ def run(main: Callable[[], int]) -> None:
     except NotImplementedError as gap:  # a task of a starter that is still to do
         print(f"to do: {gap}", file=sys.stderr)
         code = EXIT_FAILED
-    except KeyboardInterrupt:
-        print("\nstopped", file=sys.stderr)
-        code = 130
     except BrokenPipeError:  # `... | head` closed early: nobody is left to tell
         sys.stdout = None  # type: ignore[assignment]
         code = EXIT_OK
+    except OSError as error:  # the machine's no, not a mistake of ours
+        if error.errno not in _REFUSALS or not error.filename:
+            raise
+        where = shown(Path(error.filename).absolute())
+        print(f"error: {where}: {error.strerror}. Mend that.", file=sys.stderr)
+        code = EXIT_CANNOT_RUN
+    except KeyboardInterrupt:
+        print("\nstopped", file=sys.stderr)
+        code = 130
     sys.exit(code)

@@ -6,6 +6,7 @@ everything that can fail is tried in a process of its own.
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import platform
@@ -13,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -113,8 +115,8 @@ def check_python(python: str) -> Line:
         )
     if not own:
         broken = VENV_PYTHON.exists()
-        why = ".venv does not start; delete it, then: " if broken else "Set up: "
-        return Line("todo", "Python", found, why + "make day1")
+        remedy = ".venv does not start: make setup" if broken else "Set up: make day1"
+        return Line("todo", "Python", found, remedy)
     return Line("good", "Python", found)
 
 
@@ -135,7 +137,7 @@ def check_mujoco(python: str) -> Line:
     if "mujoco" not in installed:
         return Line("todo", "MuJoCo", "not installed", "make day1")
     found = "{} does not work: {}".format(installed["mujoco"], why)
-    if not installed["mujoco"].startswith("3."):
+    if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
         where = VENV_PYTHON.relative_to(ROOT).as_posix()
         return Line(
@@ -146,7 +148,7 @@ def check_mujoco(python: str) -> Line:
             + " -m pip install --force-reinstall --no-deps"
             + " mujoco mujoco-core mujoco-studio",
         )
-    return Line("todo", "MuJoCo", found, "Delete .venv, then: make day1")
+    return Line("todo", "MuJoCo", found, "make setup")
 
 
 def check_robot(python: str) -> Line:
@@ -154,13 +156,13 @@ def check_robot(python: str) -> Line:
     found, why = probe(python, ROBOT_PROBE)
     fetch = "python scripts/fetch_menagerie.py"
     if found is None:
-        return Line("todo", "robot", why, "Mend the lines above first.")
+        return Line("todo", "robot", why.split("Robo47Error: ")[-1])
     if "files" not in found:
         says = "not fetched; the labs run on the embedded twin"
         return Line("note", "robot", says, "With a network: " + fetch)
-    broken = found["missing"] + found["changed"]
+    broken = sorted({*found["missing"], *found["changed"]})
     if broken:
-        remedy = "Delete that folder, then: " + fetch
+        remedy = "Delete " + found["folder"] + ", then: " + fetch
         return Line("todo", "robot", "not as fetched: " + ", ".join(broken), remedy)
     where = found["commit"] or "sha256 " + found["content"]
     hashes = "{} files match".format(found["files"]) if found["files"] else "no hashes"
@@ -181,7 +183,7 @@ def check_gl(python: str) -> Line:
             "todo",
             "pictures",
             "nothing draws (" + why + ")",
-            "On Debian or Ubuntu: sudo apt install libegl1 libgl1 libosmesa6",
+            "Debian, Ubuntu: sudo apt install libegl1 libgl1 libosmesa6",
         )
     return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
 
@@ -235,16 +237,11 @@ def discreet(text: str) -> str:
 def examine() -> list[Line]:
     """Return every finding; a check that fails itself is a finding too."""
     python = kit_python()
-    checks = (
-        lambda: check_python(python),
-        check_platform,
-        lambda: check_mujoco(python),
-        lambda: check_robot(python),
-        lambda: check_gl(python),
-        check_display,
-        check_disk,
-        check_git,
-    )
+    checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
+    if check_python(python).status == "good":  # else these only say so again
+        inside = (check_mujoco, check_robot, check_gl)
+        checks += [functools.partial(check, python) for check in inside]
+    checks += [check_display, check_disk, check_git]
     lines = []
     for check in checks:
         try:

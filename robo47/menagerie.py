@@ -19,9 +19,16 @@ from robo47.paths import menagerie_root, shown
 
 PANDA = "franka_emika_panda"
 ENTRIES = ("panda", "panda_nohand", "scene")
-MEND = (
-    "Delete that folder and run `python scripts/fetch_menagerie.py` to fetch it anew."
-)
+
+
+def remedy() -> str:
+    """Return what to do about broken files, as a sentence."""
+    if os.environ.get("MENAGERIE_ROOT"):
+        return "Mend them there, or unset MENAGERIE_ROOT to use the kit's own copy."
+    return (
+        f"Delete {shown(menagerie_root() / PANDA)} and run"
+        " `python scripts/fetch_menagerie.py` to fetch it anew."
+    )
 
 
 def panda_folder() -> Path | None:

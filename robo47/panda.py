@@ -72,17 +72,17 @@ def load(
     if folder is None:
         return _build(_twin_xml(entry), {}, edit)
     try:
-        files = _read(folder, meshes)
+        files = _read(folder, entry, meshes)
         model = _build(files[f"{entry}.xml"].decode(), files, edit)
     except KeyError:
         problem = "is not there"
-    except (ValueError, OSError, ET.ParseError) as error:
+    except (ValueError, OSError) as error:
         problem = "cannot be loaded: " + " ".join(str(error).split())
     else:
         if END_FRAME[entry] in frame_names(model):
             return model
         problem = f"has no {END_FRAME[entry]}, where its arm should end"
-    raise Robo47Error(f"{shown(folder)}/{entry}.xml {problem}. {menagerie.MEND}")
+    raise Robo47Error(f"{shown(folder)}/{entry}.xml {problem}. {menagerie.remedy()}")
 
 
 def home_q(model: mujoco.MjModel) -> Array:
@@ -108,7 +108,8 @@ def provenance() -> dict[str, Any]:
 
     Returns:
         "robot", "source", "commit" (None where nobody recorded it), "content" (the
-        first digits of panda_nohand.xml's sha256) and "folder" (as people read it).
+        first digits of panda_nohand.xml's sha256), "edited" (True where that file is
+        not as it was fetched) and "folder" (as people read it).
     """
     folder = menagerie.panda_folder()
     if folder is None:
@@ -117,14 +118,17 @@ def provenance() -> dict[str, Any]:
             "source": "the kit's embedded twin",
             "commit": None,
             "content": _content(TWIN_XML),
+            "edited": False,
             "folder": shown(TWIN_XML.parent),
         }
-    record = menagerie.read_provenance()
+    record, content = menagerie.read_provenance(), _content(folder / "panda_nohand.xml")
+    fetched = record.get("files", {}).get("panda_nohand.xml", content)
     return {
         "robot": "Franka Panda",
         "source": record["source"],
         "commit": record.get("commit"),
-        "content": _content(folder / "panda_nohand.xml"),
+        "content": content,
+        "edited": not fetched.startswith(content),
         "folder": shown(menagerie_root() / menagerie.PANDA),
     }
 
@@ -136,8 +140,10 @@ def describe(entry: str = "panda_nohand") -> str:
         entry: as `load`.
     """
     p = provenance()
-    commit = f"commit {p['commit'][:7]}" if p["commit"] else f"sha256 {p['content']}"
-    return f"robot: {p['robot']} ({entry}), {p['source']}, {commit}"
+    version = f"commit {p['commit'][:7]}" if p["commit"] else f"sha256 {p['content']}"
+    if p["edited"]:
+        version = "edited since it was fetched"
+    return f"robot: {p['robot']} ({entry}), {p['source']}, {version}"
 
 
 def _build(
@@ -153,18 +159,25 @@ def _build(
     return spec.compile()
 
 
-def _read(folder: Path, meshes: bool) -> dict[str, bytes]:
+def _read(folder: Path, entry: str, meshes: bool) -> dict[str, bytes]:
     """Return the model's files by name, without the looks unless `meshes`."""
-    wanted = folder.rglob("*" if meshes else "*.xml")
-    files = {path.name: path.read_bytes() for path in wanted if path.is_file()}
-    if not meshes:
-        files = {name: _without_shapes(xml) for name, xml in files.items()}
+    if meshes:
+        return {p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    files: dict[str, bytes] = {}
+    wanted = [f"{entry}.xml"] if (folder / f"{entry}.xml").exists() else []
+    while wanted:
+        name = wanted.pop()
+        try:
+            root = ET.fromstring((folder / name).read_bytes())
+        except ET.ParseError as error:
+            raise ValueError(f"{name}: {error}") from None
+        wanted += [part.get("file", "") for part in root.iter("include")]
+        files[name] = _without_shapes(root)
     return files
 
 
-def _without_shapes(xml: bytes) -> bytes:
+def _without_shapes(root: ET.Element) -> bytes:
     """Return a model file without its looks; the masses stay, all being explicit."""
-    root = ET.fromstring(xml)
     for section in ("worldbody", "asset"):
         for parent in [p for top in root.iter(section) for p in top.iter()]:
             for child in [c for c in parent if c.tag in _SHAPES]:

@@ -16,6 +16,8 @@ import sys
 import time
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error

@@ -22,6 +22,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli, menagerie
 from robo47.errors import Robo47Error
 from robo47.paths import menagerie_root, shown
@@ -155,7 +157,7 @@ def check_complete(folder: Path) -> None:
         some = ", ".join(missing[:3]) + (" ..." if len(missing) > 3 else "")
         raise Robo47Error(
             f"{shown(folder)} lacks {len(missing)} file(s) or they cannot be read: "
-            f"{some}. {menagerie.MEND}"
+            f"{some}. {menagerie.remedy()}"
         )
 
 
@@ -185,7 +187,7 @@ def verify(root: Path) -> int:
     total = len(record["files"])
     print(f"robot: {total - len(changed)} of {total} files match their sha256")
     if changed:
-        print(menagerie.MEND)
+        print(menagerie.remedy())
     return cli.EXIT_FAILED if changed else cli.EXIT_OK
 
 

@@ -15,6 +15,8 @@ import os
 import textwrap
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.paths import ROOT, shown

@@ -13,6 +13,8 @@ other fields: run_id day seed config method n_trials n_failures notes.
 import argparse
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli
 from robo47.errors import Robo47Error
 from robo47.metrics import append_row

@@ -16,6 +16,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 try:
     from tqdm import tqdm
 

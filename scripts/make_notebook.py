@@ -15,6 +15,8 @@ import re
 import sys
 import textwrap
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 try:
     import jupytext
 

@@ -15,6 +15,7 @@ import subprocess
 import venv
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
 from robo47 import cli, menagerie, panda, verify

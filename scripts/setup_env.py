@@ -3,6 +3,7 @@
     python3 scripts/setup_env.py            what the labs need
     python3 scripts/setup_env.py test       and what `make test` needs
     python3 scripts/setup_env.py view ...   any extra named in pyproject.toml
+    python3 scripts/setup_env.py --anew     throw .venv away and make it again
     python3 scripts/setup_env.py --venv .venv-bench bench    in a folder of its own
 
 Runs on a bare Python, so it uses the standard library alone, and no syntax
@@ -35,7 +36,7 @@ def find_python():
         return getattr(sys, "_base_executable", sys.executable), sys.version_info[:2]
     for minor in (13, 12, 11, 14):
         found = shutil.which(f"python3.{minor}")
-        if found:
+        if found and is_version(found, (3, minor)):
             return found, (3, minor)
     return stop(
         "this is Python {}.{}; the kit needs 3.11 or newer.".format(
@@ -117,13 +118,19 @@ def install(venv, extra, uv):
     stop("could not install:\n" + said[-1500:], "Mend that and run make again.")
 
 
-def works(venv, version):
-    """Return whether its Python is the right one and starts (moving breaks it)."""
-    python = venv / PYTHON_IN_VENV
-    if not python.exists():
-        return False
+def is_version(python, version):
+    """Return whether a Python starts and is that version (a pyenv shim may not)."""
     test = f"import sys; sys.exit(sys.version_info[:2] != {tuple(version)})"
-    return subprocess.run([str(python), "-c", test], check=False).returncode == 0
+    done = subprocess.run(
+        [str(python), "-c", test], stderr=subprocess.PIPE, check=False
+    )
+    return done.returncode == 0
+
+
+def works(venv, version):
+    """Return whether an environment's Python is the right one and starts."""
+    python = venv / PYTHON_IN_VENV
+    return python.exists() and is_version(python, version)
 
 
 def main():
@@ -135,12 +142,13 @@ def main():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("extras", nargs="*", default=["core"], help="default: core")
+    parser.add_argument("--anew", action="store_true", help="make it from nothing")
     parser.add_argument("--venv", default=".venv", help="its folder; default: .venv")
     options = parser.parse_args()
     venv = ROOT / options.venv
     python, version = find_python()
     uv = shutil.which("uv")
-    if not works(venv, version):
+    if options.anew or not works(venv, version):
         make_venv(venv, python, uv)
     for extra in options.extras:
         stamp = venv / (".ready-" + extra)
@@ -150,4 +158,8 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        print("\nsetup: stopped; the next make goes on")
+        sys.exit(130)

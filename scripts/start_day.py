@@ -10,6 +10,8 @@ A file that is there is never overwritten, and a reset keeps your old text besid
 import argparse
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli
 from robo47.paths import shown
 from robo47.starter import make_starter, put_back, read_script

@@ -16,6 +16,8 @@ import importlib.util
 import sys
 from pathlib import Path
 
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
 from robo47 import cli, menagerie, panda, window
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown

@@ -15,6 +15,7 @@ from robo47.errors import Robo47Error
 from robo47.figures import backends
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "scripts"))  # tests that load a script as a module
 
 
 def need(available: bool, what: str) -> None:

@@ -212,5 +212,5 @@ def test_a_python_without_the_kit_is_told_what_to_run(tmp_path):
     done = subprocess.run(bare, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert done.stderr == (
-        "mujoco is not in this Python: run `make day1` in the clone once\n"
+        "mujoco is not in this Python: run `make day1`, or `make setup`\n"
     )

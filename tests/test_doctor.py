@@ -73,17 +73,24 @@ def test_a_broken_environment_is_told_with_its_repair(clone):
     python.write_text("gone")
     command = [sys.executable, str(clone / "scripts" / "doctor.py")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert "delete it, then: make day1" in done.stdout
+    assert ".venv does not start: make setup" in done.stdout
     assert "Traceback" not in done.stdout + done.stderr
 
 
 def test_the_broken_upgrade_to_mujoco_4_is_told_with_its_repair(answers):
     why = "ModuleNotFoundError: No module named 'mujoco._structs'"
-    versions = {"mujoco": "4.0.0", "mujoco-core": "4.0.0"}
+    versions = {"mujoco": "4.0.0", "mujoco-core": "4.0.0", "numpy": "2.4.6"}
     answers({doctor.MUJOCO_PROBE: (None, why), doctor.VERSIONS_PROBE: (versions, "")})
     line = doctor.check_mujoco(sys.executable)
     assert line.status == "todo"
     assert "--force-reinstall --no-deps mujoco mujoco-core" in line.remedy
+
+
+def test_a_missing_numpy_is_not_taken_for_the_broken_upgrade(answers):
+    why = "ModuleNotFoundError: No module named 'numpy'"
+    installed = {"mujoco": "4.0.0", "mujoco-core": "4.0.0"}
+    answers({doctor.MUJOCO_PROBE: (None, why), doctor.VERSIONS_PROBE: (installed, "")})
+    assert doctor.check_mujoco(sys.executable).remedy == "make setup"
 
 
 def test_a_missing_mujoco_is_told_with_the_set_up(answers):
@@ -98,10 +105,11 @@ def test_an_old_python_is_told(answers):
 
 def test_a_robot_that_was_changed_is_told(answers):
     found = {"source": "s", "commit": None, "content": "c", "files": 3}
-    found |= {"changed": ["link1.stl: changed"], "missing": []}
+    found |= {"changed": ["link1.stl: changed"], "missing": [], "folder": "here"}
     answers({doctor.ROBOT_PROBE: (found, "")})
     line = doctor.check_robot("python")
     assert (line.status, "link1.stl" in line.found) == ("todo", True)
+    assert line.remedy.startswith("Delete here, then: ")
 
 
 def test_the_back_ends_that_draw_are_named(answers):

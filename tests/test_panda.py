@@ -1,6 +1,8 @@
 """The robot: real and embedded, its entries, its configurations, its provenance."""
 
+import json
 import re
+import shutil
 
 import mujoco
 import numpy as np
@@ -135,7 +137,7 @@ def test_a_broken_file_is_named_with_what_to_do(broken, text, words):
     with pytest.raises(Robo47Error, match=words) as caught:
         panda.load("panda_nohand")
     assert "panda_nohand.xml" in str(caught.value)
-    assert "fetch_menagerie" in str(caught.value)
+    assert "unset MENAGERIE_ROOT" in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
@@ -150,3 +152,31 @@ def test_a_menagerie_root_that_leads_nowhere_is_an_error_not_the_twin(
     monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path / "nowhere"))
     with pytest.raises(Robo47Error, match="nowhere has no folder franka_emika_panda"):
         panda.load()
+
+
+def test_a_broken_file_that_is_included_is_named_itself(tmp_path, monkeypatch):
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path))
+    folder = tmp_path / menagerie.PANDA
+    folder.mkdir()
+    (folder / "scene.xml").write_text("<mujoco><include file='panda.xml'/></mujoco>")
+    (folder / "panda.xml").write_text("<mujoco>")
+    with pytest.raises(Robo47Error, match=r"scene.xml cannot be loaded: panda.xml: "):
+        panda.load("scene")
+
+
+def test_a_robot_edited_since_it_was_fetched_says_so(tmp_path, monkeypatch, real_panda):
+    shutil.copytree(real_panda, tmp_path / menagerie.PANDA)
+    files = menagerie.hash_files(tmp_path / menagerie.PANDA)
+    record = {"source": "genesis-world 1.4.5", "commit": None, "files": files}
+    (tmp_path / "PROVENANCE.json").write_text(json.dumps(record))
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path))
+    assert "sha256" in panda.describe()
+    xml = tmp_path / menagerie.PANDA / "panda_nohand.xml"
+    xml.write_text(xml.read_text().replace("0.333", "0.334"))
+    assert panda.describe().endswith("genesis-world 1.4.5, edited since it was fetched")
+
+
+def test_broken_files_in_a_folder_of_your_own_are_not_to_be_deleted(broken):
+    with pytest.raises(Robo47Error, match="unset MENAGERIE_ROOT") as caught:
+        panda.load("panda_nohand")
+    assert "Delete" not in str(caught.value)

@@ -113,11 +113,25 @@ def test_an_old_python_is_told_so(setup, monkeypatch):
         setup.find_python()
 
 
+def test_a_shim_that_starts_no_python_is_passed_over(setup, monkeypatch):
+    old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
+    monkeypatch.setattr(setup, "sys", old)
+    monkeypatch.setattr(setup.shutil, "which", lambda name: "/usr/bin/false")
+    with pytest.raises(SystemExit, match=r"this is Python 3\.9"):
+        setup.find_python()
+
+
+def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
+    call(setup, monkeypatch)
+    assert "venv" in call(setup, monkeypatch, "--anew")[0]
+
+
 def test_a_newer_python_on_the_path_is_used(setup, monkeypatch):
     old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
     monkeypatch.setattr(setup, "sys", old)
     paths = {"python3.12": "/usr/bin/python3.12"}
     monkeypatch.setattr(setup.shutil, "which", paths.get)
+    monkeypatch.setattr(setup, "is_version", lambda python, version: True)
     assert setup.find_python() == ("/usr/bin/python3.12", (3, 12))
 
 

@@ -16,7 +16,7 @@ try:
     from robo47 import cli, panda, verify
     from robo47.lab import Lab
 except ModuleNotFoundError as missing:
-    sys.exit(f"{missing.name} is not in this Python: run `make day1` in the clone once")
+    sys.exit(f"{missing.name} is not in this Python: run `make day1`, or `make setup`")
 
 Vec3 = Quat = Mat3 = Mat4 = np.ndarray  # shapes (3,), (4,), (3, 3) and (4, 4)
 

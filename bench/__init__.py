@@ -1,0 +1,1 @@
+"""What the kit claims to be fast, beside its rivals; scripts/bench.py runs it."""
