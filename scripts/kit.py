@@ -11,12 +11,13 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
 OWN = ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
 def here() -> bool:
     """Return whether this Python can run the kit."""
-    return all(importlib.util.find_spec(name) for name in ("robo47", "mujoco", "tqdm"))
+    return all(importlib.util.find_spec(name) for name in NEEDED)
 
 
 if not here():
