@@ -11,6 +11,8 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
+
+.PHONY: start check hint run doctor
 .PHONY: help day1 test soak report lint docs oracle
 
 help: ## this list
@@ -22,6 +24,22 @@ help: ## this list
 
 day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
 	@$(PY) w1-foundations/src/day1_transforms.py $(ARGS)
+
+start: .venv/.ready-core ## write your copy of DAY=1's lab; RESET=1.4 empties a task
+	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
+
+check: .venv/.ready-core $(ROBOT) ## check DAY=1, or TASK=1.4 alone; ARGS=--watch
+	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS)
+
+hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
+	@$(PY) scripts/hint.py $(TASK) --day $(DAY) $(ARGS)
+
+run: .venv/.ready-core $(ROBOT) ## run your own copy of DAY=1's lab, log its numbers
+	@$(PY) $(or $(wildcard w*/work/day$(DAY)_*.py),$(error no lab of yours \
+	yet; first: make start DAY=$(DAY))) $(ARGS)
+
+doctor: ## what this machine has and lacks; paste it when asking
+	@$(firstword $(wildcard $(PY)) $(PYTHON)) scripts/doctor.py $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)

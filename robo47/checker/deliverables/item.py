@@ -1,0 +1,29 @@
+"""How a deliverable stands."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Item:
+    """One line of the day.
+
+    Attributes:
+        name: "figure", "definitions", ...
+        status: "passed", "todo" (not there yet) or "wrong" (there, but).
+        message: what to do; "" when passed.
+    """
+
+    name: str
+    status: str = "passed"
+    message: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.status == "passed"
+
+
+def from_root(path: Path, week: Path) -> str:
+    """Return a path as the student types it, from the top of the clone."""
+    return path.relative_to(week.parent).as_posix()

@@ -1,0 +1,135 @@
+"""Run the student's functions on what the checker asks, and send back plain numbers.
+
+Started by `robo47.checker.sandbox` with an interpreter that has no site-packages; the
+arguments are the folders where NumPy is. One request comes in on standard input; the
+replies go out line by line on what was standard output, each behind the request's
+secret. What student code prints goes elsewhere.
+"""
+
+import io
+import json
+import os
+import sys
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+HERE = sys.path.pop(0)
+LIBRARIES = [path for path in sys.path if path]
+sys.path += sys.argv[1:]
+KEPT_OUTPUT = 2_000  # characters of what a task printed
+
+
+def main() -> None:
+    """Answer one request."""
+    channel = os.fdopen(os.dup(1), "wb")
+    sys.path.insert(0, HERE)
+    import limits
+
+    limits.leave_network()  # before NumPy: a process with threads may not
+    import guard
+    import standins
+    import wire
+
+    sys.path.remove(HERE)
+    for name in ("limits", "guard", "standins", "wire"):
+        del sys.modules[name]  # names that a student may want for a file of their own
+    request = json.loads(sys.stdin.buffer.read())
+    null = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(null, stream)
+
+    def send(**reply: Any) -> None:
+        line = request["secret"] + json.dumps(reply) + "\n"
+        channel.write(line.encode("ascii"))
+        channel.flush()
+
+    watch = guard.Guard(request["folder"], LIBRARIES + sys.argv[1:], request["closed"])
+    models = [_model_maker(standins, wire, data) for data in request["models"]]
+    sys.modules.update(standins.make_modules(watch.refuse, models[0], request["facts"]))
+    names = {name for call in request["calls"] for name in call["without"]}
+    shut_out = standins.shut_out(sorted(names), watch.refuse)
+    limits.tighten()
+    watch.arm()
+    _answer(request, send, watch.refused, shut_out, wire, models)
+    os._exit(0)  # no atexit of the student's, no thread to wait for
+
+
+def _model_maker(standins: Any, wire: Any, data: Any) -> Callable[[], Any]:
+    arrays = {name: wire.unpack_array(a) for name, a in data["arrays"].items()}
+    return lambda: standins.MjModel(data, arrays)
+
+
+def _answer(
+    request: Any,
+    send: Callable[..., None],
+    refused: list[str],
+    shut_out: set[str],
+    wire: Any,
+    models: Any,
+) -> None:
+    """Load the student's file, then make the calls one by one."""
+    path = Path(request["file"])
+    sys.path.insert(0, request["folder"])
+    os.chdir(request["folder"])
+    module = types.ModuleType(path.stem)
+    module.__file__ = str(path)
+    sys.modules[path.stem] = module
+    send(at="load")
+    try:
+        exec(compile(path.read_bytes(), str(path), "exec"), vars(module))
+    except BaseException as error:
+        send(loaded=False, refused=refused[:3], **_describe(error, path))
+        return
+    send(loaded=True)
+    for index, call in enumerate(request["calls"]):
+        send(at=index)
+        refused.clear()
+        shut_out.clear()
+        shut_out.update(call["without"])
+        sys.stdout = sys.stderr = printed = _Kept()
+        try:
+            function = getattr(module, call["function"], None)
+            if not callable(function):
+                send(at=index, missing=True)
+                continue
+            args = [_argument(packed, wire, models) for packed in call["args"]]
+            reply = {"value": wire.pack_value(function(*args))}
+        except wire.UnsendableError as error:
+            reply = {"error": f"it returned {error}", "kind": "unsendable"}
+        except BaseException as error:
+            reply = _describe(error, path)
+        send(at=index, refused=refused[:3], printed=printed.getvalue(), **reply)
+
+
+def _argument(packed: Any, wire: Any, models: Any) -> Any:
+    if "model" in packed:
+        return models[packed["model"]]()
+    return packed["number"] if "number" in packed else wire.unpack_value(packed)
+
+
+def _describe(error: BaseException, path: Path) -> dict[str, Any]:
+    """Return an exception as text and the line of the student's file it came from."""
+    line, trace = None, error.__traceback__
+    while trace:
+        if trace.tb_frame.f_code.co_filename == str(path):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    text = str(error)
+    if isinstance(error, SyntaxError):
+        line, text = error.lineno, error.msg
+    return {"error": text[:500], "kind": type(error).__name__, "line": line}
+
+
+class _Kept(io.StringIO):
+    """What a task prints, up to a point."""
+
+    def write(self, text: str) -> int:
+        if self.tell() < KEPT_OUTPUT:
+            super().write(text[:KEPT_OUTPUT])
+        return len(text)
+
+
+if __name__ == "__main__":
+    main()

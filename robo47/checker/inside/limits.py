@@ -1,0 +1,53 @@
+"""Limits that the sandbox's process puts on itself before it meets student code.
+
+Each is taken where the platform has it; the checker's own watchdog (wall clock, memory)
+stands behind them everywhere. A limit that is set cannot be raised again.
+"""
+
+import contextlib
+import ctypes
+import sys
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
+
+MEMORY = 2 * 1024**3  # bytes of address space; NumPy itself takes some 0.2 GB of it
+CPU_SECONDS = 120
+FILE_BYTES = 10_000_000
+_NEW_USER, _NEW_NET = 0x10000000, 0x40000000  # <linux/sched.h>: CLONE_NEW...
+
+
+def leave_network() -> bool:
+    """Move this process to a network namespace of its own, which has no network.
+
+    Returns:
+        Whether the platform did it: Linux, where it lets users make namespaces.
+    """
+    if not sys.platform.startswith("linux"):
+        return False
+    try:
+        return ctypes.CDLL(None).unshare(_NEW_USER | _NEW_NET) == 0
+    except (OSError, AttributeError):
+        return False
+
+
+def tighten() -> None:
+    """Bound memory, processor time, file size, and forbid new processes and threads.
+
+    Call it once the imports are done: NumPy may start threads of its own.
+    """
+    if resource is None:
+        return
+    wanted = {
+        "RLIMIT_AS": MEMORY,
+        "RLIMIT_CPU": CPU_SECONDS,
+        "RLIMIT_FSIZE": FILE_BYTES,
+        "RLIMIT_CORE": 0,
+        "RLIMIT_NPROC": 0,
+    }
+    for name, value in wanted.items():
+        # macOS has no working RLIMIT_AS, and a hard limit may already be lower.
+        with contextlib.suppress(AttributeError, ValueError, OSError):
+            resource.setrlimit(getattr(resource, name), (value, value))

@@ -1,0 +1,99 @@
+"""How values travel between the checker and the sandbox: plain JSON, never pickle.
+
+Reading an array back runs no code, whatever the sender wrote: only a few number types,
+a shape and as many bytes as those two call for.
+"""
+
+import base64
+import math
+from typing import Any
+
+import numpy as np
+
+# What a student's function may return. Wider than float64, since an array of integers
+# or of 32-bit floats is a mistake (or none) that the judge has words for.
+DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"}
+LARGEST = 100_000  # numbers in one answer; a pose has 16
+
+
+class UnsendableError(ValueError):
+    """A value that does not travel; its text completes "it returned ..."."""
+
+
+def pack_array(array: np.ndarray) -> dict[str, Any]:
+    """Return an array of numbers as JSON.
+
+    Raises:
+        UnsendableError: not plain numbers, or too many of them.
+    """
+    plain = np.array(array, copy=True, order="C", subok=False)
+    if plain.dtype == np.longdouble:
+        plain = plain.astype(np.float64)
+    code = plain.dtype.str[1:]
+    if code not in DTYPES:
+        raise UnsendableError(f"an array of dtype {plain.dtype}; expected float64")
+    if plain.size > LARGEST:
+        raise UnsendableError(f"an array of shape {plain.shape}, far too large")
+    data = plain.astype("<" + code).tobytes()
+    return {
+        "dtype": code,
+        "shape": list(plain.shape),
+        "data": base64.b64encode(data).decode("ascii"),
+    }
+
+
+def unpack_array(packed: Any) -> np.ndarray:
+    """Return a writable array from what `pack_array` made, or somebody forged.
+
+    Raises:
+        ValueError: not such an array.
+    """
+    try:
+        code, shape = str(packed["dtype"]), [int(n) for n in packed["shape"]]
+        data = base64.b64decode(packed["data"], validate=True)
+    except (TypeError, KeyError, ValueError):
+        raise ValueError("not a packed array") from None
+    if code not in DTYPES or len(shape) > 8 or min(shape, default=0) < 0:
+        raise ValueError(f"not a packed array: {code} {shape}")
+    dtype = np.dtype("<" + code)
+    size = math.prod(shape)
+    if size > LARGEST or size * dtype.itemsize != len(data):
+        raise ValueError(f"a packed array of {len(data)} bytes for shape {shape}")
+    return np.frombuffer(data, dtype).reshape(shape).astype(dtype.newbyteorder("="))
+
+
+def pack_value(value: Any) -> Any:
+    """Return what a student's function returned as JSON.
+
+    Raises:
+        UnsendableError: not None, a number, an array, or a tuple or list of those.
+    """
+    if value is None:
+        return None
+    if isinstance(value, (np.ndarray, np.generic, float, int)):
+        return {"array": pack_array(np.asarray(value))}
+    if isinstance(value, (tuple, list)) and value:
+        if all(isinstance(item, np.ndarray) for item in value):
+            return {"tuple": [pack_array(item) for item in value[:100]]}
+        try:
+            return {"array": pack_array(np.array(value))}
+        except ValueError:  # rows of different lengths
+            raise UnsendableError(
+                f"a {type(value).__name__} that is no array"
+            ) from None
+    raise UnsendableError(f"a {type(value).__name__}; expected a NumPy array")
+
+
+def unpack_value(packed: Any) -> Any:
+    """Return None, an array or a tuple of arrays.
+
+    Raises:
+        ValueError: none of these.
+    """
+    if packed is None:
+        return None
+    if isinstance(packed, dict) and "array" in packed:
+        return unpack_array(packed["array"])
+    if isinstance(packed, dict) and isinstance(packed.get("tuple"), list):
+        return tuple(unpack_array(item) for item in packed["tuple"])
+    raise ValueError("not a packed value")

@@ -1,0 +1,103 @@
+"""What is asked of the sandbox, and what comes back."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from robo47.checker.inside import wire
+
+
+@dataclass(frozen=True)
+class Question:
+    """One call to make.
+
+    Attributes:
+        task: whose it is; a task that hangs is not asked again.
+        function: a name in the student's file.
+        args: float64 arrays, floats, or a `Model`.
+        without: functions of NumPy that it has to do without.
+    """
+
+    task: str
+    function: str
+    args: tuple[Any, ...]
+    without: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Model:
+    """Stands for a model in a question's arguments: its place in `run`'s list."""
+
+    index: int
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What came of one call.
+
+    Attributes:
+        value: an array, a tuple of arrays, or None.
+        error: "" or what went wrong, in words.
+        kind: "" where the function returned; the exception's name where it raised one;
+            "missing", "unsendable", "stopped" (time, memory, ended, channel).
+        line: of the student's file, or None.
+        refused: what the guard refused during the call.
+        printed: what the function printed.
+    """
+
+    value: Any = None
+    error: str = ""
+    kind: str = ""
+    line: int | None = None
+    refused: tuple[str, ...] = ()
+    printed: str = ""
+
+
+class LoadError(Exception):
+    """The student's file does not load; `reply` says why."""
+
+    def __init__(self, reply: Reply) -> None:
+        """Keep the reply."""
+        super().__init__(reply.error)
+        self.reply = reply
+
+
+def read(message: dict[str, Any]) -> Reply:
+    """Return a message as a reply, believing nothing in it."""
+    line = message.get("line")
+    if message.get("missing"):
+        return Reply(kind="missing")
+    try:
+        value = wire.unpack_value(message.get("value"))
+    except ValueError as error:
+        return Reply(error=f"it returned {error}", kind="unsendable")
+    refused = message.get("refused")
+    return Reply(
+        value=value,
+        error=str(message.get("error", "")),
+        kind=str(message.get("kind", "")),
+        line=line if isinstance(line, int) else None,
+        refused=tuple(map(str, refused)) if isinstance(refused, list) else (),
+        printed=str(message.get("printed", "")),
+    )
+
+
+def stopped(why: str) -> Reply:
+    """Return the reply of a call that never came back."""
+    return Reply(error=why, kind="stopped")
+
+
+def pack(question: Question) -> dict[str, Any]:
+    """Return a question as JSON."""
+    args: list[dict[str, Any]] = []
+    for arg in question.args:
+        if isinstance(arg, Model):
+            args.append({"model": arg.index})
+        elif isinstance(arg, (int, float)):
+            args.append({"number": arg})
+        else:
+            args.append(wire.pack_value(arg))
+    return {
+        "function": question.function,
+        "args": args,
+        "without": list(question.without),
+    }

@@ -1,0 +1,174 @@
+"""How a check reads: a line per task and deliverable, what is next, how far it is."""
+
+import os
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TextIO
+
+from robo47.checker.deliverables import Item
+from robo47.checker.tasks import TaskResult
+from robo47.week import Day
+
+WIDTH = 80
+_LABEL = {"passed": "passed", "todo": "to do", "wrong": "WRONG", "close": "CLOSE"}
+_COLOUR = {"passed": "32", "todo": "33", "wrong": "31", "close": "33"}
+_INDENT = 7  # where a message starts
+
+
+@dataclass(frozen=True)
+class Report:
+    """One check of a day.
+
+    Attributes:
+        day: from the manifest.
+        tasks: one result per task that was checked.
+        items: one per deliverable; empty when one task alone was checked.
+    """
+
+    day: Day
+    tasks: Sequence[TaskResult]
+    items: Sequence[Item] = ()
+
+    @property
+    def done(self) -> int:
+        """How many tasks and deliverables passed."""
+        tasks = sum(result.passed for result in self.tasks)
+        return tasks + sum(item.passed for item in self.items)
+
+    @property
+    def total(self) -> int:
+        """How many there are."""
+        return len(self.tasks) + len(self.items)
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.done == self.total
+
+    @property
+    def problem(self) -> str:
+        """Why the student's file does not load; "" where it does."""
+        verdict = self.tasks[0].verdict
+        return verdict.message if verdict.mistake == "does-not-load" else ""
+
+    def next_step(self) -> str:
+        """Return the next thing to do, in one sentence."""
+        if self.problem:
+            return "mend that line, then check again."
+        for result in self.tasks:
+            if not result.passed:
+                task = result.task
+                what = f"task {task.id}, {' and '.join(task.functions)}"
+                return f"{what}. Stuck? make hint TASK={task.id}"
+        for item in self.items:
+            if not item.passed:
+                return f"the {item.name}."
+        return "nothing is left to do here. Well done."
+
+
+def as_json(report: Report) -> dict[str, Any]:
+    """Return a report for tools.
+
+    Args:
+        report: of one check.
+
+    Returns:
+        "day", "passed", "done", "total", "problem", "next", and "entries": per task or
+        deliverable "id", "kind", "title", "status", "mistake", "message", "measured".
+    """
+    tasks = [
+        {
+            "id": result.task.id,
+            "kind": "task",
+            "title": result.task.title,
+            "status": result.verdict.status,
+            "mistake": result.verdict.mistake,
+            "message": result.verdict.message,
+            "measured": list(result.verdict.measured),
+        }
+        for result in report.tasks
+    ]
+    items = [
+        {
+            "id": item.name,
+            "kind": "deliverable",
+            "title": item.name,
+            "status": item.status,
+            "mistake": "",
+            "message": item.message,
+            "measured": [],
+        }
+        for item in report.items
+    ]
+    return {
+        "day": report.day.number,
+        "passed": report.passed,
+        "done": report.done,
+        "total": report.total,
+        "problem": report.problem,
+        "next": report.next_step(),
+        "entries": tasks + items,
+    }
+
+
+def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> str:
+    """Return a report for people, in 80 columns.
+
+    Args:
+        report: of one check.
+        explain: add what was measured and what the student's functions printed.
+        colour: paint the states; they read well without.
+    """
+    day = report.day
+    lines = [f"Day {day.number}: {day.title}", ""]
+    if report.problem:
+        lines += [*_wrapped(report.problem, 2), ""]
+    for result in report.tasks:
+        task, verdict = result.task, result.verdict
+        name = ", ".join(task.functions)
+        lines.append(_line(f"{task.id}  {name}", verdict.status, colour))
+        if not report.problem and verdict.mistake != "unwritten":
+            lines += _wrapped(verdict.message, _INDENT)
+        if explain:
+            lines += [f"{'':{_INDENT}}- {line}" for line in verdict.measured]
+            lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
+    if report.items:
+        lines.append("")
+    code_stands = all(result.passed for result in report.tasks)
+    for item in report.items:
+        lines.append(_line(item.name, item.status, colour))
+        if code_stands or explain or item.status == "wrong":
+            lines += _wrapped(item.message, _INDENT)
+    share = 100 * report.done // report.total
+    lines += ["", f"{report.done} of {report.total} done, {share} % of the day."]
+    if len(report.tasks) < len(day.tasks):
+        lines[-1] = f"{report.done} of {report.total} done."
+    lines += _wrapped(f"Next: {report.next_step()}", 0)
+    return "\n".join(lines)
+
+
+def wants_colour(stream: TextIO) -> bool:
+    """Return whether to paint: a terminal, and nobody said NO_COLOR."""
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return stream.isatty() and not plain
+
+
+def _line(name: str, status: str, colour: bool) -> str:
+    state = _LABEL[status]
+    if colour:
+        state = f"\x1b[{_COLOUR[status]}m{state}\x1b[0m"
+    return f"  {name:24}  {state}"
+
+
+def _wrapped(text: str, indent: int) -> list[str]:
+    """Return text as lines of at most 79 columns; its own line breaks stay."""
+    pad = " " * indent
+    wrapper = textwrap.TextWrapper(
+        WIDTH - 1,
+        initial_indent=pad,
+        subsequent_indent=pad,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return [line for part in text.splitlines() for line in wrapper.wrap(part)]

@@ -1,0 +1,110 @@
+"""Get the next hint for a task; the solution, to compare, once yours passes.
+
+    python scripts/hint.py 1.4           (make hint TASK=1.4)
+    python scripts/hint.py 1.4 --again   the last one once more
+    python scripts/hint.py               for the first task that does not pass yet
+
+Each call gives one more hint and the section to re-read. What you have had is
+remembered in .robo47/, which git ignores.
+"""
+
+import argparse
+import contextlib
+import json
+import os
+import textwrap
+from pathlib import Path
+
+from robo47 import cli
+from robo47.checker.sandbox import Sandbox
+from robo47.paths import ROOT, shown
+from robo47.starter import read_script, solution
+from robo47.week import Day, Task, find_day, find_task
+
+WIDTH = 79
+
+
+def seen_file() -> Path:
+    """Return where the hints that were given are counted."""
+    return ROOT / ".robo47" / "hints.json"
+
+
+def read_seen() -> dict[str, int]:
+    """Return {task: hints given}; a file that cannot be read counts as none."""
+    try:
+        seen = json.loads(seen_file().read_text("utf-8"))
+        return {str(task): int(count) for task, count in seen.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
+
+
+def write_seen(seen: dict[str, int]) -> None:
+    """Remember the count; a read-only folder costs the memory, not the hint."""
+    path = seen_file()
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(exist_ok=True)
+        new = path.with_suffix(".new")
+        new.write_text(json.dumps(seen), "utf-8")
+        os.replace(new, path)
+
+
+def check(day: Day, task: Task | None) -> list[tuple[Task, bool]]:
+    """Return (task, whether the student's passes) of one task, or of all."""
+    tasks = [task] if task else list(day.tasks)
+    if not day.work.is_file():
+        return [(one, False) for one in tasks]
+    with Sandbox() as sandbox:
+        from robo47.checker.tasks import check_tasks
+
+        results = check_tasks(day, day.work, sandbox, task.id if task else None)
+    return [(result.task, result.passed) for result in results]
+
+
+def show_hint(task: Task, again: bool) -> None:
+    """Print the next hint, or the last one again."""
+    seen = read_seen()
+    count = min(seen.get(task.id, 0) + (not again), len(task.hints))
+    seen[task.id] = count = max(count, 1)
+    write_seen(seen)
+    print(f"{task.id}  {task.title}: hint {count} of {len(task.hints)}\n")
+    print(textwrap.fill(task.hints[count - 1], WIDTH))
+    print(f"\nRe-read: {task.read}")
+    if count == len(task.hints):
+        print("That was the last one: next, somebody to think aloud with.")
+
+
+def show_solution(day: Day, task: Task) -> None:
+    """Print the kit's own lines, to compare with the student's."""
+    print(f"{task.id}  {task.title}: yours passes. The kit's, to compare:\n")
+    print(solution(read_script(day.source), shown(day.source), task.id))
+
+
+def main() -> int:
+    """Give the next hint."""
+    about, usage = (__doc__ or "").split("\n", 1)
+    parser = argparse.ArgumentParser(
+        description=about,
+        epilog=usage,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("task", nargs="?", help="such as 1.4; default: the next one")
+    parser.add_argument("--day", type=int, default=1, help="without a task; default: 1")
+    parser.add_argument("--again", action="store_true", help="the last hint once more")
+    options = parser.parse_args()
+    day, wanted = find_day(options.day), None
+    if options.task:
+        day, wanted = find_task(options.task)
+    results = check(day, wanted)
+    left = [task for task, passed in results if not passed]
+    if left:
+        show_hint(left[0], options.again)
+    elif wanted:
+        show_solution(day, wanted)
+    else:
+        print(f"All {len(results)} tasks of day {day.number} pass.")
+        print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
+    return cli.EXIT_OK
+
+
+if __name__ == "__main__":
+    cli.run(main)
