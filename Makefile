@@ -39,7 +39,7 @@ run: .venv/.ready-core $(ROBOT) ## run your own copy of DAY=1's lab, log its num
 	yet; first: make start DAY=$(DAY))) $(ARGS)
 
 doctor: ## what this machine has and lacks; paste it when asking
-	@$(firstword $(wildcard $(PY)) $(PYTHON)) scripts/doctor.py $(ARGS)
+	@$(PYTHON) scripts/doctor.py $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)

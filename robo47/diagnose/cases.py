@@ -9,6 +9,7 @@ from robo47.checks import Array
 from robo47.diagnose.verdict import MODEL, TASK_FUNCTIONS, Call
 
 SEED = 47
+BASE = 2  # row of `configurations`: the next seven turn one joint of it each
 READY_Q = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)  # the handout's home_q
 
 
@@ -95,8 +96,8 @@ def _fk(rng: np.random.Generator) -> list[tuple]:
 def configurations() -> Array:
     """Return joint angles for tasks 1.6 and 1.8, (14, 7).
 
-    Zero and the handout's home; a random one and seven more that differ from it in one
-    joint each; random ones. All but zero are within the limits.
+    Zero and the handout's home; a random one (row BASE) and seven more, each of which
+    differs from it in one joint; random ones. All but zero are within the limits.
     """
     from robo47 import panda, verify  # MuJoCo takes its time: only where it is needed
 

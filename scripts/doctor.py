@@ -1,0 +1,294 @@
+"""What this machine has and lacks for the labs, line by line, and what to do about it.
+
+    make doctor                       or, without make:
+    python3 scripts/doctor.py
+    python3 scripts/doctor.py --json  for tools
+
+Paste the output when you ask for help: it holds no home folder and no user name.
+Exit code: 0 when all is well, 1 when a line says what to do.
+
+Runs on a bare Python, old or broken installs included: the standard library alone, and
+everything that can fail is tried in a process of its own.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+from typing import Any, NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV_PYTHON = (
+    ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+)
+OLDEST = (3, 11)
+LEAST_FREE_GB = 1
+PROBE_SECONDS = 60
+
+PYTHON_PROBE = "import json, platform; print(json.dumps(platform.python_version()))"
+VERSIONS_PROBE = """
+import json
+from importlib import metadata
+found = {}
+for name in ("mujoco", "mujoco-core", "numpy"):
+    try:
+        found[name] = metadata.version(name)
+    except metadata.PackageNotFoundError:
+        pass
+print(json.dumps(found))
+"""
+MUJOCO_PROBE = """
+import json, mujoco
+mujoco.mj_forward(m := mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(m))
+print(json.dumps(mujoco.__version__))
+"""
+ROBOT_PROBE = """
+import json
+from robo47 import menagerie, panda
+from robo47.paths import menagerie_root
+found = panda.provenance()
+found["loads"] = panda.load("panda_nohand").nq
+folder = menagerie.panda_folder()
+if folder:
+    record = menagerie.read_provenance().get("files")
+    found["files"] = len(record or ())
+    found["changed"] = menagerie.changed_files(folder, record or {})[:3]
+    found["missing"] = menagerie.missing_files(folder)[:3]
+print(json.dumps(found))
+"""
+GL_PROBE = """
+import json
+from robo47.figures import probe_backends
+print(json.dumps(probe_backends()))
+"""
+
+
+class Line(NamedTuple):
+    """One finding: "good", "note" (fine, but know it) or "todo", and what to do."""
+
+    status: str
+    about: str
+    found: str
+    remedy: str = ""
+
+
+def probe(python: str, code: str) -> tuple[Any, str]:
+    """Run code that prints one JSON value; return it, or None and the last words."""
+    try:
+        done = subprocess.run(
+            [python, "-c", code],
+            cwd=str(ROOT),
+            capture_output=True,
+            timeout=PROBE_SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return None, "no answer after {} s".format(PROBE_SECONDS)  # noqa: UP032
+    except OSError as error:
+        return None, str(error.strerror)
+    try:
+        return json.loads(done.stdout.decode("utf-8", "replace").splitlines()[-1]), ""
+    except (ValueError, IndexError):
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        return None, said[-1] if said else f"ended with code {done.returncode}"
+
+
+def kit_python() -> str:
+    """Return the kit's own interpreter where it starts, else this one."""
+    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]:
+        return str(VENV_PYTHON)
+    return sys.executable
+
+
+def check_python(python: str) -> Line:
+    """Python itself, and whether the kit's environment is there."""
+    version = probe(python, PYTHON_PROBE)[0] or platform.python_version()
+    own = python == str(VENV_PYTHON)
+    found = version + (" in .venv" if own else ", no .venv")
+    if tuple(int(part) for part in version.split(".")[:2]) < OLDEST:
+        return Line(
+            "todo",
+            "Python",
+            found,
+            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
+        )
+    if not own:
+        broken = VENV_PYTHON.exists()
+        why = ".venv does not start; delete it, then: " if broken else "Set up: "
+        return Line("todo", "Python", found, why + "make day1")
+    return Line("good", "Python", found)
+
+
+def check_platform() -> Line:
+    """Operating system and processor."""
+    release = platform.release()
+    wsl = " (WSL)" if "microsoft" in release.lower() else ""
+    parts = (platform.system(), release, platform.machine())
+    return Line("good", "platform", " ".join(parts) + wsl)
+
+
+def check_mujoco(python: str) -> Line:
+    """MuJoCo: there, importable, computing; and the upgrade that leaves it broken."""
+    version, why = probe(python, MUJOCO_PROBE)
+    if version:
+        return Line("good", "MuJoCo", version)
+    installed = probe(python, VERSIONS_PROBE)[0] or {}
+    if "mujoco" not in installed:
+        return Line("todo", "MuJoCo", "not installed", "make day1")
+    found = "{} does not work: {}".format(installed["mujoco"], why)
+    if not installed["mujoco"].startswith("3."):
+        # Version 4 split the package; upgrading in place deletes files of the new half.
+        where = VENV_PYTHON.relative_to(ROOT).as_posix()
+        return Line(
+            "todo",
+            "MuJoCo",
+            found,
+            (where if python == str(VENV_PYTHON) else "python")
+            + " -m pip install --force-reinstall --no-deps"
+            + " mujoco mujoco-core mujoco-studio",
+        )
+    return Line("todo", "MuJoCo", found, "Delete .venv, then: make day1")
+
+
+def check_robot(python: str) -> Line:
+    """The Panda: its source, and whether its files are as they were fetched."""
+    found, why = probe(python, ROBOT_PROBE)
+    fetch = "python scripts/fetch_menagerie.py"
+    if found is None:
+        return Line("todo", "robot", why, "Mend the lines above first.")
+    if "files" not in found:
+        says = "not fetched; the labs run on the embedded twin"
+        return Line("note", "robot", says, "With a network: " + fetch)
+    broken = found["missing"] + found["changed"]
+    if broken:
+        remedy = "Delete that folder, then: " + fetch
+        return Line("todo", "robot", "not as fetched: " + ", ".join(broken), remedy)
+    where = found["commit"] or "sha256 " + found["content"]
+    hashes = "{} files match".format(found["files"]) if found["files"] else "no hashes"
+    return Line("good", "robot", ", ".join([found["source"], where[:15], hashes]))
+
+
+def check_gl(python: str) -> Line:
+    """Which OpenGL back ends really draw."""
+    found, why = probe(python, GL_PROBE)
+    if found is None:
+        return Line("note", "pictures", "not tried: " + why)
+    draws = [name for name, says in found.items() if says == "renders"]
+    if draws:
+        return Line("good", "pictures", "drawn with " + ", ".join(draws))
+    why = "; ".join(name + ": " + says for name, says in found.items())
+    if sys.platform.startswith("linux"):
+        return Line(
+            "todo",
+            "pictures",
+            "nothing draws (" + why + ")",
+            "On Debian or Ubuntu: sudo apt install libegl1 libgl1 libosmesa6",
+        )
+    return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
+
+
+def check_display() -> Line:
+    """Whether a window can open."""
+    if not sys.platform.startswith("linux"):
+        return Line("good", "display", platform.system() + " has one")
+    for name in ("WAYLAND_DISPLAY", "DISPLAY"):
+        if os.environ.get(name):
+            return Line("good", "display", name + " is set")
+    return Line("note", "display", "none", "make view shows the arm in a browser")
+
+
+def check_disk() -> Line:
+    """Free space where the clone is."""
+    free = shutil.disk_usage(str(ROOT)).free / 1e9
+    found = f"{free:.0f} GB free"
+    if free < LEAST_FREE_GB:
+        return Line("todo", "disk", found, "Free about 1 GB.")
+    return Line("good", "disk", found)
+
+
+def check_git() -> Line:
+    """Git, and whether commits will carry a name. The name itself is not shown."""
+    if not shutil.which("git"):
+        return Line("todo", "git", "not installed", "https://git-scm.com/downloads")
+    missing = []
+    for key in ("user.name", "user.email"):
+        command = ["git", "-C", str(ROOT), "config", key]
+        done = subprocess.run(command, stdout=subprocess.PIPE, check=False)
+        if not done.stdout.strip():
+            missing.append(key)
+    if missing:
+        remedy = f"git config --global {missing[0]} ..."
+        return Line(
+            "todo", "git", "does not know your " + " and ".join(missing), remedy
+        )
+    return Line("good", "git", "name and e-mail are set")
+
+
+def discreet(text: str) -> str:
+    """Return text without home folders and user names."""
+    for path, instead in ((ROOT, "."), (Path.home(), "~")):
+        for written in (str(path), path.as_posix()):
+            if len(written) > 1:
+                text = text.replace(written, instead)
+    return re.sub(r"(/home/|/Users/|[A-Za-z]:\\Users\\)[^/\\\s'\"]+", "~", text)
+
+
+def examine() -> list[Line]:
+    """Return every finding; a check that fails itself is a finding too."""
+    python = kit_python()
+    checks = (
+        lambda: check_python(python),
+        check_platform,
+        lambda: check_mujoco(python),
+        lambda: check_robot(python),
+        lambda: check_gl(python),
+        check_display,
+        check_disk,
+        check_git,
+    )
+    lines = []
+    for check in checks:
+        try:
+            line = check()
+        except Exception as error:  # whatever it is, the other lines still count
+            line = Line("note", "doctor", f"{type(error).__name__}: {error}")
+        lines.append(Line(*(discreet(part) for part in line)))
+    return lines
+
+
+def as_text(line: Line) -> str:
+    """Return a finding in 80 columns, what to do on a line of its own."""
+    label = f"{line.status:5} {line.about:9} "
+    text = textwrap.fill(label + line.found, 79, subsequent_indent=" " * len(label))
+    return text + (f"\n{'':16}-> {line.remedy}" if line.remedy else "")
+
+
+def main() -> int:
+    """Print the findings."""
+    about, usage = (__doc__ or "").split("\n", 1)
+    parser = argparse.ArgumentParser(
+        description=about,
+        epilog=usage,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    options = parser.parse_args()
+    lines = examine()
+    if options.json:
+        print(json.dumps([line._asdict() for line in lines], indent=1))
+    else:
+        for line in lines:
+            print(as_text(line))
+    return 1 if any(line.status == "todo" for line in lines) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,40 @@
+# task 1.6: pose-off
+# Two links typed wrongly: no single place explains it, but it can be told from where.
+import numpy as np
+
+
+def quat_to_R(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def link_T(pos, quat):
+    T = np.eye(4)
+    T[:3, :3] = quat_to_R(quat)
+    T[:3, 3] = pos
+    return T
+
+
+def joint_T(q):
+    c, s = np.cos(q), np.sin(q)
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def compose_fk(model, q):
+    T = np.eye(4)
+    for i in range(1, 8):
+        body = model.body(f"link{i}")
+        pos, quat = body.pos.copy(), body.quat.copy()
+        if i == 3:
+            pos[1] = -pos[1]
+        if i == 5:
+            quat[1] = -quat[1]
+        T = T @ link_T(pos, quat) @ joint_T(q[i - 1])
+    flange = model.body("attachment")
+    return T @ link_T(flange.pos, flange.quat)

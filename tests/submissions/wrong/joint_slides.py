@@ -1,0 +1,27 @@
+# task 1.5: slides-along-z
+# A joint along z, taken for one that moves along z.
+import numpy as np
+
+
+def quat_to_R(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def link_T(pos, quat):
+    T = np.eye(4)
+    T[:3, :3] = quat_to_R(quat)
+    T[:3, 3] = pos
+    return T
+
+
+def joint_T(q):
+    T = np.eye(4)
+    T[2, 3] = q
+    return T

@@ -1,0 +1,14 @@
+# task 1.4: divided-by-length-squared
+# q . q is not the length yet.
+import numpy as np
+
+
+def quat_to_R(quat):
+    w, x, y, z = quat / (quat @ quat)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
