@@ -50,6 +50,9 @@ soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
 report: .venv/.ready-report ## metrics/report.html and report.png from the log
 	@$(PY) scripts/report_metrics.py $(ARGS)
 
+test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
+	@$(PY) scripts/test_matrix.py $(ARGS)
+
 lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 

@@ -56,18 +56,20 @@ def _lab(lab: dict[str, Any]) -> list[str]:
 
 
 def _growth(growth: dict[str, Any]) -> list[str]:
-    counts = "  ".join(f"{_short(n)}: {us:.3g}" for n, us in growth["by_count"].items())
-    joints = "  ".join(f"{n}: {us:.2g}" for n, us in growth["by_joints"].items())
+    counts = {f"1e{len(n) - 1}": us for n, us in growth["by_count"].items()}
     return [
         "How it grows, us per configuration",
-        f"  by configurations  {counts}",
-        f"  by joints          {joints}",
+        *_two_rows("configurations", counts),
+        *_two_rows("joints", growth["by_joints"]),
         f"  memory beyond input and output at most {growth['memory_mb']:.1f} MB",
     ]
 
 
-def _short(n: str) -> str:
-    return f"1e{len(n) - 1}"
+def _two_rows(label: str, points: dict[str, float]) -> list[str]:
+    return [
+        f"  {label:14}" + "".join(f"{n:>6}" for n in points),
+        f"  {'':14}" + "".join(f"{us:6.2g}" for us in points.values()),
+    ]
 
 
 def _metrics(metrics: dict[str, Any]) -> list[str]:

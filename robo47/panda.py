@@ -153,11 +153,14 @@ def _without_shapes(xml: bytes) -> bytes:
 
 def _load_twin(entry: str) -> mujoco.MjModel:
     """Return the embedded twin with the end that the entry has."""
-    spec = mujoco.MjSpec.from_string(TWIN_XML.read_text("utf-8"))
-    spec.delete(spec.body(_TWIN_LEAVES_OUT[entry]))
-    if entry == "panda_nohand":
-        spec.keys[0].qpos = list(spec.keys[0].qpos)[: len(READY_Q)]
-    return spec.compile()
+    root = ET.fromstring(TWIN_XML.read_bytes())
+    for parent in root.iter():
+        for child in parent.findall(f"body[@name='{_TWIN_LEAVES_OUT[entry]}']"):
+            parent.remove(child)
+    if entry == "panda_nohand":  # no fingers, so two numbers less in its home key
+        for key in root.iter("key"):
+            key.set("qpos", " ".join(key.get("qpos", "").split()[: len(READY_Q)]))
+    return mujoco.MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
 
 
 def _content(path: Path) -> str:

@@ -24,7 +24,7 @@ class Task:
         needs: ids of the tasks that its functions may call.
         read: the section to re-read.
         hints: questions and pointers, in the order to give them.
-        without: NumPy functions that would take the point out of it.
+        without: NumPy functions whose use misses the point of it.
     """
 
     id: str

@@ -1,6 +1,7 @@
 """What every test file shares: the robot, a clean environment, and honest skips."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -41,6 +42,40 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of the kit that a test may work in, without the lab's history."""
+    copy = tmp_path / "clone"
+    copy.mkdir()
+    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+        skipped = shutil.ignore_patterns("__pycache__", "work")
+        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    return copy
+
+
+@pytest.fixture
+def run_in(clone):
+    """Run a script of that copy as a student would, in a process of its own."""
+
+    def run_script(script, *arguments, **environment):
+        robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
+        own = {"PYTHONPATH": str(clone), "COLUMNS": "80"}
+        if Path(robots).is_dir():
+            own["MENAGERIE_ROOT"] = robots
+        return subprocess.run(
+            [sys.executable, str(clone / script), *map(str, arguments)],
+            cwd=clone,
+            env={**os.environ, **own, **environment},
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=120,
+            check=False,
+        )
+
+    return run_script
 
 
 @pytest.fixture

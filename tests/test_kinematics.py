@@ -126,6 +126,7 @@ def test_textbook_example_of_forward_kinematics():
 
 @given(st.lists(st.floats(-1, 1), min_size=3, max_size=3), st.floats(-7, 7))
 def test_a_hinge_about_any_axis_agrees_with_mujoco(axis, q):
+    axis = np.round(axis, 9)  # MuJoCo 3.3 reads no denormal number
     if np.linalg.norm(axis) < 1e-3:
         return
     model = mujoco.MjModel.from_xml_string(f"""

@@ -6,7 +6,7 @@
     inside/       what runs in that process: limits, guard, stand-ins, the runner
     resources     memory and processes of the sandbox, per platform
     model_copy    the Panda as plain data, for the sandbox's stand-in of MjModel
-    variant       a Panda with other links: tells computed answers from known ones
+    variant       fresh angles and a longer arm: computed, looked up or typed in?
     tasks         from a student's file to one verdict per task
     deliverables  figure, worksheet, metrics rows, commit
     report        how it all reads

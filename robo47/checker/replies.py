@@ -14,13 +14,11 @@ class Question:
         task: whose it is; a task that hangs is not asked again.
         function: a name in the student's file.
         args: float64 arrays, floats, or a `Model`.
-        without: functions of NumPy that it has to do without.
     """
 
     task: str
     function: str
     args: tuple[Any, ...]
-    without: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -41,6 +39,7 @@ class Reply:
             "missing", "unsendable", "stopped" (time, memory, ended, channel).
         line: of the student's file, or None.
         refused: what the guard refused during the call.
+        used: which of the noted NumPy functions it called.
         printed: what the function printed.
     """
 
@@ -49,6 +48,7 @@ class Reply:
     kind: str = ""
     line: int | None = None
     refused: tuple[str, ...] = ()
+    used: tuple[str, ...] = ()
     printed: str = ""
 
 
@@ -70,13 +70,18 @@ def read(message: dict[str, Any]) -> Reply:
         value = wire.unpack_value(message.get("value"))
     except ValueError as error:
         return Reply(error=f"it returned {error}", kind="unsendable")
-    refused = message.get("refused")
+
+    def texts(name: str) -> tuple[str, ...]:
+        found = message.get(name)
+        return tuple(map(str, found)) if isinstance(found, list) else ()
+
     return Reply(
         value=value,
         error=str(message.get("error", "")),
         kind=str(message.get("kind", "")),
         line=line if isinstance(line, int) else None,
-        refused=tuple(map(str, refused)) if isinstance(refused, list) else (),
+        refused=texts("refused"),
+        used=texts("used"),
         printed=str(message.get("printed", "")),
     )
 
@@ -96,8 +101,4 @@ def pack(question: Question) -> dict[str, Any]:
             args.append({"number": arg})
         else:
             args.append(wire.pack_value(arg))
-    return {
-        "function": question.function,
-        "args": args,
-        "without": list(question.without),
-    }
+    return {"function": question.function, "args": args}

@@ -38,6 +38,7 @@ class Sandbox:
         questions: Sequence[Question],
         models: Sequence[dict[str, Any]],
         facts: dict[str, Any],
+        noted: Sequence[str] = (),
     ) -> list[Reply]:
         """Ask a student's file.
 
@@ -46,6 +47,7 @@ class Sandbox:
             questions: what to call.
             models: as `model_copy.copy_model` makes them, by `Model.index`.
             facts: `model_copy.facts()`.
+            noted: functions of NumPy whose use goes into `Reply.used`.
 
         Returns:
             One reply per question.
@@ -55,7 +57,12 @@ class Sandbox:
             Robo47Error: there is no such file, or it is no script.
         """
         replies: dict[int, Reply] = {}
-        base = {"models": list(models), "facts": facts, "closed": closed_folders()}
+        base = {
+            "models": list(models),
+            "facts": facts,
+            "noted": list(noted),
+            "closed": closed_folders(),
+        }
         while left := [i for i in range(len(questions)) if i not in replies]:
             process, self._warm = self._warm or Process(), None
             with contextlib.closing(process):

@@ -1,19 +1,16 @@
-"""From a student's file to one verdict per task."""
+"""From a student's file to one result per task."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from robo47 import diagnose, panda
+from robo47 import diagnose
 from robo47.checker import model_copy, variant
 from robo47.checker.replies import LoadError, Model, Question, Reply
 from robo47.checker.sandbox import Sandbox
-from robo47.diagnose import Answer, Verdict
-from robo47.paths import ROOT
+from robo47.checker.verdicts import verdict_of, why_not_loaded
+from robo47.diagnose import Verdict
 from robo47.week import Day, Task
-
-_TODO = "NotImplementedError"
 
 
 @dataclass(frozen=True)
@@ -54,31 +51,23 @@ def check_tasks(
         Robo47Error: there is no such file or task.
     """
     tasks = [day.task(only)] if only else list(day.tasks)
-    asked = [task for task in day.tasks if task in tasks or _needed(task, tasks, day)]
-    questions = [question for task in asked for question in _questions(task)]
-    models = [panda.load("panda_nohand"), variant.model()]
-    copies = [model_copy.copy_model(model) for model in models]
+    needed = {need for task in tasks for need in _all_needs(task, day)}
+    asked = [task for task in day.tasks if task in tasks or task.id in needed]
+    questions = {task.id: _questions(task) for task in asked}
+    flat = [question for some in questions.values() for question in some]
+    copies = [model_copy.copy_model(model) for model in variant.models()]
+    noted = sorted({name for task in asked for name in task.without})
     try:
-        replies = sandbox.run(script, questions, copies, model_copy.facts())
+        replies = sandbox.run(script, flat, copies, model_copy.facts(), noted)
     except LoadError as error:
-        why = _why_not_loaded(script, error.reply)
-        verdict = Verdict("wrong", "does-not-load", why)
+        verdict = Verdict("wrong", "does-not-load", why_not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in tasks]
     results: dict[str, TaskResult] = {}
     for task in asked:
-        own = [
-            (question, reply)
-            for question, reply in zip(questions, replies, strict=True)
-            if question.task == task.id
-        ]
-        verdict = _with_needs(_verdict(task, own), task, day, results)
-        printed = next((reply.printed for _, reply in own if reply.printed), "")
-        results[task.id] = TaskResult(task, verdict, printed)
+        own = list(zip(questions[task.id], replies, strict=False))
+        replies = replies[len(own) :]
+        results[task.id] = _result(task, own, day, results)
     return [results[task.id] for task in tasks]
-
-
-def _needed(task: Task, tasks: Sequence[Task], day: Day) -> bool:
-    return any(task.id in _all_needs(other, day) for other in tasks)
 
 
 def _all_needs(task: Task, day: Day) -> list[str]:
@@ -94,123 +83,39 @@ def _all_needs(task: Task, day: Day) -> list[str]:
 
 
 def _questions(task: Task) -> list[Question]:
-    """Return the judge's calls, then the same functions on the changed Panda."""
-    calls = diagnose.calls(task.id)
+    """Return the judge's calls, then a chain's: fresh angles on both Pandas."""
     asked = [
         Question(
             task.id,
             call.function,
             tuple(Model(0) if isinstance(a, str) else a for a in call.args),
-            task.without,
         )
-        for call in calls
+        for call in diagnose.calls(task.id)
     ]
     for function in task.functions:
         if function in variant.FRAMES:
+            fresh = variant.fresh_configurations()
             asked += [
-                Question(task.id, function, (Model(1), q))
-                for q in variant.configurations()
+                Question(task.id, function, (Model(which), q))
+                for which in range(len(variant.models()))
+                for q in fresh
             ]
     return asked
 
 
-def _verdict(task: Task, own: list[tuple[Question, Reply]]) -> Verdict:
-    """Return what a task's replies show."""
-    for question, reply in own:
-        if early := _without_judge(task, question, reply):
-            return early
-    judged = own[: len(diagnose.calls(task.id))]
-    verdict = diagnose.judge(task.id, [_answer(reply) for _, reply in judged])
-    if verdict.status == "passed":
-        return _on_variant(own[len(judged) :]) or verdict
-    refused = [what for _, reply in own for what in reply.refused]
-    return _refusal(refused[0], None) if refused else verdict
-
-
-def _without_judge(task: Task, question: Question, reply: Reply) -> Verdict | None:
-    """Return the verdict on a reply that never was an answer."""
-    function = question.function
-    if reply.kind == "stopped":
-        return Verdict("wrong", "stopped", f"{function} did not return: {reply.error}.")
-    if reply.kind == "unsendable":
-        return Verdict("wrong", "not-an-array", f"{function}: {reply.error}.")
-    if reply.kind == "missing":
-        says = (
-            f"The file has no function {function}. To put its gap back: "
-            f"make start RESET={task.id}"
-        )
-        return Verdict("wrong", "missing", says)
-    if reply.kind == "RefusedError":
-        return _refusal(reply.refused[0] if reply.refused else "", reply.line)
-    if reply.kind == _TODO:
-        named = re.search(r"task (\d+\.\d+)", reply.error)
-        if named and named[1] != task.id:
-            says = f"Waits for task {named[1]}, which it calls and which is to do."
-            return Verdict("todo", "waits", says)
-    return None
-
-
-def _answer(reply: Reply) -> Answer:
-    if not reply.kind:
-        return Answer(reply.value)
-    where = f" (line {reply.line})" if reply.line else ""
-    return Answer(None, f"{reply.kind}: {reply.error}{where}")
-
-
-def _refusal(what: str, line: int | None) -> Verdict:
-    """Return the verdict on code that wanted more than its arguments."""
-    where = f" (line {line})" if line else ""
-    what = what.replace(str(ROOT), "").replace(ROOT.as_posix(), "")
-    if what.startswith("call "):
-        says = (
-            f"It wants to {what}{where}. Here the point is to work the answer out "
-            "yourself; the judge has MuJoCo's."
-        )
-        return Verdict("wrong", "not-by-hand", says)
-    says = f"It wants to {what}{where}. A task needs nothing but its arguments."
-    return Verdict("wrong", "refused", says)
-
-
-def _on_variant(own: list[tuple[Question, Reply]]) -> Verdict | None:
-    """Return the verdict on a chain that is right on the real Panda alone, or None."""
-    if not own:
-        return None
-    values = [reply.value for _, reply in own]
-    worst = variant.worst_error(own[0][0].function, values)
-    if worst <= variant.AGREES:
-        return None
-    raised = next((reply for _, reply in own if reply.kind), None)
-    how = f"stops with {raised.kind}" if raised else f"is off by {worst:.3g}"
-    says = (
-        "Right for this Panda, but on one whose links are a little longer and turned "
-        f"it {how}: take every pos and quat from the model that is passed in."
-    )
-    return Verdict("wrong", "not-from-the-model", says)
-
-
-def _with_needs(
-    verdict: Verdict, task: Task, day: Day, results: dict[str, TaskResult]
-) -> Verdict:
-    """Point from a wrong task to the first wrong one below it."""
-    if verdict.status in ("passed", "todo"):
-        return verdict
-    for need in _all_needs(task, day):
-        if not results[need].passed:
-            says = f"{verdict.message} It builds on {need}: get that one right first."
-            return replace(verdict, message=says)
-    return verdict
-
-
-def _why_not_loaded(script: Path, reply: Reply) -> str:
-    """Return one line on a file that Python could not load."""
-    where = f"{script.name}, line {reply.line}" if reply.line else script.name
-    if reply.kind == "SystemExit":
-        return (
-            f"{where}: it ends Python while being loaded. Keep sys.exit below "
-            '`if __name__ == "__main__":`.'
-        )
-    if reply.kind == "RefusedError" and reply.refused:
-        return f"{where}: while being loaded it wants to {reply.refused[0]}."
-    if reply.kind == "stopped":
-        return f"{where}: while being loaded, {reply.error}."
-    return f"{where}: {reply.kind}: {reply.error}"
+def _result(
+    task: Task,
+    own: Sequence[tuple[Question, Reply]],
+    day: Day,
+    results: dict[str, TaskResult],
+) -> TaskResult:
+    """Return a task's result; a wrong one points to the first wrong one below it."""
+    verdict = verdict_of(task, own)
+    printed = next((reply.printed for _, reply in own if reply.printed), "")
+    if verdict.status == "wrong":
+        for need in _all_needs(task, day):
+            if not results[need].passed:
+                also = f"Task {need}, which it may build on, is not right yet either."
+                verdict = replace(verdict, message=f"{verdict.message} {also}")
+                break
+    return TaskResult(task, verdict, printed)

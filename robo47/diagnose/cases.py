@@ -10,7 +10,8 @@ from robo47.diagnose.verdict import MODEL, TASK_FUNCTIONS, Call
 
 SEED = 47
 BASE = 2  # row of `configurations`: the next seven turn one joint of it each
-READY_Q = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)  # the handout's home_q
+# The handout's home_q. `panda` has it too, but importing that loads MuJoCo.
+READY_Q = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)
 
 
 def calls(task: str) -> list[Call]:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -67,11 +68,8 @@ def _judge(function: str, answers: list[Answer]) -> Verdict:
 
 
 def _measured(function: str, S: Array, T: Array) -> tuple[str, ...]:
-    if function not in ON_THE_ARM:
-        return parts.measured(S, T)
-    from robo47.diagnose import on_the_arm
-
-    return *parts.measured(S, T), on_the_arm.measured(S, T)
+    lines = parts.measured(S, T)
+    return (*lines, _arm().measured(S, T)) if function in ON_THE_ARM else lines
 
 
 def _diagnose(function: str, S: Array, T: Array) -> Finding:
@@ -88,20 +86,23 @@ def _diagnose(function: str, S: Array, T: Array) -> Finding:
     if found:
         return found
     if function in ON_THE_ARM:
-        from robo47.diagnose import on_the_arm
-
-        return on_the_arm.diagnose(function, S, T, arguments[0], given)
+        return _arm().diagnose(function, S, T, arguments[0], given)
     return parts.what_is_wrong(S, T, given)
 
 
 @cache
 def mistakes_of(function: str) -> list[Mistake]:
     """Return the named mistakes of a function, the more general first."""
-    if function in ON_THE_ARM:
-        from robo47.diagnose import on_the_arm
+    return (
+        _arm().mistakes(function) if function in ON_THE_ARM else OF_FUNCTION[function]
+    )
 
-        return on_the_arm.mistakes(function)
-    return OF_FUNCTION[function]
+
+def _arm() -> ModuleType:
+    """Return what needs the robot; MuJoCo's import is a student's 0.1 s, so late."""
+    from robo47.diagnose import on_the_arm
+
+    return on_the_arm
 
 
 def redone(

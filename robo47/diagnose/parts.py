@@ -74,7 +74,8 @@ def what_is_wrong(S: Array, T: Array, given: list[str]) -> Finding:
         T: the right ones.
         given: the inputs in words, one per answer.
     """
-    finding = {(3, 3): _rotation, (4, 4): _pose, (2, 3): _two_points}[S.shape[1:]](S, T)
+    by_shape = {(3, 3): _rotation, (4, 4): _pose, (2, 3): _two_points}
+    finding = _few_entries(S, T) or by_shape[S.shape[1:]](S, T)
     return Finding(finding.slug, f"{finding.message}{_where(S, T, given)}")
 
 
@@ -121,10 +122,31 @@ def _below(S: Array) -> float:
     return float(np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max())
 
 
+def _few_entries(S: Array, T: Array) -> Finding | None:
+    """Return which entries are wrong if they are one or two, or one row or column."""
+    gap = np.abs(S - T)
+    rows, columns = np.nonzero(gap.max(axis=0) > CLOSE)
+    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
+    t_or_below = (one_column and columns[0] == 3) or (one_row and rows[0] == 3)
+    if S.shape[-2] != S.shape[-1] or (t_or_below and len(rows) > 1):
+        return None  # two vectors, or a part that has a name of its own
+    if len(rows) <= 2:
+        where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
+    elif one_row or one_column:
+        where = f"row {rows[0]}" if one_row else f"column {columns[0]}"
+    else:
+        return None
+    return Finding(
+        "few-entries-off",
+        f"All entries are right but {where}, counted from 0: up to {gap.max():.2g} "
+        "off. Look there for a wrong sign, letter or factor.",
+    )
+
+
 def _rotation(S: Array, T: Array) -> Finding:
     if (off := _skew(S)) > RIGID:
         det = np.linalg.det(S)
-        worst = det[np.argmax(np.abs(det - 1.0))]
+        worst = np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0  # no 7e-189
         return Finding(
             "not-orthonormal",
             "R is no rotation: its columns are not unit vectors at right angles. "
@@ -137,9 +159,11 @@ def _rotation(S: Array, T: Array) -> Finding:
             "R's columns are the right axes, but swapped or with the wrong sign. "
             f"(det R is {np.linalg.det(S[0]):.0f}.)",
         )
-    if (np.linalg.det(S) < 0.0).any():
+    if mirrored := np.sum(np.linalg.det(S) < 0.0):
         return Finding(
-            "left-handed", "R is a left-handed frame, a mirror image. (det R is -1.)"
+            "left-handed",
+            f"R is a left-handed frame, a mirror image, for {mirrored} of {len(S)} "
+            "inputs. (det R is -1.)",
         )
     off_by = degrees(S, T)
     if np.ptp(off_by) < 1e-3:

@@ -149,10 +149,8 @@ def main() -> int:
     lab.check("largest |by hand - MuJoCo|", np.abs(T_world_ee - T_mujoco), AGREES)
 
     lab.step("3. It is a rigid transform")
-    R, inv_err = (
-        T_world_ee[:3, :3],
-        np.abs(T_world_ee @ inverse(T_world_ee) - np.eye(4)),
-    )
+    R = T_world_ee[:3, :3]
+    inv_err = np.abs(T_world_ee @ inverse(T_world_ee) - np.eye(4))
     lab.check("largest |T @ inv(T) - I|", inv_err, 1e-10)
     lab.check("largest |R @ R.T - I|", np.abs(R @ R.T - np.eye(3)), 1e-10)
     lab.check("|det R - 1|", abs(np.linalg.det(R) - 1), 1e-10)
@@ -174,9 +172,7 @@ def main() -> int:
         print(f"        where q = {np.round(worst.q, 2)}")
         errors.append(worst.error)
 
-    lab.step(
-        "6. Side quest: link4's numbers in the file are not its place in the world"
-    )
+    lab.step("6. Side quest: link4 as the file has it, and link4 in the world")
     link4, T_world_link4 = model.body("link4"), link4_to_world(model, HOME_Q)
     lab.show("in the file: T_link3_link4", link_T(link4.pos, link4.quat))
     lab.show("data.xpos, in the world", data.body("link4").xpos)

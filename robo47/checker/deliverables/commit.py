@@ -28,7 +28,7 @@ def check_commit(day: Day, root: Path) -> Item:
         root, "status", "--porcelain=v1", "-z", "-uall", "--no-renames", "--", *wanted
     )
     if tracked is None or changed is None:
-        return Item("commit", "wrong", "git cannot read this clone: see `make doctor`.")
+        return Item("commit", "todo", "This folder is no git repository: git init")
     dirty = {entry[3:] for entry in changed if entry}
     left = [name for name in wanted if name in dirty or name not in tracked]
     if not left:

@@ -48,11 +48,10 @@ def main() -> None:
     watch = guard.Guard(request["folder"], LIBRARIES + sys.argv[1:], request["closed"])
     models = [_model_maker(standins, wire, data) for data in request["models"]]
     sys.modules.update(standins.make_modules(watch.refuse, models[0], request["facts"]))
-    names = {name for call in request["calls"] for name in call["without"]}
-    shut_out = standins.shut_out(sorted(names), watch.refuse)
+    used = standins.note_use(request["noted"])
     limits.tighten()
     watch.arm()
-    _answer(request, send, watch.refused, shut_out, wire, models)
+    _answer(request, send, watch.refused, used, wire, models)
     os._exit(0)  # no atexit of the student's, no thread to wait for
 
 
@@ -65,7 +64,7 @@ def _answer(
     request: Any,
     send: Callable[..., None],
     refused: list[str],
-    shut_out: set[str],
+    used: list[str],
     wire: Any,
     models: Any,
 ) -> None:
@@ -86,8 +85,7 @@ def _answer(
     for index, call in enumerate(request["calls"]):
         send(at=index)
         refused.clear()
-        shut_out.clear()
-        shut_out.update(call["without"])
+        used.clear()
         sys.stdout = sys.stderr = printed = _Kept()
         try:
             function = getattr(module, call["function"], None)
@@ -100,7 +98,8 @@ def _answer(
             reply = {"error": f"it returned {error}", "kind": "unsendable"}
         except BaseException as error:
             reply = _describe(error, path)
-        send(at=index, refused=refused[:3], printed=printed.getvalue(), **reply)
+        notes = {"refused": refused[:3], "used": used[:3]}
+        send(at=index, printed=printed.getvalue(), **notes, **reply)
 
 
 def _argument(packed: Any, wire: Any, models: Any) -> Any:

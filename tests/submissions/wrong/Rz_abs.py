@@ -1,4 +1,4 @@
-# task 1.2: rotation-off
+# task 1.2: few-entries-off
 # The sine from the cosine: sqrt forgets its sign. Right for half of the angles.
 import numpy as np
 

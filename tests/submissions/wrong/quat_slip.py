@@ -1,4 +1,4 @@
-# task 1.4: not-orthonormal
+# task 1.4: few-entries-off
 # One sign slipped in one entry: no name for that, but it can be told where.
 import numpy as np
 

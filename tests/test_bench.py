@@ -1,0 +1,119 @@
+"""The bench: its results are the README's, its rivals are checked before timed."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from compare import assert_same
+from conftest import ROOT
+
+from bench import bench_fk, bench_growth, table, timing
+from robo47 import kinematics, panda, verify
+
+RESULTS = ROOT / "bench" / "results.json"
+
+
+def test_candidates_take_turns_and_the_warm_up_is_not_counted():
+    order = []
+    timed = timing.take_turns({n: lambda n=n: order.append(n) for n in "ab"}, 3)
+    assert "".join(order) == "abababab"
+    assert set(timed) == {"a", "b"}
+    assert timed["a"]["low"] <= timed["a"]["median"] <= timed["a"]["high"]
+
+
+@pytest.mark.parametrize("name", ["robo47 fk", "plain 4x4 products, NumPy"])
+def test_a_rival_that_is_timed_gives_mujocos_poses(name, twin):
+    rival = bench_fk.RIVALS[name]()
+    model = panda.load("panda_nohand")
+    q = verify.random_q(model, 20, seed=1)
+    truth = verify.mujoco_poses(model, q)[bench_fk.FRAME]
+    assert_same(rival.solve(q), truth, 1e-14)
+
+
+def test_the_general_path_is_timed_on_a_robot_that_has_nothing_to_fold(twin):
+    model = bench_fk.tilted_panda()
+    chain = kinematics.chain_to(model, bench_fk.FRAME)
+    kinds = [type(step).__name__ for _, step in chain.plan.steps]
+    assert kinds.count("Rotate") == 7
+    q = verify.random_q(model, 20, seed=1)
+    truth = verify.mujoco_poses(model, q)[bench_fk.FRAME]
+    assert_same(kinematics.fk(chain, q), truth, 1e-13)
+
+
+def test_a_rival_that_is_not_installed_is_left_out_and_named(monkeypatch, twin):
+    def missing():
+        raise ImportError("No module named 'pinocchio'")
+
+    monkeypatch.setattr(bench_fk, "RIVALS", {"ours": bench_fk.ours, "gone": missing})
+    results = bench_fk.run(rounds=1, n=300)
+    assert results["left_out"] == {"gone": "No module named 'pinocchio'"}
+    assert set(results["rows"]) == {"ours"}
+    assert results["rows"]["ours"]["error"] < 1e-14
+
+
+def test_memory_beyond_input_and_output_does_not_grow_with_the_batch(twin):
+    chain = kinematics.chain_to(panda.load("panda_nohand"), "attachment_site")
+    small, large = (
+        bench_growth._extra_memory(chain, np.zeros((n, 7))) for n in (10_000, 300_000)
+    )
+    assert large < 1.5 * small < 10e6
+
+
+def test_the_results_hold_every_part_and_the_targets_they_claim():
+    results = json.loads(RESULTS.read_text("utf-8"))
+    rows = results["fk"]["rows"]
+    ours = rows["robo47 fk"]
+    assert ours["error"] < 1e-14
+    for part in ("about", "lab", "growth", "metrics", "checker", "tests"):
+        assert part in results
+    # The numbers that were recorded, not a time taken now.
+    assert ours["us"] < 0.25 * rows["MuJoCo mj_kinematics, loop"]["us"]
+    assert ours["us"] < 0.5 * rows["Pinocchio with the frame, loop"]["us"]
+    assert rows["robo47 fk, any axes"]["us"] < 3 * ours["us"]
+
+
+def test_the_table_fits_80_columns():
+    text = table.render(json.loads(RESULTS.read_text("utf-8")))
+    assert max(map(len, text.splitlines())) <= 80
+
+
+def test_the_readme_shows_this_table():
+    shown = (ROOT / "README.md").read_text("utf-8")
+    assert "python scripts/bench.py --table" in shown  # test_docs compares the outputs
+    text = table.render(json.loads(RESULTS.read_text("utf-8")))
+    assert text in shown
+
+
+def test_the_table_is_printed_without_running_anything(run):
+    done = run("scripts/bench.py", "--table")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Forward kinematics of the Panda" in done.stdout
+
+
+def test_an_unknown_part_is_refused_with_the_ones_there_are(run):
+    done = run("scripts/bench.py", "kf")
+    assert done.returncode == 2
+    assert "no part kf; there are fk, lab" in done.stderr
+
+
+def test_the_handouts_script_mended_runs(real_panda):
+    command = [sys.executable, "bench/handout_day1.py", real_panda / "panda_nohand.xml"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert "inverse error" in done.stdout
+
+
+def test_the_matrix_covers_the_floor_and_the_pin_of_the_lists():
+    path = ROOT / "scripts" / "test_matrix.py"
+    spec = importlib.util.spec_from_file_location("matrix", path)
+    matrix = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(matrix)
+    oldest, newest = matrix.MUJOCOS
+    assert (
+        f'"mujoco>={oldest.removesuffix(".0")},'
+        in (ROOT / "pyproject.toml").read_text()
+    )
+    assert f"mujoco=={newest} " in (ROOT / "constraints.txt").read_text("utf-8")
+    assert matrix.find_python("2.0") is None

@@ -1,0 +1,224 @@
+"""The checker as a program: a student's hour, in a copy of the kit."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+
+from robo47.paths import ROOT
+from robo47.week import find_day
+
+CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
+
+
+@pytest.fixture
+def day(clone):
+    return find_day(1, clone)
+
+
+@pytest.fixture
+def work(day, run_in):
+    """Start the day and return the student's file."""
+    assert run_in(START, 1).returncode == 0
+    return day.work
+
+
+def solve(day, work, *names):
+    """Write the kit's solution of some functions into the student's file."""
+    from robo47.starter import put_back
+
+    work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
+
+
+class TestStart:
+    def test_writes_the_starter_and_says_how_to_go_on(self, run_in, day):
+        done = run_in(START, 1)
+        assert done.returncode == 0
+        assert "make check DAY=1" in done.stdout
+        assert "TODO 1.4" in day.work.read_text()
+
+    def test_never_overwrites(self, run_in, work):
+        work.write_text("mine")
+        done = run_in(START, 1)
+        assert (done.returncode, work.read_text()) == (0, "mine")
+        assert "stays as it is" in done.stdout
+
+    def test_resets_one_task_and_keeps_the_old_text_beside_it(self, run_in, day, work):
+        starter = work.read_text()
+        solve(day, work, "Rz", "make_T")
+        mine = work.read_text()
+        done = run_in(START, "--reset", "1.2")
+        assert done.returncode == 0
+        solve(day, work, "Rz")
+        assert work.read_text() == mine
+        kept = list(work.parent.glob("*.before-1.2-*.txt"))
+        assert [path.read_text() for path in kept] == [mine]
+        run_in(START, "--reset", "1.1")
+        run_in(START, "--reset", "1.2")
+        assert work.read_text() == starter
+        assert len(list(work.parent.glob("*.txt"))) == 3
+
+    @pytest.mark.parametrize(
+        ("arguments", "says"),
+        [((9,), "no day 9 yet"), (("--reset", "1.9"), "no task 1.9")],
+    )
+    def test_says_what_there_is_where_there_is_no_such_thing(
+        self, run_in, arguments, says
+    ):
+        done = run_in(START, *arguments)
+        assert done.returncode == 2
+        assert says in done.stderr
+        assert "Traceback" not in done.stderr
+
+    def test_a_reset_of_nothing_says_so(self, run_in):
+        done = run_in(START, "--reset", "1.4")
+        assert done.returncode == 2
+        assert "w1-foundations/work/day1_transforms.py is not there" in done.stderr
+
+
+class TestCheck:
+    def test_of_the_starter_finds_every_task_to_do(self, run_in, work):
+        done = run_in(CHECK, 1)
+        assert done.returncode == 1
+        assert done.stdout.count("to do") == 14
+        assert "0 of 14 done, 0 % of the day." in done.stdout
+        assert "Next: task 1.1, make_T. Stuck? make hint TASK=1.1" in done.stdout
+
+    def test_of_the_reference_solution_passes_every_task(self, run_in, work, day):
+        work.write_text(day.source.read_text("utf-8"))
+        found = json.loads(run_in(CHECK, 1, "--json").stdout)
+        tasks = [e for e in found["entries"] if e["kind"] == "task"]
+        assert [task["status"] for task in tasks] == ["passed"] * 8
+        assert (found["done"], found["total"], found["passed"]) == (8, 14, False)
+        assert found["next"] == "the figure."
+
+    def test_of_each_solution_passes_its_own_task(self, run_in, work, day):
+        names = [name for task in day.tasks for name in task.functions]
+        solve(day, work, *names)
+        for task in day.tasks[:3]:
+            done = run_in(CHECK, "--task", task.id)
+            assert (done.returncode, "1 of 1 done." in done.stdout) == (0, True)
+
+    def test_names_the_mistake_with_the_number_that_shows_it(self, run_in, work, day):
+        solve(day, work, "make_T")
+        text = work.read_text().replace("T[:3, :3] = R\n", "T[:3, :3] = R.T\n")
+        work.write_text(text)
+        done = run_in(CHECK, "--task", "1.1", "--explain")
+        assert done.returncode == 1
+        assert "WRONG" in done.stdout
+        assert "transpose" in done.stdout
+        assert "largest difference" in done.stdout
+
+    def test_keeps_to_80_columns_and_plain_text(self, run_in, work, day):
+        solve(day, work, "make_T", "Rz", "inverse")
+        text = work.read_text().replace("T[:3, 3] = t", "T[:3, 3] = -t")
+        work.write_text(text)
+        said = run_in(CHECK, 1, "--explain").stdout
+        assert "WRONG" in said
+        assert max(map(len, said.splitlines())) <= 80
+        assert said.isascii()
+
+    def test_shows_a_syntax_error_once_with_its_line(self, run_in, work):
+        work.write_text(work.read_text() + "def f()\n    pass\n")
+        done = run_in(CHECK, 1)
+        line = work.read_text().count("\n") - 1
+        says = f"day1_transforms.py, line {line}: SyntaxError: expected ':'"
+        assert done.stdout.count(says) == 1
+        assert "mend that line" in done.stdout
+
+    def test_shows_what_was_printed_on_request(self, run_in, work, day):
+        solve(day, work, "Rz")
+        text = work.read_text().replace(
+            "c, s = np.cos", 'print("hello")\n    c, s = np.cos'
+        )
+        work.write_text(text)
+        assert "| hello" in run_in(CHECK, "--task", "1.2", "--explain").stdout
+        assert "hello" not in run_in(CHECK, "--task", "1.2").stdout
+
+    @pytest.mark.parametrize(
+        ("arguments", "says"),
+        [
+            ((1,), "make start DAY=1"),
+            ((7,), "no day 7 yet"),
+            (("--task", "x"), "'x' is no task"),
+            (("--task", "1.4", "--file", "nowhere.py"), "nowhere.py is not there"),
+        ],
+    )
+    def test_that_cannot_run_says_why_and_exits_2(self, run_in, arguments, says):
+        done = run_in(CHECK, *arguments)
+        assert done.returncode == 2
+        assert says in done.stderr
+        assert "Traceback" not in done.stderr
+
+    def test_leaves_the_students_files_alone(self, run_in, work, clone):
+        before = {p: p.read_bytes() for p in work.parent.iterdir()}
+        run_in(CHECK, 1)
+        assert before == {p: p.read_bytes() for p in work.parent.iterdir()}
+
+    def test_watches_until_all_is_well_and_sees_each_save(self, work, day, clone):
+        robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
+        environment = {**os.environ, "PYTHONPATH": str(clone)}
+        if os.path.isdir(robots):
+            environment["MENAGERIE_ROOT"] = robots
+        command = [sys.executable, "-u", CHECK, "--task", "1.1", "--watch"]
+        with subprocess.Popen(
+            command, cwd=clone, env=environment, stdout=subprocess.PIPE, text=True
+        ) as watcher:
+            said = []
+            for line in watcher.stdout:
+                said.append(line)
+                if "watching" in line:
+                    time.sleep(0.01)  # a file system that stamps coarsely
+                    solve(day, work, "make_T")
+            assert watcher.wait(timeout=60) == 0
+        assert sum("make_T" in line and "to do" in line for line in said) == 1
+        assert sum("make_T" in line and "passed" in line for line in said) == 1
+
+
+class TestHint:
+    def test_gives_the_next_one_each_time_and_remembers(self, run_in, day, clone):
+        hints = day.task("1.4").hints
+        for count, hint in enumerate([*hints, hints[-1]], start=1):
+            done = run_in(HINT, "1.4")
+            assert done.returncode == 0
+            number = min(count, len(hints))
+            assert f"hint {number} of {len(hints)}" in done.stdout
+            assert hint.split()[:4] == done.stdout.splitlines()[2].split()[:4]
+            assert "Re-read:" in done.stdout
+        assert json.loads((clone / ".robo47/hints.json").read_text()) == {"1.4": 3}
+        assert "hint 1 of" in run_in(HINT, "1.2").stdout
+
+    def test_repeats_one_on_request(self, run_in):
+        first = run_in(HINT, "1.4").stdout
+        assert run_in(HINT, "1.4", "--again").stdout == first
+
+    def test_shows_the_solution_only_once_the_task_passes(self, run_in, work, day):
+        solution = "T[:3, :3] = R"
+        for _ in range(4):
+            assert solution not in run_in(HINT, "1.1").stdout
+        solve(day, work, "make_T")
+        assert solution in run_in(HINT, "1.1").stdout
+
+    def test_without_a_task_is_for_the_first_that_is_open(self, run_in, work, day):
+        solve(day, work, "make_T")
+        assert run_in(HINT).stdout.startswith("1.2 ")
+
+    def test_survives_a_memory_that_is_no_json(self, run_in, clone):
+        (clone / ".robo47").mkdir()
+        (clone / ".robo47/hints.json").write_text("[1, {")
+        assert "hint 1 of" in run_in(HINT, "1.4").stdout
+
+    def test_says_what_a_task_is_called(self, run_in):
+        done = run_in(HINT, "fk")
+        assert done.returncode == 2
+        assert "such as 1.4" in done.stderr
+
+
+def test_running_the_starter_names_the_task_that_is_to_do(run_in, work):
+    done = run_in("w1-foundations/work/day1_transforms.py", "--no-log")
+    assert done.returncode == 1
+    assert "to do: task 1.1: write make_T" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,246 @@
+"""What a day hands in: each item passes when it is done, and says what to do if not."""
+
+import struct
+import subprocess
+import zlib
+
+import numpy as np
+import pytest
+
+from robo47 import metrics
+from robo47.checker.deliverables import check_deliverables
+from robo47.checker.deliverables.figure import FlawError, read_png
+from robo47.checker.deliverables.worksheet import split_sections
+from robo47.week import find_day
+
+RNG = np.random.default_rng(47)
+PICTURE = RNG.integers(0, 256, (300, 400, 3), np.uint8)
+GUIDE = "A frame is an origin with three axes that are fixed to a body of the robot.\n"
+
+
+def png(pixels):
+    """Return a PNG of an array, (height, width, 3)."""
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    height, width = pixels.shape[:2]
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = (
+        chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    )
+    return b"\x89PNG\r\n\x1a\n" + parts
+
+
+def worksheet(terms, *, drawings=3, ticked="x", definition=None):
+    own = "My own words say what {} means to me when the arm moves."
+    lines = ["# Day 1", "## Glossary"]
+    for term in terms:
+        lines += [f"### {term}", (definition or own).format(term), ""]
+    lines += ["## Drawings"]
+    for i in range(drawings):
+        lines += [f"### Drawing {i + 1}: a frame", "```", " z", " |", " +-- x", "```"]
+    return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
+
+
+@pytest.fixture
+def day(clone):
+    """Day 1 of a copy of the kit in which everything is handed in."""
+    day = find_day(1, clone)
+    week = day.folder
+    (week / "docs").mkdir(exist_ok=True)
+    (week / "figures").mkdir(exist_ok=True)
+    (week / "work").mkdir()
+    day.work.write_text("x = 1\n")
+    (week / day.figure).write_bytes(png(PICTURE))
+    (week / day.worksheet).write_text(worksheet(day.terms), "utf-8")
+    (week / day.guide).write_text(GUIDE, "utf-8")
+    log = clone / "metrics" / "metrics.csv"
+    log.write_text(",".join(metrics.COLUMNS) + "\n")
+    for row in day.metrics:
+        metrics.append_row(log, day=1, check=row.check, metric=row.metric, value=1e-15)
+    for command in (["init", "-q"], ["add", "-A"], ["commit", "-qm", "Day 1"]):
+        git(clone, *command)
+    return day
+
+
+def git(clone, *command):
+    who = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
+    subprocess.run(["git", "-C", str(clone), *who, *command], check=True)
+
+
+@pytest.fixture
+def items(day, clone):
+    """Check again and return {name: item}."""
+    return lambda: {item.name: item for item in check_deliverables(day, clone)}
+
+
+def test_a_day_that_is_handed_in_passes_in_every_item(items):
+    assert list(items()) == [
+        "figure",
+        "definitions",
+        "drawings",
+        "checklist",
+        "metrics",
+        "commit",
+    ]
+    assert all(item.passed and not item.message for item in items().values())
+
+
+def test_checking_changes_no_file(items, clone):
+    before = {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
+    items()
+    assert before == {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
+
+
+def test_a_fresh_copy_has_everything_to_do(clone):
+    found = check_deliverables(find_day(1, clone), clone)
+    assert not any(item.passed for item in found)
+    assert all(item.message for item in found)
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"", "no PNG"),
+        (b"\xff\xd8\xff\xe0" + b"x" * 99, "JPEG under the name of a PNG"),
+        (png(PICTURE)[:500], "cut off or damaged"),
+        (png(PICTURE[:50]), "400x50 pixels; at least 320x240"),
+        (png(PICTURE * 0), "black: was mj_forward called"),
+        (png(PICTURE * 0 + 200), "one colour"),
+        (png(PICTURE)[:16] + b"\x7f" * 8 + png(PICTURE)[24:], "too many"),
+    ],
+)
+def test_a_picture_that_is_none_is_told_why(items, day, data, says):
+    (day.folder / day.figure).write_bytes(data)
+    item = items()["figure"]
+    assert item.status == "wrong"
+    assert says in item.message
+
+
+def test_the_kits_own_picture_does_not_count_even_saved_anew(items, day):
+    (day.folder / day.kit_figures[0]).write_bytes(png(PICTURE))
+    nearly = png(np.clip(PICTURE.astype(int) + 1, 0, 255).astype(np.uint8) // 2 * 2)
+    assert nearly != png(PICTURE)
+    (day.folder / day.figure).write_bytes(png(PICTURE))
+    assert "make one of your own" in items()["figure"].message
+
+
+def test_a_png_reads_back_as_its_pixels():
+    assert np.array_equal(read_png(png(PICTURE)), PICTURE)
+    with pytest.raises(FlawError, match="no PNG"):
+        read_png(b"GIF89a")
+
+
+@pytest.mark.parametrize(
+    ("definition", "says"),
+    [
+        ("", "Still empty: pose"),
+        ("> say it in your own words, in one or two sentences please", "Still empty"),
+        ("_in your own words, and in a sentence or two of your own_", "Still empty"),
+        ("<!-- a sentence that explains what this is to a friend -->", "Still empty"),
+        ("TODO write this when the lab is done and I know", "Still empty"),
+        ("Where it is.", "Say it in a sentence (8 words): pose"),
+        (GUIDE, "The guide's words, not yours: pose"),
+    ],
+)
+def test_a_definition_has_to_be_a_sentence_of_ones_own(items, day, definition, says):
+    text = worksheet(day.terms, definition=definition or " ")
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    item = items()["definitions"]
+    assert not item.passed
+    assert says in item.message
+
+
+def test_one_missing_definition_is_named(items, day):
+    text = worksheet(day.terms[:-1])
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    message = items()["definitions"].message
+    assert message.startswith("7 of 8")
+    assert f"Still empty: {day.terms[-1]}." in message
+
+
+def test_a_drawing_may_be_a_picture_that_is_there(items, day):
+    path = day.folder / day.worksheet
+    text = worksheet(day.terms, drawings=2)
+    path.write_text(text + "\n### Drawing 3\n![sketch](sketch.jpg)\n", "utf-8")
+    assert "Drawing 3: its image file is not there" in items()["drawings"].message
+    (path.parent / "sketch.jpg").write_bytes(b"jpeg")
+    assert items()["drawings"].passed
+
+
+def test_a_drawing_of_no_lines_is_none(items, day):
+    path = day.folder / day.worksheet
+    path.write_text(worksheet(day.terms, drawings=0), "utf-8")
+    assert items()["drawings"].status == "todo"
+    path.write_text(worksheet(day.terms, drawings=1), "utf-8")
+    assert "Drawing 2, 3: add" in items()["drawings"].message
+
+
+def test_an_open_box_of_the_checklist_is_named(items, day):
+    path = day.folder / day.worksheet
+    path.write_text(worksheet(day.terms, ticked=" "), "utf-8")
+    assert "1 of 2 ticked" in items()["checklist"].message
+    assert "Next: ran it" in items()["checklist"].message
+    path.write_text("# Day 1", "utf-8")
+    assert "no checklist" in items()["checklist"].message
+
+
+def test_a_worksheet_that_is_gone_or_no_text_is_told(items, day):
+    path = day.folder / day.worksheet
+    path.write_bytes(b"\xff\xfe\x00")
+    assert "UTF-8" in items()["checklist"].message
+    path.unlink()
+    assert items()["definitions"].status == "todo"
+
+
+def test_sections_know_their_level_and_what_is_code():
+    text = "# A\n1\n## B\n2\n```\n# no heading\n```\n## C ##\n3\n# D\n4"
+    sections = split_sections(text)
+    assert list(sections) == ["a", "b", "c", "d"]
+    assert sections["a"].splitlines()[0] == "1"
+    assert "# no heading" in sections["b"]
+    assert sections["c"] == "3"
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [("0.5", "must be at most 1e-10"), ("-1e-16", "never negative"), ("nan", "number")],
+)
+def test_a_number_that_cannot_be_right_is_told(items, clone, value, says):
+    log = clone / "metrics" / "metrics.csv"
+    row = log.read_text().splitlines()[1].replace("1e-15", value)
+    assert value in row
+    log.write_text(log.read_text() + row + "\n")
+    item = items()["metrics"]
+    assert item.status == "wrong"
+    assert says in item.message
+
+
+def test_a_missing_or_unreadable_log_is_told_with_what_to_do(items, clone):
+    log = clone / "metrics" / "metrics.csv"
+    log.write_text(log.read_text().splitlines()[0] + "\n")
+    assert "No row yet for fk_identity_check (inv_err)" in items()["metrics"].message
+    assert "make run DAY=1" in items()["metrics"].message
+    log.write_text("this,is,another,table\n")
+    assert items()["metrics"].status == "wrong"
+    log.unlink()
+    assert items()["metrics"].status == "todo"
+
+
+def test_what_is_not_committed_is_named_with_the_command(items, day, clone):
+    day.work.write_text("x = 2\n")
+    message = items()["commit"].message
+    assert "w1-foundations/work/day1_transforms.py" in message
+    assert 'git commit -m "Day 1"' in message
+    git(clone, "commit", "-qam", "again")
+    assert items()["commit"].passed
+    git(clone, "rm", "-q", "--cached", "metrics/metrics.csv")
+    assert "metrics/metrics.csv" in items()["commit"].message
+
+
+def test_a_folder_without_git_is_told(items, clone):
+    (clone / ".git").rename(clone / "nothing")
+    assert "git init" in items()["commit"].message
