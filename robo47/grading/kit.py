@@ -1,0 +1,17 @@
+"""Which kit this is: grades from two different ones must not be mixed unseen."""
+
+import hashlib
+from functools import cache
+
+from robo47.paths import ROOT
+
+
+@cache
+def fingerprint() -> str:
+    """Return a hash of the code and the manifests that decide a grade."""
+    files = [*ROOT.glob("robo47/**/*.py"), *ROOT.glob("w*-*/week.toml")]
+    whole = hashlib.sha256()
+    for path in sorted(files):
+        whole.update(path.relative_to(ROOT).as_posix().encode())
+        whole.update(path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return whole.hexdigest()[:16]
