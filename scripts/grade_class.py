@@ -100,8 +100,8 @@ def main() -> int:
     with contextlib.closing(journal), where or engine.local(options.processes) as it:
         if options.pull:
             room.pull()
-        everybody, pairs = room.grade(it, out.parent / "feedback")
-    write_all(room, everybody, pairs, out)
+        everybody, alike = room.grade(it, out.parent / "feedback")
+    write_all(room, everybody, alike, out)
     tell(room, everybody, out)
     return cli.EXIT_FAILED if room.notes or room.lost else cli.EXIT_OK
 
@@ -115,7 +115,7 @@ def tell(room: Classroom, everybody: list[Graded], out: Path) -> None:
     kept = len(everybody) - room.graded_now - room.lost
     print(f"graded now: {room.graded_now:,}; unchanged since: {kept:,}")
     for one in overview.diagnoses(room.day, everybody)[:3]:
-        print(f"  {len(one.who):4} made {one.mistake} in {one.task}")
+        print(f"  {len(one.who):4}  {one.task}  {one.mistake}")
     if room.notes:
         print(f"not pulled: {len(room.notes):,}; the column error says why")
     if room.lost:

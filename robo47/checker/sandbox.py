@@ -8,26 +8,19 @@ again in a fresh process.
 """
 
 import contextlib
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from robo47.checker.process import Process, closed_folders
-from robo47.checker.replies import Question, Reply, pack, stopped
+from robo47.checker.replies import Question, Reply, pack
 
 
 class Sandbox:
     """Processes for one student's file after the other; the next is always warm."""
 
-    def __init__(self, seconds: float = float("inf")) -> None:
-        """Start the first process, so that it loads while the caller prepares.
-
-        Args:
-            seconds: after so many, no further process is started for a file; what it
-                was not asked by then counts as stopped.
-        """
-        self.seconds = seconds
+    def __init__(self) -> None:
+        """Start the first process, so that it loads while the caller prepares."""
         self._warm: Process | None = Process()
 
     def __enter__(self) -> "Sandbox":
@@ -70,22 +63,17 @@ class Sandbox:
             "noted": list(noted),
             "closed": closed_folders(),
         }
-        ends = time.monotonic() + self.seconds
         while left := [i for i in range(len(questions)) if i not in replies]:
             process, self._warm = self._warm or Process(), None
-            if time.monotonic() > ends:
-                process.close()
-                late = stopped("the file as a whole takes too long")
-                return [replies.get(i, late) for i in range(len(questions))]
             with contextlib.closing(process):
                 copy = process.copy(script)
                 calls = [pack(questions[i]) for i in left]
                 request = {**base, "file": str(copy), "calls": calls}
-                got, early = process.converse(request)
+                got, stopped = process.converse(request)
             replies.update({left[i]: reply for i, reply in got.items()})
-            if early:
+            if stopped:
                 culprit = questions[left[len(got)]].task
                 for i in left:
                     if i not in replies and questions[i].task == culprit:
-                        replies[i] = early
+                        replies[i] = stopped
         return [replies[i] for i in range(len(questions))]

@@ -17,7 +17,7 @@ from robo47.grading.pull import pull_all
 from robo47.grading.result import Result, ungraded
 from robo47.grading.roster import Student
 from robo47.grading.sheet import Graded, as_csv, write
-from robo47.grading.similar import Pair
+from robo47.grading.similar import Group
 from robo47.paths import shown
 from robo47.starter import make_starter, read_script
 from robo47.week import Day
@@ -55,7 +55,7 @@ class Classroom:
                     self.notes[student.folder] = f"not pulled: {problem}"
                 bar.update()
 
-    def grade(self, engine: Engine, feedback: Path) -> tuple[list[Graded], list[Pair]]:
+    def grade(self, engine: Engine, feedback: Path) -> tuple[list[Graded], list[Group]]:
         """Grade everybody whose work has changed.
 
         Args:
@@ -63,7 +63,7 @@ class Classroom:
             feedback: folder of the students' files.
 
         Returns:
-            Everybody, in the roster's order, and the pairs of similar submissions.
+            Everybody, in the roster's order, and the groups of similar submissions.
 
         Raises:
             Robo47Error: no worker is left, or a file cannot be written.
@@ -97,7 +97,7 @@ class Classroom:
             for folder, package, result in grade_all(changed(), engine):
                 note(folder, package, self._kept(folder, package, result))
         everybody = [graded[student.folder] for student in self.students]
-        return everybody, similar.similar_pairs(runs)
+        return everybody, similar.similar_groups(runs)
 
     def _kept(
         self, folder: str, package: Package, result: Result | LostError
@@ -119,21 +119,21 @@ class Classroom:
 
 
 def write_all(
-    room: Classroom, everybody: Sequence[Graded], pairs: Sequence[Pair], out: Path
+    room: Classroom, everybody: Sequence[Graded], alike: Sequence[Group], out: Path
 ) -> None:
     """Write the table and the page.
 
     Args:
         room: the class.
         everybody: in the order to show them.
-        pairs: similar submissions.
+        alike: similar submissions.
         out: the table; the page goes beside it.
 
     Raises:
         Robo47Error: one of them cannot be written.
     """
     journal = room.journal
-    course = Course(room.day, everybody, pairs, journal.reference, journal.deadline)
+    course = Course(room.day, everybody, alike, journal.reference, journal.deadline)
     write(out, as_csv(room.day, everybody))
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from robo47.grading.sheet import Graded
-from robo47.grading.similar import Pair
+from robo47.grading.similar import Group
 from robo47.week import Day
 
 
@@ -15,13 +15,13 @@ class Course:
     Attributes:
         day: from the manifest.
         class_: everybody, in the order to show them.
-        pairs: similar submissions, by folder.
+        alike: similar submissions, by folder.
         reference: what commit times count to, seconds since 1970.
         deadline: whether that is the deadline.
     """
 
     day: Day
     class_: Sequence[Graded]
-    pairs: Sequence[Pair]
+    alike: Sequence[Group]
     reference: int
     deadline: bool

@@ -19,7 +19,6 @@ from robo47.grading.package import Package
 from robo47.grading.result import Mark, Result, ungraded
 from robo47.week import Day
 
-SCRIPT_SECONDS = 40.0  # for one student's code, all tasks together
 # What is another at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
 _SANDBOX = re.compile(r"[^\s'\"]*robo47-check-[^\s/\\'\"]+[/\\]?")
@@ -58,7 +57,7 @@ def _tasks(package: Package, day: Day, clone: Path) -> tuple[list[TaskResult], s
         return [TaskResult(task, verdict) for task in day.tasks], verdict.message
     # Nobody can know the hash of a file while writing it, and it is the same tomorrow.
     seed = int(hashlib.sha256(package.files[name]).hexdigest()[:8], 16)
-    with Sandbox(SCRIPT_SECONDS) as sandbox:
+    with Sandbox() as sandbox:
         results = check_tasks(day, clone / name, sandbox, seed=seed)
     loads = results[0].verdict.mistake != "does-not-load"
     return results, "" if loads else results[0].verdict.message

@@ -26,11 +26,13 @@ svg.bars { overflow: visible; font-size: 13px; margin-top: 12px; }
 ul { list-style: none; margin: 0; padding: 0; }
 li { padding: 10px 0; border-top: 1px solid var(--grid); } li:first-child { border: 0; }
 li .head { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: baseline; }
-li .head .muted { margin-left: auto; font-size: 13px; } li p { margin-top: 3px; }
+li .head > .muted { margin-left: auto; font-size: 13px; } li p { margin-top: 3px; }
 .says { white-space: pre-line; } details { margin: 0; padding: 7px 0; }
 details + details { border-top: 1px solid var(--grid); }
 summary { color: var(--ink); font-size: 14px; } details p { margin: 6px 0 4px 16px; }
 td.mark, th.mark { text-align: center; padding-right: 8px; }
+@media (max-width: 560px) { li .head > .muted { margin-left: 0; flex-basis: 100%; }
+  td:first-child { max-width: 130px; overflow: hidden; text-overflow: ellipsis; } }
 h2 small { color: var(--muted); font-weight: 400; }
 """
 )

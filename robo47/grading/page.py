@@ -8,7 +8,7 @@ from robo47.grading import bars, overview
 from robo47.grading.course import Course
 from robo47.grading.look import STATUS, STYLE
 from robo47.grading.overview import Diagnosis, Standing
-from robo47.grading.people import list_pairs, list_people, table
+from robo47.grading.people import list_alike, list_people, table
 from robo47.grading.sheet import printable
 
 CHARTED = 15  # diagnoses in the chart
@@ -42,7 +42,7 @@ def render(course: Course) -> str:
                 _mistakes(overview.diagnoses(day, class_), len(class_)),
                 _standings(course),
                 *(list_people(STATES[s], by_state[s], course) for s in STATES),
-                list_pairs(course),
+                list_alike(course),
                 table(course),
                 "</body></html>\n",
             ]
@@ -63,7 +63,7 @@ def _tiles(course: Course, count: dict[str, int]) -> str:
         ("fail" if count["stuck"] else "none", count["stuck"], "stuck"),
         ("none", count["not started"], "not started"),
         ("limit" if count["ungraded"] else "none", count["ungraded"], "not graded"),
-        ("", len(course.pairs), "pairs to compare"),
+        ("", len(course.alike), "groups alike"),
     ]
     cells = "".join(
         f'<div class="tile"><b class="{role}">{number:,}</b>'
@@ -87,7 +87,9 @@ def _mistakes(found: list[Diagnosis], size: int) -> str:
         for one in shown
     ]
     chart = bars.chart(rows, "students by mistake, the most common first")
-    words = "".join(_diagnosis(one) for one in found)
+    words = "".join(map(_diagnosis, shown))
+    if more := "".join(map(_diagnosis, found[CHARTED:])):
+        words += f"<details><summary>the others</summary>{more}</details>"
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if len(found) > CHARTED else ""
     return (

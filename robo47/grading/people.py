@@ -6,7 +6,7 @@ from robo47.grading.course import Course
 from robo47.grading.look import STATUS
 from robo47.grading.sheet import Graded
 
-MOST = 100  # pairs that are listed
+MOST = 100  # groups that are listed
 
 
 def list_people(heading: str, some: list[Graded], course: Course) -> str:
@@ -58,28 +58,31 @@ def _ago(minutes: int | None, deadline: bool) -> str:
     return f"last commit {when} {side} {'the deadline' if deadline else 'grading'}"
 
 
-def list_pairs(course: Course) -> str:
-    if not course.pairs:
+def list_alike(course: Course) -> str:
+    """Return the similar submissions, as a hint."""
+    if not course.alike:
         return ""
     by_folder = {g.student.folder: g for g in course.class_}
     rows = "".join(
-        f'<li><div class="head"><span><b>{_name(by_folder[p.first])}</b> and '
-        f"<b>{_name(by_folder[p.second])}</b></span>"
-        f'<span class="muted">{p.share:.0%} alike</span></div></li>'
-        for p in course.pairs[:MOST]
+        '<li><div class="head"><span>'
+        + ", ".join(f"<b>{_name(by_folder[key])}</b>" for key in group.keys)
+        + f'</span><span class="muted">{group.share:.0%} alike</span></div></li>'
+        for group in course.alike[:MOST]
     )
-    more = len(course.pairs) - MOST
+    more = len(course.alike) - MOST
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
     return (
-        f"<section><h2>Similar submissions <small>{len(course.pairs):,} pairs</small>"
+        f"<section><h2>Similar submissions <small>{len(course.alike):,}</small>"
         '</h2><div class="card"><p class="muted">A hint of where to look, not a '
-        "verdict: pairs, friends and a good book also write alike. The starter's text "
-        "and what much of the class writes are left out, names do not count.</p>"
+        "verdict: friends who learn together and a good book also write alike. The "
+        "starter's text and what much of the class writes are left out; names do not "
+        "count. The number is that of the two most similar.</p>"
         f"<ul>{rows}</ul>{rest}</div></section>"
     )
 
 
 def table(course: Course) -> str:
+    """Return everyone's tasks and deliverables, a mark each."""
     first = course.class_[0].result
     names = [mark.id for mark in (*first.tasks, *first.items)]
     head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)

@@ -66,7 +66,7 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
 
 def _student(name: str, folder: str, root: Path, url: str = "") -> Student:
     path, problem = root / folder, ""
-    if folder in ("", ".", "..") or set(folder) & set('/\\:*?"<>|\0\n\r'):
+    if folder in ("", ".", "..") or "\0" in folder or Path(folder).name != folder:
         path, problem = root, f"{folder!r} is no name of a folder"
     elif path.is_symlink():
         problem = "the folder is a link, which is not followed"

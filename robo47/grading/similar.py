@@ -1,7 +1,7 @@
 """Whose submissions are alike: a hint of where to look, never a verdict.
 
-A submission becomes the set of its runs of LENGTH tokens, with names of the student's
-own made equal, so that renaming hides nothing. What the starter gives, and what much of
+A submission becomes the set of its runs of LENGTH tokens, with names made
+equal, so that renaming hides nothing. What the starter gives, and what much of
 the class writes (there are few ways to type a rotation about z), counts for nobody; the
 rest is compared. After Schleimer, Wilkerson and Aiken, "Winnowing", SIGMOD 2003.
 """
@@ -33,19 +33,17 @@ _KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
 
 
 @dataclass(frozen=True)
-class Pair:
-    """Two submissions to look at.
+class Group:
+    """Submissions to look at side by side; each is like at least one of the others.
 
     Attributes:
-        first, second: their keys.
-        share: of the smaller one's runs that the other has too, 0 to 1.
-        runs: how many that are.
+        keys: whose they are, sorted.
+        share: of the smaller one's runs that the other has too, 0 to 1, in the most
+            similar two of them.
     """
 
-    first: str
-    second: str
+    keys: tuple[str, ...]
     share: float
-    runs: int
 
 
 def runs_of(source: bytes, starter: str) -> "array[int]":
@@ -55,17 +53,15 @@ def runs_of(source: bytes, starter: str) -> "array[int]":
         source: the script, whatever it holds.
         starter: what the student was given.
     """
-    names = frozenset(re.findall(r"\w+", starter))
-    own = _hashes(tokens(source.decode("utf-8", "replace"), names))
-    return array("L", sorted(own - _hashes(tokens(starter, names))))
+    own = _hashes(tokens(source.decode("utf-8", "replace")))
+    return array("L", sorted(own - _hashes(tokens(starter))))
 
 
-def tokens(text: str, names: frozenset[str]) -> list[str]:
-    """Return a script's tokens: no comments, texts and own names made equal.
+def tokens(text: str) -> list[str]:
+    """Return a script's tokens: no comments, and all texts and all names made equal.
 
     Args:
-        text: Python, or anything else.
-        names: that are kept as they are; so are keywords, builtins and attributes.
+        text: Python, or anything else. Keywords, builtins and attributes stay.
     """
     found = []
     for match in _TOKEN.finditer(text):
@@ -75,13 +71,13 @@ def tokens(text: str, names: frozenset[str]) -> list[str]:
         if match.lastgroup == "text":
             token = "''"
         elif match.lastgroup == "name" and token[0] != "." and token not in _KEPT:
-            token = token if token in names else "n"
+            token = "n"
         found.append(token)
     return found
 
 
-def similar_pairs(runs: Mapping[str, "array[int]"]) -> list[Pair]:
-    """Return the pairs worth a look, the most similar first.
+def similar_groups(runs: Mapping[str, "array[int]"]) -> list[Group]:
+    """Return the submissions worth a look, the most similar first.
 
     Args:
         runs: of each submission, as `runs_of` gives them.
@@ -99,12 +95,17 @@ def similar_pairs(runs: Mapping[str, "array[int]"]) -> list[Pair]:
     shared = Counter(
         pair for keys in owners.values() for pair in combinations(sorted(keys), 2)
     )
-    pairs = []
+    group_of: dict[str, dict[str, float]] = {}  # each one's group, with the shares
     for (first, second), number in shared.items():
         share = number / min(len(rare[first]), len(rare[second]))
         if share >= ALIKE:
-            pairs.append(Pair(first, second, share, number))
-    return sorted(pairs, key=lambda p: (-p.share, -p.runs, p.first, p.second))
+            merged = group_of.get(first, {}) | group_of.get(second, {})
+            for key in (first, second):
+                merged[key] = max(share, merged.get(key, 0.0))
+            group_of |= dict.fromkeys(merged, merged)
+    whole = {id(group): group for group in group_of.values()}.values()
+    groups = [Group(tuple(sorted(g)), max(g.values())) for g in whole]
+    return sorted(groups, key=lambda g: (-g.share, -len(g.keys), g.keys))
 
 
 def _hashes(found: list[str]) -> set[int]:
