@@ -11,9 +11,8 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-
 .PHONY: start check hint run doctor
-.PHONY: help day1 test soak report lint docs oracle
+.PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -58,6 +57,12 @@ lint: .venv/.ready-test ## style, format and types
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ARGS)
+
+figures: .venv/.ready-figures $(ROBOT) ## draw the pictures of the lessons
+	@$(PY) scripts/make_figures.py $(ARGS)
+
+notebook: .venv/.ready-notebook $(ROBOT) ## turn the lab script into a notebook
+	@$(PY) scripts/make_notebook.py $(ARGS)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)

@@ -4,12 +4,15 @@ import os
 import shutil
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import mujoco
 import pytest
 
 from robo47 import menagerie, panda
+from robo47.errors import Robo47Error
+from robo47.figures import backends
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -44,6 +47,16 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     return panda.load("panda_nohand")
 
 
+def environment_of(clone: Path) -> dict[str, str]:
+    """Return this environment, with a clone's own `robo47` and this clone's robot."""
+    robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
+    paths = [str(clone), os.environ.get("PYTHONPATH", "")]
+    own = {"PYTHONPATH": os.pathsep.join(filter(None, paths)), "COLUMNS": "80"}
+    if Path(robots).is_dir():
+        own["MENAGERIE_ROOT"] = robots
+    return {**os.environ, **own}
+
+
 @pytest.fixture
 def clone(tmp_path):
     """Return a copy of the kit that a test may work in, without the lab's history."""
@@ -60,14 +73,10 @@ def run_in(clone):
     """Run a script of that copy as a student would, in a process of its own."""
 
     def run_script(script, *arguments, **environment):
-        robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
-        own = {"PYTHONPATH": str(clone), "COLUMNS": "80"}
-        if Path(robots).is_dir():
-            own["MENAGERIE_ROOT"] = robots
         return subprocess.run(
             [sys.executable, str(clone / script), *map(str, arguments)],
             cwd=clone,
-            env={**os.environ, **own, **environment},
+            env={**environment_of(clone), **environment},
             capture_output=True,
             text=True,
             encoding="utf-8",
@@ -76,6 +85,15 @@ def run_in(clone):
         )
 
     return run_script
+
+
+@pytest.fixture
+def gl() -> None:
+    """Skip where no OpenGL backend draws pictures."""
+    try:
+        backends.rendering_environment()
+    except Robo47Error as error:
+        need(False, f"an OpenGL backend: {error}")
 
 
 @pytest.fixture
@@ -98,3 +116,49 @@ def run():
         )
 
     return run_script
+
+
+@pytest.fixture
+def student(tmp_path):
+    """Write a student's file and return its path."""
+
+    def write(code, name="day1_transforms.py"):
+        path = tmp_path / "work" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(textwrap.dedent(code), "utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def ask(student):
+    """Ask a student's file for `f()`, or for what is given."""
+
+    from robo47.checker import variant
+    from robo47.checker.model_copy import copy_model, facts
+    from robo47.checker.replies import Question
+    from robo47.checker.sandbox import Sandbox
+
+    def run(code, *questions):
+        with Sandbox() as sandbox:
+            models = [copy_model(model) for model in variant.models()]
+            asked = questions or [Question("1.1", "f", ())]
+            return sandbox.run(student(code), asked, models, facts())
+
+    return run
+
+
+@pytest.fixture
+def check(student):
+    """Check a student's file; return {task: verdict}."""
+    from robo47.checker.sandbox import Sandbox
+    from robo47.checker.tasks import check_tasks
+    from robo47.week import find_day
+
+    def run(code, only=None):
+        with Sandbox() as sandbox:
+            results = check_tasks(find_day(1), student(code), sandbox, only)
+        return {result.task.id: result.verdict for result in results}
+
+    return run

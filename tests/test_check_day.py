@@ -1,14 +1,13 @@
 """The checker as a program: a student's hour, in a copy of the kit."""
 
 import json
-import os
 import subprocess
 import sys
 import time
 
 import pytest
+from conftest import environment_of
 
-from robo47.paths import ROOT
 from robo47.week import find_day
 
 CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
@@ -113,8 +112,7 @@ class TestCheck:
         assert "largest difference" in done.stdout
 
     def test_keeps_to_80_columns_and_plain_text(self, run_in, work, day):
-        solve(day, work, "make_T", "Rz", "inverse")
-        text = work.read_text().replace("T[:3, 3] = t", "T[:3, 3] = -t")
+        text = day.source.read_text("utf-8").replace("T[:3, 3] = t", "T[:3, 3] = -t")
         work.write_text(text)
         said = run_in(CHECK, 1, "--explain").stdout
         assert "WRONG" in said
@@ -159,13 +157,13 @@ class TestCheck:
         assert before == {p: p.read_bytes() for p in work.parent.iterdir()}
 
     def test_watches_until_all_is_well_and_sees_each_save(self, work, day, clone):
-        robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
-        environment = {**os.environ, "PYTHONPATH": str(clone)}
-        if os.path.isdir(robots):
-            environment["MENAGERIE_ROOT"] = robots
         command = [sys.executable, "-u", CHECK, "--task", "1.1", "--watch"]
         with subprocess.Popen(
-            command, cwd=clone, env=environment, stdout=subprocess.PIPE, text=True
+            command,
+            cwd=clone,
+            env=environment_of(clone),
+            stdout=subprocess.PIPE,
+            text=True,
         ) as watcher:
             said = []
             for line in watcher.stdout:

@@ -108,7 +108,7 @@ def test_a_fresh_copy_has_everything_to_do(clone):
         (b"\xff\xd8\xff\xe0" + b"x" * 99, "JPEG under the name of a PNG"),
         (png(PICTURE)[:500], "cut off or damaged"),
         (png(PICTURE[:50]), "400x50 pixels; at least 320x240"),
-        (png(PICTURE * 0), "black: was mj_forward called"),
+        (png(PICTURE * 0), "black; call mj_forward"),
         (png(PICTURE * 0 + 200), "one colour"),
         (png(PICTURE)[:16] + b"\x7f" * 8 + png(PICTURE)[24:], "too many"),
     ],

@@ -62,6 +62,14 @@ def test_it_runs_on_a_bare_python(clone):
     assert "Traceback" not in done.stdout + done.stderr
 
 
+def test_a_reader_that_leaves_early_gets_no_traceback():
+    with subprocess.Popen(
+        [sys.executable, str(SCRIPT)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+
+
 def test_a_broken_environment_is_told_with_its_repair(clone):
     python = clone / doctor.VENV_PYTHON.relative_to(ROOT)
     python.parent.mkdir(parents=True)

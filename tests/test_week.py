@@ -1,9 +1,11 @@
 """The manifests: the course checks itself."""
 
+import re
 import tomllib
 
 import pytest
 
+from robo47.checker.deliverables.worksheet import split_sections
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 from robo47.starter import find_regions
@@ -37,10 +39,19 @@ class TestEveryDay:
         for task in day.tasks:
             assert any("?" in hint for hint in task.hints)
 
-    def test_names_its_tasks_after_itself_and_leads_somewhere_to_read(self, day):
+    def test_sends_back_to_sections_that_the_lab_guide_has(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        headings = set(re.findall(r"^#+ (.+)$", guide, re.MULTILINE))
         for task in day.tasks:
-            assert task.id.startswith(f"{day.number}.")
-            assert task.read
+            section = task.read.partition(";")[0].removeprefix("Lab guide, ")
+            assert section in headings, task.id
+
+    def test_asks_for_what_its_worksheet_has_room_for(self, day):
+        sections = split_sections((day.folder / day.worksheet).read_text("utf-8"))
+        assert {term.lower() for term in day.terms} <= sections.keys()
+        drawings = [name for name in sections if name.startswith("drawing ")]
+        assert len(drawings) == day.drawings
+        assert "- [ ]" in sections["checklist"]
 
 
 def edited(tmp_path, *changes):

@@ -3,7 +3,7 @@
     sandbox       runs the student's file in processes of its own
     process       one of them, from its start to its end
     replies       what is asked, and what comes back: plain arrays
-    inside/       what runs in that process: limits, guard, stand-ins, the runner
+    inside/       what runs in there: limits, guard, landlock, stand-ins, the runner
     resources     memory and processes of the sandbox, per platform
     model_copy    the Panda as plain data, for the sandbox's stand-in of MjModel
     variant       fresh angles and a longer arm: computed, looked up or typed in?

@@ -131,7 +131,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         if not report.problem and verdict.mistake != "unwritten":
             lines += _wrapped(verdict.message, _INDENT)
         if explain:
-            lines += [f"{'':{_INDENT}}- {line}" for line in verdict.measured]
+            for line in verdict.measured:
+                lines += _wrapped(f"- {line}", _INDENT, hanging=2)
             lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
     if report.items:
         lines.append("")
@@ -161,13 +162,13 @@ def _line(name: str, status: str, colour: bool) -> str:
     return f"  {name:24}  {state}"
 
 
-def _wrapped(text: str, indent: int) -> list[str]:
+def _wrapped(text: str, indent: int, hanging: int = 0) -> list[str]:
     """Return text as lines of at most 79 columns; its own line breaks stay."""
     pad = " " * indent
     wrapper = textwrap.TextWrapper(
         WIDTH - 1,
         initial_indent=pad,
-        subsequent_indent=pad,
+        subsequent_indent=pad + " " * hanging,
         break_long_words=False,
         break_on_hyphens=False,
     )

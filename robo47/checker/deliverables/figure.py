@@ -42,9 +42,9 @@ def check_figure(day: Day, week: Path) -> Item:
                 f"{SMALLEST[0]}x{SMALLEST[1]} are wanted"
             )
         if picture.max() < DARK:
-            raise FlawError("it is black: was mj_forward called before rendering?")
+            raise FlawError("it is black; call mj_forward before rendering")
         if picture.std() < FLAT:
-            raise FlawError("it is one colour from edge to edge: where is the arm?")
+            raise FlawError("it is one colour from edge to edge, without an arm")
         for name in day.kit_figures:
             if _is_copy(picture, path, day.folder / name):
                 raise FlawError(f"it is {name} of the kit; make one of your own")

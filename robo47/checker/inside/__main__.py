@@ -29,11 +29,12 @@ def main() -> None:
 
     limits.leave_network()  # before NumPy: a process with threads may not
     import guard
+    import landlock
     import standins
     import wire
 
     sys.path.remove(HERE)
-    for name in ("limits", "guard", "standins", "wire"):
+    for name in ("limits", "guard", "landlock", "standins", "wire"):
         del sys.modules[name]  # names that a student may want for a file of their own
     request = json.loads(sys.stdin.buffer.read())
     null = os.open(os.devnull, os.O_RDWR)
@@ -50,6 +51,8 @@ def main() -> None:
     sys.modules.update(standins.make_modules(watch.refuse, models[0], request["facts"]))
     used = standins.note_use(request["noted"])
     limits.tighten()
+    shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
+    landlock.fence(request["folder"], [*LIBRARIES, *sys.argv[1:], shared])
     watch.arm()
     _answer(request, send, watch.refused, used, wire, models)
     os._exit(0)  # no atexit of the student's, no thread to wait for
@@ -117,7 +120,7 @@ def _describe(error: BaseException, path: Path) -> dict[str, Any]:
         trace = trace.tb_next
     text = str(error)
     if isinstance(error, SyntaxError):
-        line, text = error.lineno, error.msg
+        line, text = error.lineno, error.msg or text
     return {"error": text[:500], "kind": type(error).__name__, "line": line}
 
 

@@ -3,8 +3,8 @@
 A hook cannot be removed again. It keeps a task to its arguments: no file outside its
 own folder but Python's own libraries, no process, no network, no foreign library, no
 second look at MuJoCo. It is there against accidents and short cuts. It is no wall
-against an expert, who would find the solution in the clone with less effort; what
-protects the grade is that the answers themselves are judged elsewhere.
+against an expert: that is `landlock`, where the system has it; and what protects the
+grade is that the answers themselves are judged elsewhere.
 """
 
 import os

@@ -1,0 +1,163 @@
+"""Which OpenGL backend really draws here, with or without a display.
+
+MuJoCo reads MUJOCO_GL once, when it is imported, and raises there and then where the
+library is missing. So every backend is tried in a process of its own, and this module
+imports no MuJoCo. Nothing in this process's environment is changed.
+"""
+
+import importlib.metadata
+import json
+import os
+import platform
+import subprocess
+import sys
+import textwrap
+
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+CACHE = ROOT / ".robo47" / "gl_backend.json"
+RENDERS = "renders"
+LINUX = ("egl", "osmesa", "glfw")  # fastest first; glfw needs a display
+DEBIAN_PACKAGES = {"egl": "libegl1 libgl1", "osmesa": "libosmesa6"}
+# What a failing import or context really says.
+MEANS = {
+    "'NoneType' object has no attribute": "its library is not installed",
+    "OpenGL platform library has not been loaded": "opens no window: no display?",
+}
+TIMEOUT = 60  # seconds; a broken driver hangs rather than fails
+# A picture of one colour is a backend that starts and draws nothing.
+PROBE = """
+import mujoco
+ball = "<mujoco><worldbody><geom size='.1' rgba='1 0 0 1'/></worldbody></mujoco>"
+model = mujoco.MjModel.from_xml_string(ball)
+data = mujoco.MjData(model)
+mujoco.mj_forward(model, data)
+with mujoco.Renderer(model, 32, 32) as renderer:
+    renderer.update_scene(data)
+    print("renders" if renderer.render().std() > 0 else "draws an empty picture")
+"""
+
+
+def candidates() -> dict[str, dict[str, str]]:
+    """Return the backends to try, best first, and what each adds to the environment.
+
+    The user's own MUJOCO_GL is the only candidate where it is set. Only Linux has a
+    choice to make; elsewhere MuJoCo's default is the one that works.
+
+    Returns:
+        {name: variables}, such as {"egl": {"MUJOCO_GL": "egl"}, ...}.
+    """
+    if chosen := os.environ.get("MUJOCO_GL", "").strip():
+        return {chosen: {}}
+    if sys.platform.startswith("linux"):
+        return {name: {"MUJOCO_GL": name} for name in LINUX}
+    return {"cgl" if sys.platform == "darwin" else "default": {}}
+
+
+def probe(variables: dict[str, str]) -> str:
+    """Return "renders", or in one line why a backend does not.
+
+    Args:
+        variables: what it adds to the environment.
+    """
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", PROBE],
+            env={**os.environ, **variables},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=TIMEOUT,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return f"gave no picture within {TIMEOUT} seconds"
+    if said := done.stdout.split("\n")[0]:
+        return said  # whatever happened afterwards, at exit
+    last_words = done.stderr.strip().split("\n")[-1]
+    for sign, meaning in MEANS.items():
+        if sign in last_words:
+            return meaning
+    return (
+        textwrap.shorten(last_words, 120) or f"ended with exit code {done.returncode}"
+    )
+
+
+def probe_backends() -> dict[str, str]:
+    """Return for each backend "renders", or the reason why it does not."""
+    return {name: probe(variables) for name, variables in candidates().items()}
+
+
+def rendering_environment(*, forget: bool = False) -> dict[str, str]:
+    """Return the environment for a process that draws.
+
+    Args:
+        forget: try anew instead of trusting what was found the last time.
+
+    Returns:
+        This process's environment, with MUJOCO_GL where a choice had to be made.
+
+    Raises:
+        Robo47Error: nothing draws here; the line names what to install.
+    """
+    options = candidates()
+    known = None if forget else _recall()
+    if known in options:
+        return {**os.environ, **options[known]}
+    reasons = {}
+    for name, variables in options.items():
+        reasons[name] = probe(variables)
+        if reasons[name] == RENDERS:
+            _remember(name)
+            return {**os.environ, **variables}
+    raise Robo47Error(_advice(reasons))
+
+
+def _advice(reasons: dict[str, str]) -> str:
+    if chosen := os.environ.get("MUJOCO_GL", "").strip():
+        packages = DEBIAN_PACKAGES.get(chosen.lower())
+        install = (
+            f", or on Debian and Ubuntu: apt install {packages}" if packages else ""
+        )
+        return (
+            f"no picture with MUJOCO_GL={chosen} ({reasons[chosen]}). "
+            f"Unset it and the kit picks a backend that works{install}"
+        )
+    if sys.platform.startswith("linux"):
+        return (
+            "no OpenGL library draws here. On Debian and Ubuntu: "
+            f"apt install {DEBIAN_PACKAGES['egl']} (or {DEBIAN_PACKAGES['osmesa']}), "
+            "then run this again"
+        )
+    (reason,) = reasons.values()
+    return f"MuJoCo cannot draw here ({reason}). Update the graphics driver"
+
+
+def _key() -> dict[str, str]:
+    """Return everything that the answer depends on."""
+    return {
+        "machine": platform.platform() + " " + platform.node(),
+        "python": sys.executable,
+        "mujoco": importlib.metadata.version("mujoco"),
+        "MUJOCO_GL": os.environ.get("MUJOCO_GL", ""),
+        "DISPLAY": os.environ.get("DISPLAY", ""),
+    }
+
+
+def _recall() -> str | None:
+    try:
+        record = json.loads(CACHE.read_text("utf-8"))
+        return record["backend"] if record["key"] == _key() else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _remember(backend: str) -> None:
+    try:
+        CACHE.parent.mkdir(exist_ok=True)
+        record = {"key": _key(), "backend": backend}
+        CACHE.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    except OSError:
+        pass  # a clone that cannot be written to is probed every time

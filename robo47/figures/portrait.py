@@ -1,0 +1,73 @@
+"""Pictures of the Panda: MuJoCo draws the robot, we draw the frames."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+from PIL import Image
+
+from robo47 import checks, kinematics, panda
+from robo47.checks import Array
+from robo47.figures import client, overlay
+from robo47.figures.scene import Camera, Scene
+
+FRAMES = [*(f"link{i}" for i in range(8)), "hand"]
+OPEN = (0.04, 0.04)  # the fingers of a configuration that is the arm's alone, metres
+
+
+def portrait(
+    qpos: ArrayLike,
+    size: tuple[int, int],
+    frames: bool,
+    fast: bool,
+    camera: Camera | None,
+) -> Image.Image:
+    """Return a picture of the Panda; see `robo47.figures.render_panda`."""
+    q = with_fingers(qpos)
+    poses = link_frames(q)
+    if camera is None:
+        origins = np.array([T[:3, 3] for T in poses.values()])
+        camera = Camera().stepped_back(origins, size)
+    return draw(Scene(q, size, camera, fast=fast), poses if frames else {})
+
+
+def draw(scene: Scene, frames: Mapping[str, Array]) -> Image.Image:
+    """Return the picture of a scene with frames over it.
+
+    Args:
+        scene: what MuJoCo draws.
+        frames: {name: T_world_frame (4, 4)}, what we draw.
+
+    Raises:
+        Robo47Error: nothing draws here; the line names what to install.
+    """
+    picture = Image.fromarray(client.draw(scene))
+    return overlay.draw_frames(picture, scene.camera, frames) if frames else picture
+
+
+def with_fingers(qpos: ArrayLike) -> Array:
+    """Return a configuration of the Panda with its hand, (9,).
+
+    Args:
+        qpos: the arm's joints (7,), or those and the fingers' (9,).
+
+    Raises:
+        ValueError: another size, or not finite.
+    """
+    q = np.asarray(qpos, dtype=np.float64)
+    if q.shape == (len(panda.READY_Q),):
+        q = np.concatenate([q, OPEN])
+    return checks.array(q, "qpos", (len(panda.READY_Q) + len(OPEN),))
+
+
+def link_frames(qpos: Array) -> dict[str, Array]:
+    """Return the pose of every link's frame, composed by hand.
+
+    Args:
+        qpos: (9,).
+
+    Returns:
+        {"link0": T_world_link0, ..., "hand": T_world_hand}.
+    """
+    poses = kinematics.fk_all(panda.load("panda"), qpos)
+    return {name: poses[f"body:{name}"] for name in FRAMES}

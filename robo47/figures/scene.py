@@ -1,0 +1,110 @@
+"""What a picture shows: the robot's configuration, ghosts of it, and the camera.
+
+Plain data, so that it can be sent to the process that draws.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import se3
+from robo47.checks import Array
+
+FOVY = np.radians(30.0)  # vertical angle of view; narrow, so that lines stay parallel
+FARTHEST, MARGIN = 6.0, 0.05  # metres; share of the picture left free at its sides
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera that looks at a point, as MuJoCo's free camera does.
+
+    Attributes:
+        lookat: the point in the middle of the picture, metres.
+        distance: from the camera to that point, metres.
+        azimuth: direction of view about the world's z, radians; 0 looks along x.
+        elevation: direction of view above the horizon, radians; negative looks down.
+    """
+
+    lookat: tuple[float, float, float] = (0.15, 0.0, 0.40)
+    distance: float = 1.85
+    azimuth: float = np.radians(118.0)
+    elevation: float = np.radians(-14.0)
+
+    @property
+    def T_world_cam(self) -> Array:
+        """The camera's pose: x to the right of the picture, y up, z out of it."""
+        R_world_cam = se3.Rz(self.azimuth - np.pi / 2) @ se3.Rx(
+            np.pi / 2 + self.elevation
+        )
+        back = R_world_cam @ [0.0, 0.0, self.distance]
+        return se3.make_T(R_world_cam, back + self.lookat)
+
+    def project(self, p_world: ArrayLike, size: tuple[int, int]) -> Array:
+        """Return where points appear in the picture.
+
+        Args:
+            p_world: points, (..., 3), metres; in front of the camera.
+            size: width and height of the picture, pixels.
+
+        Returns:
+            Pixels right of and below the upper left corner, and the depth along the
+            line of sight in metres, (..., 3).
+        """
+        T_cam_world = se3.inverse(self.T_world_cam)
+        p_cam = np.asarray(p_world) @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
+        depth = -p_cam[..., 2]
+        pixels_per_unit = size[1] / 2 / np.tan(FOVY / 2)
+        right = size[0] / 2 + pixels_per_unit * p_cam[..., 0] / depth
+        below = size[1] / 2 - pixels_per_unit * p_cam[..., 1] / depth
+        return np.stack([right, below, depth], axis=-1)
+
+    def stepped_back(self, p_world: Array, size: tuple[int, int]) -> "Camera":
+        """Return this camera, or one further away that has points in its picture.
+
+        Args:
+            p_world: points, (n, 3), metres.
+            size: width and height of the picture, pixels.
+        """
+        camera = self
+        while camera.distance < FARTHEST:
+            right, below, depth = camera.project(p_world, size).T
+            inside = (np.abs(right / size[0] - 0.5) < 0.5 - MARGIN) & (
+                np.abs(below / size[1] - 0.5) < 0.5 - MARGIN
+            )
+            if inside.all() and (depth > 0).all():
+                break
+            camera = replace(camera, distance=1.1 * camera.distance)
+        return camera
+
+
+@dataclass(frozen=True)
+class Ghost:
+    """A translucent copy of a body and of all that it carries, moved elsewhere.
+
+    Attributes:
+        body: its name.
+        T_world_moved: takes every point of it to where the copy is, (4, 4).
+    """
+
+    body: str
+    T_world_moved: Array
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One picture to draw.
+
+    Attributes:
+        qpos: configuration of the Panda with its hand, (9,), radians and metres.
+        size: width and height, pixels.
+        camera: where it is seen from.
+        ghosts: translucent copies.
+        fast: leave out multisampling, shadows and reflections.
+    """
+
+    qpos: Array
+    size: tuple[int, int]
+    camera: Camera = Camera()
+    ghosts: tuple[Ghost, ...] = ()
+    fast: bool = False

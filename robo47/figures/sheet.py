@@ -1,0 +1,25 @@
+"""Several pictures on one sheet, each under its title."""
+
+from PIL import Image, ImageDraw, ImageFont
+
+INK, FAINT, RULE = (33, 37, 41), (90, 97, 104), (206, 212, 218)
+HEAD, TITLE, SMALL = 130, 44, 30  # pixels: the space above, and two sizes of text
+
+
+def side_by_side(*panels: tuple[Image.Image, str, str]) -> Image.Image:
+    """Return pictures in a row.
+
+    Args:
+        panels: picture, title, and a line that explains it; pictures of one size.
+    """
+    width, height = panels[0][0].size
+    sheet = Image.new("RGB", (width * len(panels), height + HEAD), "white")
+    pen = ImageDraw.Draw(sheet)
+    for i, (picture, title, explanation) in enumerate(panels):
+        sheet.paste(picture, (i * width, HEAD))
+        middle = (i + 0.5) * width
+        pen.text((middle, 48), title, INK, ImageFont.load_default(TITLE), "mm")
+        pen.text((middle, 100), explanation, FAINT, ImageFont.load_default(SMALL), "mm")
+        if i:
+            pen.line([(i * width, 30), (i * width, sheet.height - 30)], RULE, 2)
+    return sheet

@@ -1,0 +1,145 @@
+"""Which OpenGL backend draws: the choice, the memory of it, and the messages."""
+
+import os
+
+import pytest
+from conftest import need
+
+from robo47.errors import Robo47Error
+from robo47.figures import backends
+
+
+@pytest.fixture(autouse=True)
+def clean_slate(monkeypatch, tmp_path):
+    monkeypatch.delenv("MUJOCO_GL", raising=False)
+    monkeypatch.setattr(backends, "CACHE", tmp_path / "gl_backend.json")
+
+
+@pytest.fixture
+def on_linux(monkeypatch):
+    monkeypatch.setattr("sys.platform", "linux")
+
+
+@pytest.fixture
+def probed(monkeypatch):
+    """Replace the probe: only osmesa draws; return the list of what was tried."""
+    tried = []
+
+    def probe(variables):
+        tried.append(variables.get("MUJOCO_GL", os.environ.get("MUJOCO_GL", "")))
+        return "renders" if tried[-1] == "osmesa" else "ImportError: no library"
+
+    monkeypatch.setattr(backends, "probe", probe)
+    return tried
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("name", ["egl", "osmesa"])
+def test_a_backend_that_is_installed_really_draws(name):
+    found = backends.probe({"MUJOCO_GL": name})
+    need(found == "renders", f"a picture from {name}: {found}")
+
+
+@pytest.mark.usefixtures("on_linux")
+def test_the_first_backend_that_draws_is_taken(probed):
+    assert backends.rendering_environment()["MUJOCO_GL"] == "osmesa"
+    assert probed == ["egl", "osmesa"]
+
+
+@pytest.mark.usefixtures("on_linux")
+def test_what_was_found_is_remembered(probed):
+    backends.rendering_environment()
+    again = backends.rendering_environment()
+    assert again["MUJOCO_GL"] == "osmesa"
+    assert probed == ["egl", "osmesa"]
+
+
+@pytest.mark.usefixtures("on_linux")
+def test_it_is_looked_for_again_when_it_fails_or_the_machine_changes(
+    probed, monkeypatch
+):
+    backends.rendering_environment()
+    backends.rendering_environment(forget=True)
+    assert probed == ["egl", "osmesa"] * 2
+    monkeypatch.setattr("platform.node", lambda: "another machine")
+    backends.rendering_environment()
+    assert probed == ["egl", "osmesa"] * 3
+
+
+@pytest.mark.usefixtures("on_linux")
+@pytest.mark.parametrize("garbage", ["", "{", "[]", '{"key": 1}'])
+def test_a_broken_memory_is_ignored(probed, garbage):
+    backends.CACHE.write_text(garbage)
+    assert backends.rendering_environment()["MUJOCO_GL"] == "osmesa"
+    assert probed == ["egl", "osmesa"]
+
+
+@pytest.mark.usefixtures("on_linux", "probed")
+def test_a_clone_that_cannot_be_written_to_is_no_obstacle(monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(backends, "CACHE", tmp_path / "file" / "gl_backend.json")
+    assert backends.rendering_environment()["MUJOCO_GL"] == "osmesa"
+
+
+@pytest.mark.usefixtures("on_linux")
+def test_the_users_own_choice_is_the_only_one_tried(probed, monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "osmesa")
+    assert backends.rendering_environment() == dict(os.environ)
+    assert probed == ["osmesa"]
+
+
+@pytest.mark.usefixtures("on_linux", "probed")
+def test_the_users_own_choice_is_never_overruled(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "egl")
+    with pytest.raises(
+        Robo47Error, match=r"MUJOCO_GL=egl .*apt install libegl1 libgl1"
+    ):
+        backends.rendering_environment()
+    assert os.environ["MUJOCO_GL"] == "egl"
+
+
+@pytest.mark.parametrize("system", ["darwin", "win32"])
+def test_macos_and_windows_keep_their_default(monkeypatch, system):
+    monkeypatch.setattr("sys.platform", system)
+    monkeypatch.setattr(backends, "probe", lambda variables: "renders")
+    assert "MUJOCO_GL" not in backends.rendering_environment()
+    assert all(variables == {} for variables in backends.candidates().values())
+
+
+@pytest.mark.usefixtures("on_linux")
+def test_where_nothing_draws_the_packages_are_named(monkeypatch):
+    monkeypatch.setattr(backends, "probe", lambda variables: "broken")
+    with pytest.raises(Robo47Error, match=r"libegl1 libgl1 \(or libosmesa6\)") as found:
+        backends.rendering_environment()
+    assert "\n" not in str(found.value)
+
+
+def test_where_macos_cannot_draw_the_reason_is_named(monkeypatch):
+    monkeypatch.setattr("sys.platform", "darwin")
+    monkeypatch.setattr(backends, "probe", lambda variables: "no such driver")
+    with pytest.raises(Robo47Error, match=r"no such driver"):
+        backends.rendering_environment()
+
+
+def test_a_backend_that_mujoco_refuses_is_a_reason_not_a_crash():
+    assert "invalid value" in backends.probe({"MUJOCO_GL": "nonsense"})
+
+
+def test_a_driver_that_hangs_is_given_up(monkeypatch):
+    monkeypatch.setattr(backends, "PROBE", "import time; time.sleep(60)")
+    monkeypatch.setattr(backends, "TIMEOUT", 0.2)
+    assert "no picture within" in backends.probe({})
+
+
+def test_a_driver_that_dies_in_silence_is_told_by_its_exit_code(monkeypatch):
+    monkeypatch.setattr(backends, "PROBE", "import os; os._exit(3)")
+    assert backends.probe({}) == "ended with exit code 3"
+
+
+@pytest.mark.usefixtures("on_linux", "probed")
+def test_the_doctor_hears_about_every_backend():
+    assert backends.probe_backends() == {
+        "egl": "ImportError: no library",
+        "osmesa": "renders",
+        "glfw": "ImportError: no library",
+    }

@@ -1,0 +1,94 @@
+"""The pictures of the lessons: committed, drawn again, and the command for it."""
+
+import os
+
+import numpy as np
+import pytest
+from conftest import ROOT
+from pictures import count, differing
+
+from robo47 import panda
+
+if not os.environ.get("ROBO47_CI"):
+    pytest.importorskip("PIL", reason="needs Pillow: make figures")
+    pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
+from PIL import Image
+
+from robo47.figures import overlay, portrait
+
+FOLDER = ROOT / "w1-foundations" / "figures"
+SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 800)}
+
+
+@pytest.mark.parametrize("name", SIZES)
+def test_the_committed_pictures_are_there(name):
+    path = FOLDER / f"day1_{name}.png"
+    picture = Image.open(path).convert("RGB")
+    assert picture.size == SIZES[name]
+    assert path.stat().st_size < 300_000
+    if name != "fk_error":
+        assert all(
+            count(picture, colour) > 500 for colour in (overlay.X, overlay.Y, overlay.Z)
+        )
+
+
+@pytest.mark.gl
+@pytest.mark.meshes
+@pytest.mark.usefixtures("gl", "real_panda")
+def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
+    done = run("scripts/make_figures.py", "--out", tmp_path)
+    assert (done.returncode, done.stderr.count("rror")) == (0, 0), done.stderr
+    for name, size in SIZES.items():
+        fresh = Image.open(tmp_path / f"day1_{name}.png").convert("RGB")
+        kept = Image.open(FOLDER / f"day1_{name}.png").convert("RGB")
+        assert fresh.size == size
+        # Drivers and fonts round differently; another arm or label would not.
+        assert differing(fresh, kept) < 0.02
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "w1-foundations" / "src"))
+    import day1_figures
+    from day1_transforms import HOME_Q, compose_fk
+
+    seen = {}
+
+    def note(scene, frames):
+        seen.update(frames)
+        return Image.new("RGB", scene.size)
+
+    monkeypatch.setattr(portrait, "draw", note)
+    day1_figures.order()
+    lab = run("w1-foundations/src/day1_transforms.py", "--no-log").stdout
+    T_world_ee = compose_fk(panda.load("panda_nohand"), HOME_Q)
+    np.testing.assert_allclose(seen["T_world_ee"], T_world_ee)
+    for name in ("T_world_ee @ T_extra", "T_extra @ T_world_ee"):
+        printed = lab.split(f"  {name}: ")[1].split("\n")[1].split()
+        np.testing.assert_allclose(seen[name][:3, 3], np.float64(printed), atol=1e-6)
+
+
+@pytest.mark.parametrize("choice", ["nonsense", "disable"])
+def test_without_a_backend_the_command_says_so_in_one_line(run, choice):
+    done = run("scripts/make_figures.py", MUJOCO_GL=choice)
+    assert done.returncode == 2
+    assert f"MUJOCO_GL={choice}" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_the_command_names_the_pictures_that_there_are(run):
+    done = run("scripts/make_figures.py", "mona_lisa")
+    assert done.returncode == 2
+    assert "day1_reference, day1_order, day1_fk_error" in done.stderr
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_a_folder_that_cannot_be_written_to_is_told(run, tmp_path):
+    (tmp_path / "file").write_text("")
+    done = run("scripts/make_figures.py", "day1_reference", "--out", tmp_path / "file")
+    assert done.returncode == 2
+    assert "choose a folder with --out" in done.stderr

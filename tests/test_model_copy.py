@@ -1,0 +1,65 @@
+"""The sandbox's stand-in of MjModel."""
+
+import numpy as np
+import pytest
+
+from robo47.checker import variant
+from robo47.checker.inside import standins, wire
+from robo47.checker.model_copy import copy_model
+from robo47.checker.replies import Model, Question
+
+
+class TestTheStandInOfMjModel:
+    """It reads like the real one, whichever way a student goes about it."""
+
+    def pairs(self):
+        real = variant.models()[0]
+        data = copy_model(real)
+        arrays = {n: wire.unpack_array(a) for n, a in data["arrays"].items()}
+        return real, standins.MjModel(data, arrays)
+
+    def test_has_every_size_and_array_of_the_real_one(self):
+        real, ours = self.pairs()
+        for name in dir(real):
+            value = getattr(real, name)
+            if isinstance(value, int | np.ndarray) and not name.startswith("_"):
+                assert np.array_equal(value, getattr(ours, name), equal_nan=True), name
+
+    @pytest.mark.parametrize(
+        "kind", ["body", "joint", "jnt", "site", "actuator", "key"]
+    )
+    def test_gives_the_same_named_views(self, kind):
+        real, ours = self.pairs()
+        counts = {"body": real.nbody, "site": real.nsite, "actuator": real.nu}
+        for i in range(counts.get(kind, real.nkey if kind == "key" else real.njnt)):
+            want = getattr(real, kind)(i)
+            for view in (getattr(ours, kind)(i), getattr(ours, kind)(want.name)):
+                for name in (n for n in dir(want) if not n.startswith("_")):
+                    a, b = getattr(want, name), getattr(view, name)
+                    assert np.shape(a) == np.shape(b), name
+                    assert np.array_equal(a, b), name
+
+    def test_names_the_valid_ones_for_a_wrong_name(self):
+        real, ours = self.pairs()
+        for model in (real, ours):
+            with pytest.raises(KeyError, match=r"Invalid name 'link9'.*'link7'"):
+                model.body("link9")
+
+    def test_says_what_it_lacks(self):
+        with pytest.raises(AttributeError, match="copy of the model has no 'opt'"):
+            _ = self.pairs()[1].opt
+
+    def test_answers_mj_name2id_and_the_enums(self, ask):
+        code = """
+            import mujoco
+            import numpy as np
+            def f(model: mujoco.MjModel, data: mujoco.MjData | None = None):
+                kind = mujoco.mjtObj.mjOBJ_BODY
+                i = mujoco.mj_name2id(model, kind, "link4")
+                assert mujoco.mj_id2name(model, kind, i) == "link4"
+                assert mujoco.mj_name2id(model, kind, "nobody") == -1
+                assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_HINGE
+                return np.array(i)
+        """
+        (reply,) = ask(code, Question("1.6", "f", (Model(0),)))
+        assert reply.value == variant.models()[0].body("link4").id

@@ -1,0 +1,123 @@
+"""The notebook: made from the script, never stale, and it runs from top to bottom."""
+
+import importlib.util
+import json
+import os
+import sys
+
+import pytest
+from conftest import ROOT
+
+if not os.environ.get("ROBO47_CI"):
+    for package in ("ipykernel", "ipywidgets", "jupytext", "nbclient"):
+        pytest.importorskip(package, reason=f"needs {package}: make notebook")
+import nbclient
+import nbformat
+
+NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
+LOGGING = 'sys.argv = ["day1_transforms"]'
+
+
+@pytest.fixture
+def generator(monkeypatch, tmp_path):
+    """Return scripts/make_notebook.py as a module that writes elsewhere."""
+    path = ROOT / "scripts" / "make_notebook.py"
+    spec = importlib.util.spec_from_file_location("make_notebook", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setattr(module, "NOTEBOOK", tmp_path / "notebooks" / "day1.ipynb")
+    monkeypatch.setattr(sys, "argv", ["make_notebook.py"])
+    return module
+
+
+def cells(kind):
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    return [cell for cell in notebook.cells if cell.cell_type == kind]
+
+
+def outputs(notebook, kind):
+    found = [out for cell in notebook.cells for out in cell.get("outputs", [])]
+    return [out for out in found if out.output_type == kind]
+
+
+def test_the_committed_notebook_is_what_the_script_makes(run):
+    done = run("scripts/make_notebook.py", "--check")
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert "is up to date" in done.stdout
+
+
+def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
+    assert generator.main() == 0
+    changed = tmp_path / "day1_transforms.py"
+    source = generator.SCRIPT.read_text("utf-8")
+    changed.write_text(source.replace("np.pi / 4", "np.pi / 3"), "utf-8")
+    assert source != changed.read_text("utf-8")
+    monkeypatch.setattr(generator, "SCRIPT", changed)
+    monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--check"])
+    before = generator.NOTEBOOK.read_bytes()
+    assert generator.main() == 1
+    assert generator.NOTEBOOK.read_bytes() == before
+
+
+def test_every_function_and_step_of_the_script_is_there(generator):
+    source = generator.SCRIPT.read_text("utf-8")
+    code = "\n".join(cell.source for cell in cells("code"))
+    text = "\n".join(cell.source for cell in cells("markdown"))
+    functions = [line for line in source.splitlines() if line.startswith("def ")]
+    assert all(line in code for line in functions if "def main" not in line)
+    assert source.count("lab.check(") == code.count("lab.check(") > 0
+    assert source.count("lab.record(") == code.count("lab.record(") > 0
+    for step in range(1, source.count("lab.step(") + 1):
+        assert f"### {step}. " in text
+
+
+def test_it_holds_no_markers_no_outputs_and_no_unfilled_heading():
+    raw = NOTEBOOK.read_text("utf-8")
+    assert "region" not in raw
+    assert all(cell.outputs == [] for cell in cells("code"))
+    assert all(cell.execution_count is None for cell in cells("code"))
+    assert "{CONFIGURATIONS" not in "".join(cell.source for cell in cells("markdown"))
+    assert len(raw) < 40_000
+    nbformat.validate(json.loads(raw))
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_it_runs_from_top_to_bottom(tmp_path):
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    setup = next(cell for cell in notebook.cells if LOGGING in cell.source)
+    setup.source = setup.source.replace(LOGGING, LOGGING[:-1] + ', "--no-log"]')
+    for cell in notebook.cells:
+        cell.metadata.pop("tags", None)  # here a picture that fails is a failure
+    run = {"metadata": {"path": str(tmp_path)}}  # wherever Jupyter was started
+    nbclient.NotebookClient(notebook, timeout=120, resources=run).execute()
+    printed = "".join(out.text for out in outputs(notebook, "stream"))
+    assert "All checks PASSED." in printed
+    assert "FAIL" not in printed
+    shown = [out.data for out in outputs(notebook, "execute_result")]
+    assert sum("image/png" in data for data in shown) == 2
+    widget = "application/vnd.jupyter.widget-view+json"
+    assert sum(widget in data for data in shown) == 1
+
+
+def test_without_the_kit_the_set_up_asks_for_the_clones_address(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(AssertionError, match="set REPOSITORY above"):
+        exec(cells("code")[0].source, {})
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_a_slider_moves_the_arm_and_the_matrix():
+    from robo47.figures.sliders import joint_sliders
+
+    left, picture = joint_sliders().children
+    *sliders, numbers = left.children
+    before = picture.value, numbers.value
+    sliders[0].value = 1.0
+    assert picture.value != before[0]
+    assert numbers.value != before[1]
+    assert "color:green" in numbers.value
+    assert [s.description for s in sliders] == [f"joint{i}" for i in range(1, 8)]
+    assert sliders[3].max < 0  # joint4's limits, so that 0 cannot be chosen
