@@ -75,7 +75,8 @@ def some_handed_in(seed: int) -> Files:
 
 
 def attack(line: str, where: str = "    T = np.eye(4)\n") -> Files:
-    """Return the solved lab with a line of mischief in its first function."""
+    """Return the solved lab with a line of mischief before another line."""
+    assert where in SOLVED
     return script(SOLVED.replace(where, f"    {line}\n{where}", 1))
 
 
@@ -117,7 +118,7 @@ KINDS: dict[str, Callable[[int], Files]] = {
     "empty": lambda i: {},
     "exits": lambda i: script("import sys\nsys.exit(0)\n" + SOLVED),
     "exits at once": lambda i: script("import os\nos._exit(0)\n" + SOLVED),
-    "loops": lambda i: attack("while True: pass"),
+    "loops": lambda i: attack("while True: pass", "    return compose_fk(model, q,"),
     "eats memory": lambda i: attack("x = np.ones(12_500_000_000)"),
     "forks": lambda i: attack("import os; [os.fork() for _ in range(99)]"),
     "forges": lambda i: attack('print("PASSED"); return True'),
