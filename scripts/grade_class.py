@@ -1,17 +1,17 @@
 """Grade a class: a folder with one clone per student, by this copy of the kit.
 
-    python scripts/grade_class.py CLONES                 (make grade ROOT=CLONES)
+    python scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
     python scripts/grade_class.py CLONES --pull          update the clones first
     python scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
-CLONES/roster.csv (name, folder, git URL) says who is in the class; without it,
-each folder is a student. Beside the table: class.html (what to explain again, who
-is stuck), feedback/ (a file per student) and grading.jsonl, in which each result
-is kept as it comes: stop at any time, the same command goes on from there.
-Exit code: 0 everybody has a row, 1 somebody could not be pulled or a worker was
-lost, 2 could not run.
+CLONES/roster.csv (name, folder, git) says who is in the class; without it,
+each folder is a student. Beside the table: class.html (what to explain again,
+who is stuck), feedback/ (a file per student) and grading.jsonl, in which each
+result is kept as it comes: stop at any time, the same command goes on.
+Exit code: 0 everybody has a row, 1 somebody could not be pulled or was lost
+with a worker, 2 could not run.
 """
 
 import argparse

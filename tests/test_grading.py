@@ -4,13 +4,16 @@ import os
 import subprocess
 import sys
 from collections import Counter
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
 from make_class import DAY, ODD_WAY, SOLVED, STARTER, WEEK, own_way, renamed
 
-from robo47.grading import bars, collect, history, overview, similar
+from robo47.errors import Robo47Error
+from robo47.grading import bars, collect, engine, history, kit, overview, similar
 from robo47.grading.feedback import feedback_path
 from robo47.grading.grader import Grader, grade_package
 from robo47.grading.journal import Journal
@@ -146,6 +149,47 @@ class TestTheGrader:
         )
         assert done.returncode == 0
         assert not (tmp_path / "own").exists()
+
+
+class Stubborn(Executor):
+    """An executor whose work is never done, or always lost."""
+
+    def __init__(self, error: Exception | None = None) -> None:
+        self.error = error
+
+    def submit(self, *_, **__):
+        future = Future()
+        if self.error:
+            future.set_exception(self.error)
+        return future
+
+
+class TestTheEngine:
+    PACKAGES: ClassVar = [("ana", Package(1, "")), ("béa", Package(1, ""))]
+
+    def test_gives_up_in_a_line_where_no_worker_comes(self, monkeypatch):
+        monkeypatch.setattr(engine, "PATIENCE", 0.01)
+        nobody = engine.Engine(Stubborn(), lambda: 0)
+        with pytest.raises(Robo47Error, match="start workers and run the same command"):
+            list(engine.grade_all(self.PACKAGES, nobody))
+
+    def test_hands_on_what_was_lost_and_goes_on(self):
+        lossy = engine.Engine(Stubborn(KeyError("killed")), lambda: 1, KeyError)
+        found = list(engine.grade_all(self.PACKAGES, lossy))
+        assert sorted(key for key, _, _ in found) == ["ana", "béa"]
+        assert all(isinstance(result, engine.LostError) for _, _, result in found)
+
+    def test_takes_packages_only_as_there_is_room(self):
+        taken = []
+
+        def packages():
+            for i in range(20):
+                taken.append(i)
+                yield str(i), Package(1, kit.fingerprint(), problem="nobody")
+
+        with engine.local(1) as here:
+            next(engine.grade_all(packages(), here))
+        assert len(taken) == engine.PER_WORKER
 
 
 class TestTheJournal:

@@ -29,6 +29,12 @@ NO_DASK = (
 )
 
 
+NO_CERTIFICATES = (
+    "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
+    "docs/teaching.md says how"
+)
+
+
 class LostError(Exception):
     """Workers died while grading this package; another run may fare better."""
 
@@ -76,8 +82,12 @@ def dask(address: str) -> Iterator[Engine]:
     try:
         from distributed import Client
         from distributed.scheduler import KilledWorker
+        from distributed.security import Security
     except ImportError:
         raise Robo47Error(NO_DASK) from None
+    known = Security().get_connection_args("client")
+    if address.startswith("tls:") and not known.get("ssl_context"):
+        raise Robo47Error(NO_CERTIFICATES)
     try:
         client = Client(address, timeout=10, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
