@@ -47,7 +47,7 @@ grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## gr
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
 
-soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
+soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
 report: .venv/.ready-report ## metrics/report.html and report.png from the log

@@ -12,6 +12,7 @@ import shutil
 import sys
 
 from robo47.grading.grade import grade
+from robo47.grading.result import ungraded
 from robo47.week import find_day
 
 
@@ -26,7 +27,12 @@ def main() -> None:
             package = pickle.load(sys.stdin.buffer)  # from our own parent
         except EOFError:
             break
-        result = grade(package, find_day(package.day))
+        day = find_day(package.day)
+        try:
+            result = grade(package, day)
+        except Exception as error:  # a hole in the checker costs one grade
+            why = f"the checker stopped with {type(error).__name__}: {error}"
+            result = ungraded(day, why)
         out.write(json.dumps(result.to_json()).encode("ascii") + b"\n")
         out.flush()
     shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone

@@ -1,11 +1,13 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
-from collections.abc import Iterator, Sequence
+from array import array
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tqdm import tqdm
 
+from robo47.checker.deliverables.commit import wanted_files
 from robo47.grading import page, similar
 from robo47.grading.collect import collect
 from robo47.grading.course import Course
@@ -71,10 +73,7 @@ class Classroom:
         by_folder = {student.folder: student for student in self.students}
         graded: dict[str, Graded] = {}
         runs = {}
-        starter = make_starter(
-            read_script(self.day.source), shown(self.day.source), self.day.number
-        )
-        script = f"{self.day.folder.name}/work/{self.day.script}"
+        look = _comparer(self.day)
 
         def note(folder: str, package: Package, result: Result) -> None:
             graded[folder] = self._graded(by_folder[folder], package, result)
@@ -82,22 +81,19 @@ class Classroom:
             bar.update()
 
         def changed() -> Iterator[tuple[str, Package]]:
-            for student in self.students:
+            for folder, student in by_folder.items():
                 package = collect(student, self.day)
-                if script in package.files:
-                    source = package.files[script]
-                    runs[student.folder] = similar.runs_of(source, starter)
-                known = self.journal.find(student.folder, package)
+                runs[folder] = look(package)
+                known = self.journal.find(folder, package)
                 if known and not self.again:
-                    note(student.folder, package, known)
+                    note(folder, package, known)
                 else:
-                    yield student.folder, package
+                    yield folder, package
 
         with _bar(len(self.students), "grading") as bar:
             for folder, package, result in grade_all(changed(), engine):
                 note(folder, package, self._kept(folder, package, result))
-        everybody = [graded[student.folder] for student in self.students]
-        return everybody, similar.similar_groups(runs)
+        return [graded[key] for key in by_folder], similar.similar_groups(runs)
 
     def _kept(
         self, folder: str, package: Package, result: Result | LostError
@@ -136,6 +132,13 @@ def write_all(
     course = Course(room.day, everybody, alike, journal.reference, journal.deadline)
     write(out, as_csv(room.day, everybody))
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
+
+
+def _comparer(day: Day) -> Callable[[Package], "array[int]"]:
+    """Return what makes of a package's script what `similar` compares."""
+    starter = make_starter(read_script(day.source), shown(day.source), day.number)
+    script = wanted_files(day)[0]
+    return lambda package: similar.runs_of(package.files.get(script, b""), starter)
 
 
 def _bar(total: int, doing: str) -> "tqdm[None]":

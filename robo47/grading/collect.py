@@ -12,10 +12,14 @@ import stat
 from pathlib import Path
 
 from robo47.checker.deliverables import Item
-from robo47.checker.deliverables.commit import as_item, wanted_files
+from robo47.checker.deliverables.commit import (
+    as_item,
+    no_repository,
+    wanted_files,
+)
 from robo47.checker.deliverables.worksheet import image_names
 from robo47.grading import kit
-from robo47.grading.history import read_history
+from robo47.grading.history import History, read_history
 from robo47.grading.package import Package
 from robo47.grading.roster import Student
 from robo47.week import Day
@@ -43,35 +47,45 @@ def collect(student: Student, day: Day) -> Package:
         problem = "there is no such folder"
     if problem:
         return Package(day.number, kit.fingerprint(), problem=problem)
+    clone, wanted = student.path, wanted_files(day)
+    files, unread = _read_wanted(clone, wanted)
+    history = read_history(clone, wanted)
+    item = _commit_item(day, history, files, unread)
+    files |= _helpers(clone, f"{day.folder.name}/work")
+    files |= _pictures(clone, f"{day.folder.name}/{day.worksheet}", files)
+    facts = (item, history.commit, history.committed)
+    return Package(day.number, kit.fingerprint(), files, unread, *facts)
+
+
+def _read_wanted(
+    clone: Path, wanted: list[str]
+) -> tuple[dict[str, bytes], dict[str, str]]:
+    """Return the day's files, and why some that are there were not read."""
     files: dict[str, bytes] = {}
     unread: dict[str, str] = {}
-    limits = dict(
-        zip(wanted_files(day), (SCRIPT, WORKSHEET, FIGURE, METRICS), strict=True)
-    )
-    for name, limit in limits.items():
+    for name, limit in zip(wanted, (SCRIPT, WORKSHEET, FIGURE, METRICS), strict=True):
         try:
-            data = read(student.path, name, limit)
+            data = read(clone, name, limit)
         except UnreadError as error:
             unread[name] = str(error)
         else:
-            files.update({} if data is None else {name: data})
-    history = read_history(student.path, limits)
-    present = [*files, *unread]
-    left = [f for f in limits if f not in present or not history.holds(f, files.get(f))]
-    item = as_item(day, left)
+            files |= {} if data is None else {name: data}
+    return files, unread
+
+
+def _commit_item(
+    day: Day, history: History, files: dict[str, bytes], unread: dict[str, str]
+) -> Item:
+    """Return how the commit stands, in the checker's words."""
     if not history.readable:
-        item = Item("commit", "todo", "This folder is no git repository: git init")
-    files |= _helpers(student.path, f"{day.folder.name}/work")
-    files |= _pictures(student.path, f"{day.folder.name}/{day.worksheet}", files)
-    return Package(
-        day.number,
-        kit.fingerprint(),
-        files,
-        unread,
-        item,
-        history.commit,
-        history.committed,
-    )
+        return no_repository()
+    left = [
+        name
+        for name in wanted_files(day)
+        if not (name in files or name in unread)
+        or not history.holds(name, files.get(name))
+    ]
+    return as_item(day, left)
 
 
 def read(clone: Path, name: str, limit: int) -> bytes | None:

@@ -27,8 +27,6 @@ NO_DASK = (
     "--dask needs the package distributed: python3 scripts/setup_env.py grade "
     "(make grade does it)"
 )
-
-
 NO_CERTIFICATES = (
     "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
     "docs/teaching.md says how"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from robo47.checker import report
 from robo47.checker.deliverables import Item
+from robo47.checker.deliverables.commit import wanted_files
 from robo47.checker.deliverables.figure import check_figure
 from robo47.checker.deliverables.rows import check_rows
 from robo47.checker.deliverables.worksheet import check_worksheet
@@ -45,7 +46,7 @@ def grade(package: Package, day: Day) -> Result:
 
 def _tasks(package: Package, day: Day, clone: Path) -> tuple[list[TaskResult], str]:
     """Return the tasks' results, and why there is nothing to run or ""."""
-    name = f"{day.folder.name}/work/{day.script}"
+    name = wanted_files(day)[0]
     if name not in package.files:
         if name in package.unread:
             verdict = Verdict(
@@ -66,18 +67,12 @@ def _tasks(package: Package, day: Day, clone: Path) -> tuple[list[TaskResult], s
 def _items(package: Package, day: Day, clone: Path) -> list[Item]:
     """Return the deliverables, in the checker's order."""
     week = clone / day.folder.name
+    _, worksheet, figure, log = wanted_files(day)
+    written = ("definitions", "drawings", "checklist")
     checks: list[tuple[str, tuple[str, ...], Callable[[], list[Item]]]] = [
-        (
-            f"{week.name}/{day.figure}",
-            ("figure",),
-            lambda: [check_figure(day, week)],
-        ),
-        (
-            f"{week.name}/{day.worksheet}",
-            ("definitions", "drawings", "checklist"),
-            lambda: check_worksheet(day, week),
-        ),
-        ("metrics/metrics.csv", ("metrics",), lambda: [check_rows(day, clone)]),
+        (figure, ("figure",), lambda: [check_figure(day, week)]),
+        (worksheet, written, lambda: check_worksheet(day, week)),
+        (log, ("metrics",), lambda: [check_rows(day, clone)]),
     ]
     items: list[Item] = []
     for file, names, check in checks:

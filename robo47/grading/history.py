@@ -54,7 +54,11 @@ def read_history(clone: Path, wanted: Iterable[str]) -> History:
         wanted: paths whose hashes to return.
     """
     git = clone / ".git"
-    if git.is_symlink() or not git.is_dir():
+    try:
+        own = git.is_dir() and not git.is_symlink()
+    except OSError:  # not for us to look at
+        own = False
+    if not own:
         return History(readable=False)
     head = _git(git, "rev-list", "-1", "--format=%ct", "HEAD")
     if head is None:

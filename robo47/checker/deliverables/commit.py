@@ -26,13 +26,18 @@ def check_commit(day: Day, root: Path) -> Item:
         root, "status", "--porcelain=v1", "-z", "-uall", "--no-renames", "--", *wanted
     )
     if tracked is None or changed is None:
-        return Item("commit", "todo", "This folder is no git repository: git init")
+        return no_repository()
     dirty = {entry[3:] for entry in changed if entry}
     return as_item(day, [f for f in wanted if f in dirty or f not in tracked])
 
 
+def no_repository() -> Item:
+    """Return how the commit stands where git finds no repository."""
+    return Item("commit", "todo", "This folder is no git repository: git init")
+
+
 def wanted_files(day: Day) -> list[str]:
-    """Return the files to commit, from the top of the clone."""
+    """Return the files to commit: script, worksheet, figure and log, from the top."""
     week = day.folder.name
     own = (f"work/{day.script}", day.worksheet, day.figure)
     return [*(f"{week}/{name}" for name in own), "metrics/metrics.csv"]
