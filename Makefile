@@ -11,7 +11,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor bench test-matrix setup view
+.PHONY: start check hint run doctor bench test-matrix setup view grade
 .PHONY: help day1 test soak report lint docs oracle figures notebook
 
 help: ## this list
@@ -43,10 +43,14 @@ run: .venv/.ready-core $(ROBOT) ## run your own copy of DAY=1's lab, log its num
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS)
 
+grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
+	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
+	clones? make grade ROOT=../class))" --day $(DAY) $(ARGS)
+
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
 
-soak: .venv/.ready-test ## the long tests of the metrics log, some minutes
+soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
 report: .venv/.ready-report ## metrics/report.html and report.png from the log

@@ -8,6 +8,7 @@ from conftest import ROOT, need
 
 WEEK = ROOT / "w1-foundations"
 DOCUMENTS = [ROOT / "README.md", *sorted(WEEK.rglob("*.md")), *ROOT.glob("C*.md")]
+DOCUMENTS += sorted((ROOT / "docs").glob("*.md"))
 
 
 def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
@@ -59,6 +60,20 @@ def test_the_readme_names_the_commands_that_ci_runs():
         assert command in readme
     assert "make test" in ci
     assert "make lint" in ci
+
+
+def test_every_command_in_the_teachers_guide_exists(run):
+    guide = (ROOT / "docs/teaching.md").read_text("utf-8")
+    known = run("scripts/grade_class.py", "--help").stdout
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    code = re.findall(r"`[^`]+`|^ *(?:- run: )?make .*", guide, re.MULTILINE)
+    targets = {name for text in code for name in re.findall(r"\bmake (\w+)", text)}
+    assert targets >= {"grade", "check", "start"}
+    assert {name for name in targets if f"\n{name}:" not in makefile} == set()
+    lines = [line for line in guide.splitlines() if "make grade" in line]
+    named = {option for line in lines for option in re.findall(r"--[a-z]+", line)}
+    assert named >= {"--pull", "--deadline", "--dask"}
+    assert {option for option in named if option not in known} == set()
 
 
 def test_no_document_holds_an_empty_output():

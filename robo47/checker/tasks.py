@@ -34,7 +34,11 @@ class TaskResult:
 
 
 def check_tasks(
-    day: Day, script: Path, sandbox: Sandbox, only: str | None = None
+    day: Day,
+    script: Path,
+    sandbox: Sandbox,
+    only: str | None = None,
+    seed: int | None = None,
 ) -> list[TaskResult]:
     """Check the tasks of a day.
 
@@ -43,6 +47,7 @@ def check_tasks(
         script: the student's file.
         sandbox: where to run it.
         only: one task's id; what it needs is run too, since it may call it.
+        seed: of the fresh joint angles, see `variant.fresh_configurations`.
 
     Returns:
         One result per task, in the manifest's order.
@@ -53,7 +58,7 @@ def check_tasks(
     tasks = [day.task(only)] if only else list(day.tasks)
     needed = {need for task in tasks for need in _all_needs(task, day)}
     asked = [task for task in day.tasks if task in tasks or task.id in needed]
-    questions = {task.id: _questions(task) for task in asked}
+    questions = {task.id: _questions(task, seed) for task in asked}
     flat = [question for some in questions.values() for question in some]
     copies = [model_copy.copy_model(model) for model in variant.models()]
     noted = sorted({name for task in asked for name in task.without})
@@ -82,7 +87,7 @@ def _all_needs(task: Task, day: Day) -> list[str]:
     return [other.id for other in day.tasks if other.id in found]
 
 
-def _questions(task: Task) -> list[Question]:
+def _questions(task: Task, seed: int | None) -> list[Question]:
     """Return the judge's calls, then a chain's: fresh angles on both Pandas."""
     asked = [
         Question(
@@ -94,7 +99,7 @@ def _questions(task: Task) -> list[Question]:
     ]
     for function in task.functions:
         if function in variant.FRAMES:
-            fresh = variant.fresh_configurations()
+            fresh = variant.fresh_configurations(seed)
             asked += [
                 Question(task.id, function, (Model(which), q))
                 for which in range(len(variant.models()))

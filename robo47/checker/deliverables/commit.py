@@ -20,22 +20,41 @@ def check_commit(day: Day, root: Path) -> Item:
         day: from the kit's manifest.
         root: the student's clone.
     """
-    week = day.folder.name
-    wanted = [f"{week}/work/{day.script}", f"{week}/{day.worksheet}"]
-    wanted += [f"{week}/{day.figure}", "metrics/metrics.csv"]
+    wanted = wanted_files(day)
     tracked = _git(root, "ls-files", "-z", "--", *wanted)
     changed = _git(
         root, "status", "--porcelain=v1", "-z", "-uall", "--no-renames", "--", *wanted
     )
     if tracked is None or changed is None:
-        return Item("commit", "todo", "This folder is no git repository: git init")
+        return no_repository()
     dirty = {entry[3:] for entry in changed if entry}
-    left = [name for name in wanted if name in dirty or name not in tracked]
+    return as_item(day, [f for f in wanted if f in dirty or f not in tracked])
+
+
+def no_repository() -> Item:
+    """Return how the commit stands where git finds no repository."""
+    return Item("commit", "todo", "This folder is no git repository: git init")
+
+
+def wanted_files(day: Day) -> list[str]:
+    """Return the files to commit: script, worksheet, figure and log, from the top."""
+    week = day.folder.name
+    own = (f"work/{day.script}", day.worksheet, day.figure)
+    return [*(f"{week}/{name}" for name in own), "metrics/metrics.csv"]
+
+
+def as_item(day: Day, left: list[str]) -> Item:
+    """Return how the commit stands.
+
+    Args:
+        day: from the kit's manifest.
+        left: which of the wanted files are not committed as they are now.
+    """
     if not left:
         return Item("commit")
     says = (
         f"Not committed as they are now: {', '.join(left)}.\n"
-        f'git add {week} metrics && git commit -m "Day {day.number}"'
+        f'git add {day.folder.name} metrics && git commit -m "Day {day.number}"'
     )
     return Item("commit", "todo", says)
 

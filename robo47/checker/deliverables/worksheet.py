@@ -72,6 +72,11 @@ def split_sections(text: str) -> dict[str, str]:
     return {name: "\n".join(lines) for name, lines in sections.items()}
 
 
+def image_names(text: str) -> list[str]:
+    """Return the addresses of the images in a Markdown text, as they stand there."""
+    return [first or second for first, second in _IMAGE.findall(text)]
+
+
 def _definitions(
     sections: dict[str, str], terms: tuple[str, ...], guide: str, where: str
 ) -> Item:
@@ -116,7 +121,7 @@ def _drawings(sections: dict[str, str], number: int, folder: Path, where: str) -
             ),
             "",
         )
-        images = [first or second for first, second in _IMAGE.findall(text)]
+        images = image_names(text)
         if any(_is_image(name, folder) for name in images) or _is_drawn(text):
             continue
         (broken if images else missing).append(str(index))

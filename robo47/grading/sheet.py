@@ -1,0 +1,133 @@
+"""The table: one row per student, for a spreadsheet or the school's own system."""
+
+import csv
+import io
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from robo47.errors import Robo47Error
+from robo47.grading.result import ITEMS, Result
+from robo47.grading.roster import Student
+from robo47.paths import shown
+from robo47.week import Day
+
+# A spreadsheet runs a text that begins like this as a formula.
+_FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
+_CONTROL = re.compile(r"[\0-\x1f\x7f\u2028\u2029]+")
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One student with all that the table and the page show.
+
+    Attributes:
+        student: from the roster.
+        result: the grade.
+        commit: the hash of the last commit, or "".
+        minutes: from there to the deadline, negative past it; None without a commit.
+        note: what this run has to add to the result's error, such as a failed pull.
+    """
+
+    student: Student
+    result: Result
+    commit: str = ""
+    minutes: int | None = None
+    note: str = ""
+
+    @property
+    def error(self) -> str:
+        """Why something could not be graded or updated; "" where all was."""
+        return "; ".join(filter(None, (self.result.error, self.note)))
+
+    @property
+    def tasks_passed(self) -> int:
+        """How many tasks are passed."""
+        return sum(task.passed for task in self.result.tasks)
+
+
+def columns(day: Day) -> list[str]:
+    """Return the table's columns."""
+    return [
+        "name",
+        "folder",
+        "tasks_passed",
+        *(task.id for task in day.tasks),
+        "deliverables_passed",
+        *ITEMS,
+        "first_mistake",
+        "what_it_says",
+        "minutes_since_commit",
+        "commit_hash",
+        "error",
+    ]
+
+
+def as_csv(day: Day, class_: Sequence[Graded]) -> bytes:
+    """Return the table.
+
+    Args:
+        day: from the manifest.
+        class_: everybody, in the order to show them.
+
+    Returns:
+        CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns(day))
+    writer.writerows(_cells(graded) for graded in class_)
+    return text.getvalue().encode("utf-8-sig")
+
+
+def _cells(graded: Graded) -> list[str | int]:
+    result, mistake = graded.result, graded.result.first_mistake
+    return [
+        plain(graded.student.name),
+        plain(graded.student.folder),
+        graded.tasks_passed,
+        *(task.status for task in result.tasks),
+        sum(item.passed for item in result.items),
+        *(item.status for item in result.items),
+        plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
+        plain(mistake.message if mistake else ""),
+        "" if graded.minutes is None else graded.minutes,
+        graded.commit[:10],
+        plain(graded.error),
+    ]
+
+
+def plain(text: str) -> str:
+    """Return a text that any spreadsheet shows as it is, on one line."""
+    line = _CONTROL.sub(" ", printable(text)).strip()
+    return f"'{line}" if _FORMULA.match(line) else line
+
+
+def printable(text: str) -> str:
+    """Return a text that UTF-8 can hold: a folder's name may be any bytes."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def write(path: Path, content: bytes) -> None:
+    """Replace a file whole, or leave it as it was; nothing to do where it is equal.
+
+    Raises:
+        Robo47Error: it cannot be written.
+    """
+    try:
+        if path.is_file() and path.read_bytes() == content:
+            return
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial = path.with_name(path.name + ".new")
+        with partial.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+    except OSError as error:
+        raise Robo47Error(
+            f"{shown(path)} cannot be written: {error.strerror or error}. Close it "
+            "where it is open, or choose another place with --out"
+        ) from None

@@ -1,0 +1,116 @@
+"""Whose submissions are alike: a hint of where to look, never a verdict.
+
+A submission becomes the set of its runs of LENGTH tokens, with names made
+equal, so that renaming hides nothing. What the starter gives, and what much of
+the class writes (there are few ways to type a rotation about z), counts for nobody; the
+rest is compared. After Schleimer, Wilkerson and Aiken, "Winnowing", SIGMOD 2003.
+"""
+
+import builtins
+import keyword
+import re
+import zlib
+from array import array
+from collections import Counter, defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+LENGTH = 8  # tokens in a run
+FEWEST = 24  # runs of one's own: less is too little to compare
+COMMON = 0.1  # of the class: a run that more of them have is nobody's
+FEW = 4  # but one that so few have is kept, in a class of any size
+ALIKE = 0.6  # share of the smaller submission's runs
+
+_TOKEN = re.compile(
+    r"(?P<comment>#[^\n]*)"
+    r"|(?P<text>\"\"\".*?\"\"\"|'''.*?'''|\"[^\"\n]*\"|'[^'\n]*')"
+    r"|(?P<name>\.?[^\W\d]\w*)"
+    r"|(?P<other>\d[\w.]*|\S)",
+    re.DOTALL,
+)
+_KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
+
+
+@dataclass(frozen=True)
+class Group:
+    """Submissions to look at side by side; each is like at least one of the others.
+
+    Attributes:
+        keys: whose they are, sorted.
+        share: of the smaller one's runs that the other has too, 0 to 1, in the most
+            similar two of them.
+    """
+
+    keys: tuple[str, ...]
+    share: float
+
+
+def runs_of(source: bytes, starter: str) -> "array[int]":
+    """Return the hashes of a script's runs of tokens, without the starter's.
+
+    Args:
+        source: the script, whatever it holds.
+        starter: what the student was given.
+    """
+    own = _hashes(tokens(source.decode("utf-8", "replace")))
+    return array("L", sorted(own - _hashes(tokens(starter))))
+
+
+def tokens(text: str) -> list[str]:
+    """Return a script's tokens: no comments, and all texts and all names made equal.
+
+    Args:
+        text: Python, or anything else. Keywords, builtins and attributes stay.
+    """
+    found = []
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        if match.lastgroup == "comment":
+            continue
+        if match.lastgroup == "text":
+            token = "''"
+        elif match.lastgroup == "name" and token[0] != "." and token not in _KEPT:
+            token = "n"
+        found.append(token)
+    return found
+
+
+def similar_groups(runs: Mapping[str, "array[int]"]) -> list[Group]:
+    """Return the submissions worth a look, the most similar first.
+
+    Args:
+        runs: of each submission, as `runs_of` gives them.
+    """
+    count = Counter(run for own in runs.values() for run in own)
+    most = max(FEW, int(COMMON * len(runs)))
+    rare = {
+        key: [run for run in own if count[run] <= most] for key, own in runs.items()
+    }
+    owners: dict[int, list[str]] = defaultdict(list)
+    for key, own in rare.items():
+        if len(own) >= FEWEST:
+            for run in own:
+                owners[run].append(key)
+    shared = Counter(
+        pair for keys in owners.values() for pair in combinations(sorted(keys), 2)
+    )
+    group_of: dict[str, dict[str, float]] = {}  # each one's group, with the shares
+    for (first, second), number in shared.items():
+        share = number / min(len(rare[first]), len(rare[second]))
+        if share >= ALIKE:
+            merged = group_of.get(first, {}) | group_of.get(second, {})
+            for key in (first, second):
+                merged[key] = max(share, merged.get(key, 0.0))
+            group_of |= dict.fromkeys(merged, merged)
+    whole = {id(group): group for group in group_of.values()}.values()
+    groups = [Group(tuple(sorted(g)), max(g.values())) for g in whole]
+    return sorted(groups, key=lambda g: (-g.share, -len(g.keys), g.keys))
+
+
+def _hashes(found: list[str]) -> set[int]:
+    """Return a hash per run; the same in every process, unlike Python's own."""
+    return {
+        zlib.crc32("\0".join(found[i : i + LENGTH]).encode("utf-8", "replace"))
+        for i in range(len(found) - LENGTH + 1)
+    }

@@ -1,0 +1,250 @@
+"""A class of generated students: right, wrong, hostile, broken, and oddly named.
+
+    python tests/make_class.py FOLDER 200      to look at, or to measure with
+
+What the wrong ones wrote comes from the catalogue in `submissions/`. Commits have fixed
+times, so the same class is the same to the byte.
+"""
+
+import os
+import random
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from submissions.catalogue import FOLDER as CATALOGUE
+from test_deliverables import png, worksheet
+
+from robo47 import metrics
+from robo47.starter import make_starter, put_back
+from robo47.week import find_day
+
+DAY = find_day(1)
+WEEK = DAY.folder.name
+SOLVED = DAY.source.read_text("utf-8")
+STARTER = make_starter(SOLVED, "starter", 1)
+DEADLINE = 1_788_537_600  # 2026-09-04 16:00 UTC
+LOADED = 'if __name__ == "__main__":'
+FORMULA = "=SUM(A1,A9)"
+
+Files = dict[str, bytes | str]
+
+
+def script(text: str | bytes) -> Files:
+    """Return a student's files with this lab script."""
+    return {f"{WEEK}/work/{DAY.script}": text}
+
+
+def wrong(name: str) -> Files:
+    """Return the solved lab with a file of the catalogue in place of its functions."""
+    mistaken = (CATALOGUE / f"{name}.py").read_text("utf-8")
+    return script(own_way(mistaken))
+
+
+def own_way(functions: str) -> str:
+    """Return the solved lab with other functions in place of its own."""
+    return SOLVED.replace(LOADED, f"{functions}\n\n{LOADED}")
+
+
+def under_way(tasks: int) -> Files:
+    """Return the starter with the first tasks solved."""
+    names = [name for task in DAY.tasks[:tasks] for name in task.functions]
+    return script(put_back(STARTER, SOLVED, tuple(names)))
+
+
+def all_handed_in(seed: int) -> Files:
+    """Return everything the day asks for but the script."""
+    rng = np.random.default_rng(seed)
+    picture = png(rng.integers(0, 256, (300, 400, 3), np.uint8))
+    return {
+        f"{WEEK}/{DAY.worksheet}": worksheet(DAY.terms),
+        f"{WEEK}/{DAY.figure}": picture,
+        "metrics/metrics.csv": ",".join(metrics.COLUMNS)
+        + "\nr,2026-09-01,1,fk_identity_check,,,,,,,inv_err,1e-16,"
+        + "\nr,2026-09-01,1,fk_by_hand,,,,,,,max_abs_err,1e-15,\n",
+    }
+
+
+def some_handed_in(seed: int) -> Files:
+    """Return a part of what the day asks for."""
+    files = list(all_handed_in(seed).items())
+    return dict(files[: seed % 4])
+
+
+def attack(line: str, where: str = "    T = np.eye(4)\n") -> Files:
+    """Return the solved lab with a line of mischief before another line."""
+    assert where in SOLVED
+    return script(SOLVED.replace(where, f"    {line}\n{where}", 1))
+
+
+def own_kit() -> Files:
+    """Return a clone whose every part that could take part in grading is changed."""
+    passes = "import os\nprint('8 of 8 PASSED')\nos._exit(0)\n"
+    places = ("robo47/__init__.py", "robo47/checker/tasks.py", "robo47/se3.py")
+    places += ("conftest.py", f"{WEEK}/work/conftest.py", f"{WEEK}/work/numpy.py")
+    return {
+        **under_way(2),
+        **{name: passes for name in places if "work/numpy" not in name},
+        f"{WEEK}/week.toml": "number = 1\ntitle = 'Mine'\ndays = []\n",
+        "Makefile": "check:\n\t@echo 8 of 8 PASSED\n",
+    }
+
+
+def renamed(text: str) -> str:
+    """Return a script with other names and other comments: the copyist's craft."""
+    for old, new in (("left", "a"), ("half", "b"), ("turn", "zz"), ("pieces", "p")):
+        text = re.sub(rf"\b{old}\b", new, text)
+    return text.replace("# mine", "# all my own work")
+
+
+ODD_WAY = """
+def Rz(theta):  # mine
+    half = theta / 2
+    turn = np.cos(half) + 1j * np.sin(half)
+    left = turn * turn
+    pieces = [left.real, -left.imag, 0.0, left.imag, left.real, 0.0, 0.0, 0.0, 1.0]
+    return np.array(pieces).reshape(3, 3) + 0 * np.outer(pieces[:3], pieces[3:6])
+"""
+
+KINDS: dict[str, Callable[[int], Files]] = {
+    "right": lambda i: {**script(SOLVED), **all_handed_in(i)},
+    "wrong inverse": lambda i: {**wrong("wrong/inverse_no_minus"), **all_handed_in(i)},
+    "under way": lambda i: {**under_way(1 + i % 7), **some_handed_in(i)},
+    "not started": lambda i: script(STARTER),
+    "no file": lambda i: {"notes.txt": "nothing yet"},
+    "empty": lambda i: {},
+    "exits": lambda i: script("import sys\nsys.exit(0)\n" + SOLVED),
+    "exits at once": lambda i: script("import os\nos._exit(0)\n" + SOLVED),
+    "loops": lambda i: attack("while True: pass", "    return compose_fk(model, q,"),
+    "eats memory": lambda i: attack("x = np.ones(12_500_000_000)"),
+    "forks": lambda i: attack("import os; [os.fork() for _ in range(99)]"),
+    "forges": lambda i: attack('print("PASSED"); return True'),
+    "names the time": lambda i: attack("raise ValueError(object())"),
+    "own kit": lambda i: own_kit(),
+    "no python": lambda i: script("Dear Sir,\n\nmy dog ate it.\n"),
+    "binary": lambda i: script(random.Random(i).randbytes(5_000)),
+    "no git": lambda i: script(SOLVED),
+    "corrupt git": lambda i: {**script(SOLVED), **all_handed_in(i)},
+    "300 MB": lambda i: script(SOLVED),
+    "link loop": lambda i: {"notes.txt": "see work"},
+    "uncommitted": lambda i: wrong("wrong/fk_reversed"),
+    "git with a program": lambda i: script(SOLVED),
+    "copied": lambda i: script(own_way(ODD_WAY)),
+    "copyist": lambda i: script(
+        SOLVED.replace(LOADED, f"{renamed(ODD_WAY)}\n\n{LOADED}")
+    ),
+}
+NAMES = {  # of folders, where the kind's own is not odd enough
+    "right": "Zoë Ångström",
+    "under way": "名前 山田",
+    "forges": '<img src=x onerror=alert(1)> & "Tables"',
+    "not started": FORMULA,
+    "no file": "-rf",
+    "exits": "الطالب",
+    "copied": "e\u0301mile",
+}
+NAMES_ON_WINDOWS = {"forges": "Bobby & 'Tables'"}
+
+
+def make_class(root: Path, number: int) -> dict[str, list[str]]:
+    """Make the students' folders.
+
+    Args:
+        root: the folder to make them in.
+        number: of students: one of each kind first, then as in any class: some done,
+            some under way, and mistakes of which a few are common.
+
+    Returns:
+        Folder names by kind; "wrong/NAME" is a file of the catalogue.
+    """
+    rng = random.Random(47)
+    mistakes = [f"wrong/{p.stem}" for p in sorted((CATALOGUE / "wrong").glob("*.py"))]
+    rng.shuffle(mistakes)
+    often = {kind: 8 / (1 + rank) for rank, kind in enumerate(mistakes)}
+    often |= {"right": 12, "under way": 8, "not started": 2}
+    more = iter(lambda: rng.choices(list(often), list(often.values()))[0], None)
+    made: dict[str, list[str]] = {}
+    for i in range(number):
+        kind = list(KINDS)[i] if i < len(KINDS) else next(more)
+        known = KINDS.get(kind) or (lambda i, k=kind: {**wrong(k), **some_handed_in(i)})
+        odd = {**NAMES, **(NAMES_ON_WINDOWS if os.name == "nt" else {})}
+        folder = odd.get(kind, f"student {i:04}") if i < len(KINDS) else f"s{i:04}"
+        make_student(root / folder, kind, known(i), i)
+        made.setdefault(kind, []).append(folder)
+    return made
+
+
+def make_student(clone: Path, kind: str, files: Files, i: int) -> None:
+    """Make one student's folder."""
+    clone.mkdir(parents=True)
+    put(clone, files)
+    work = clone / WEEK / "work"
+    if kind == "300 MB":
+        for path in (work / DAY.script, clone / WEEK / DAY.figure):
+            path.parent.mkdir(exist_ok=True)
+            with path.open("wb") as file:
+                file.truncate(300_000_000)
+    if kind == "link loop" and os.name == "nt":  # where links need rights
+        put(clone, {f"{WEEK}/work/{DAY.script}/a folder": ""})
+    elif kind == "link loop":
+        work.mkdir(parents=True)
+        (work / DAY.script).symlink_to(work / DAY.script)
+        (clone / WEEK / "figures").symlink_to(clone)
+        (work / "helper.py").symlink_to(Path(__file__))
+    if kind in ("no git", "empty", "300 MB"):
+        return
+    commit(clone, DEADLINE - 3600 * (i % 50) - 60 * i)
+    if kind == "corrupt git":
+        (clone / ".git" / "HEAD").write_bytes(b"\0\xff garbage")
+    if kind == "uncommitted":
+        put(clone, script(SOLVED))
+    if kind == "git with a program":
+        trap(clone)
+
+
+def trap(clone: Path) -> None:
+    """Give a clone the configuration of somebody who wants git to run a program."""
+    program = f"touch '{clone.parent.parent}/pwned'; cat"
+    with (clone / ".git" / "config").open("a") as file:
+        file.write(f'[core]\n\tfsmonitor = "{program}"\n\tsshCommand = "{program}"\n')
+        file.write(f'[filter "x"]\n\tclean = "{program}"\n\tsmudge = "{program}"\n')
+        file.write(f'[gpg]\n\tprogram = "{program}"\n[log]\n\tshowSignature = true\n')
+    (clone / ".gitattributes").write_text("* filter=x\n")
+    (clone / WEEK / "work" / DAY.script).touch()
+
+
+def put(clone: Path, files: Files) -> None:
+    """Write files below a folder."""
+    for name, content in files.items():
+        path = clone / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def commit(clone: Path, when: int) -> None:
+    """Commit everything in a folder at a given time."""
+    who = {
+        f"GIT_{role}_{fact}": value
+        for role in ("AUTHOR", "COMMITTER")
+        for fact, value in (
+            ("NAME", "A"),
+            ("EMAIL", "a@example.org"),
+            ("DATE", f"{when} +0000"),
+        )
+    }
+    steps = (["init", "-q"], ["add", "-A"], ["commit", "-qm", "x", "--allow-empty"])
+    for step in steps:
+        subprocess.run(
+            ["git", "-c", "core.autocrlf=false", "-c", "gc.auto=0", *step],
+            cwd=clone,
+            env={**os.environ, **who},
+            check=True,
+        )
+
+
+if __name__ == "__main__":
+    for kind, folders in make_class(Path(sys.argv[1]), int(sys.argv[2])).items():
+        print(f"{kind}: {', '.join(folders[:5])}")

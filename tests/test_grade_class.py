@@ -1,0 +1,409 @@
+"""Grading a class as a program: the generated class, killed, resumed, and again."""
+
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
+
+from robo47.paths import ROOT
+
+LINUX = sys.platform.startswith("linux")  # where memory has a limit, not a watch
+WINDOWS = sys.platform == "win32"
+SCRIPT = "scripts/grade_class.py"
+ALL = len(DAY.tasks)
+# What each kind gets: tasks passed, first mistake, and what the column error holds.
+EXPECTED = {
+    "right": (ALL, "", ""),
+    "wrong inverse": (ALL - 1, "1.3 t-not-negated", ""),
+    "under way": (3, "", ""),
+    "not started": (0, "", ""),
+    "no file": (0, "", "is not there. Begin with: make start DAY=1"),
+    "empty": (0, "", "is not there"),
+    "exits": (0, "1.1 does-not-load", "it ends Python while being loaded"),
+    "exits at once": (0, "1.1 does-not-load", "it ended Python"),
+    "loops": (ALL - 1, "1.8 stopped", ""),
+    "eats memory": (3, "1.1 raises" if LINUX else "1.1 stopped", ""),
+    "forks": (3, "1.1 raises" if WINDOWS else "1.1 refused", ""),
+    "forges": (3, "1.1 shape", ""),
+    "names the time": (3, "1.1 raises", ""),
+    "own kit": (2, "", ""),
+    "no python": (0, "1.1 does-not-load", "SyntaxError"),
+    "binary": (0, "1.1 does-not-load", "null bytes"),
+    "no git": (ALL, "", ""),
+    "corrupt git": (ALL, "", ""),
+    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB; at most 1 MB is looked at"),
+    "link loop": (0, "1.1 does-not-load", "no file" if WINDOWS else "behind a link"),
+    "uncommitted": (ALL, "", ""),
+    "git with a program": (ALL, "", ""),
+    "copied": (ALL, "", ""),
+    "copyist": (ALL, "", ""),
+}
+
+
+def grade(run, root, out, *arguments, **options):
+    """Grade a class; return the finished process."""
+    done = run(SCRIPT, root, "--out", out / "grades.csv", *arguments, **options)
+    assert "Traceback" not in done.stderr, done.stderr
+    return done
+
+
+def rows(out):
+    """Return the table as {folder: row}."""
+    text = (out / "grades.csv").read_bytes().decode("utf-8-sig")
+    return {row["folder"].lstrip("'"): row for row in csv.DictReader(io.StringIO(text))}
+
+
+def outputs(out):
+    """Return every file that a class gets, but for the journal."""
+    return {
+        path.relative_to(out).as_posix(): path.read_bytes()
+        for path in sorted(out.rglob("*"))
+        if path.is_file() and path.name != "grading.jsonl"
+    }
+
+
+def journalled(out):
+    """Return how often each folder stands in the journal."""
+    lines = (out / "grading.jsonl").read_text("ascii").splitlines()
+    return Counter(json.loads(line).get("folder") for line in lines if line)
+
+
+def kill_at(root, out, number, *arguments):
+    """Start grading and kill it, as `kill -9` does, once so many are graded."""
+    command = [sys.executable, str(ROOT / SCRIPT), str(root), *arguments]
+    process = subprocess.Popen(
+        [*command, "--out", str(out / "grades.csv")],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    journal = out / "grading.jsonl"
+    deadline = time.monotonic() + 120
+    while not journal.exists() or journal.read_bytes().count(b"\n") <= number:
+        assert process.poll() is None, "it ended before it could be killed"
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    process.kill()
+    process.wait()
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A class of one student of each kind, and beside it room for what comes of it."""
+    place = tmp_path_factory.mktemp("class")
+    made = make_class(place / "clones", len(KINDS))
+    return place, {kind: folders[0] for kind, folders in made.items()}
+
+
+@pytest.fixture(scope="module")
+def graded(place):
+    """The class, graded once in one go, by one process."""
+    folder, kinds = place
+    command = [sys.executable, str(ROOT / SCRIPT), str(folder / "clones")]
+    command += ["--out", str(folder / "out" / "grades.csv"), "--processes", "1"]
+    done = subprocess.run(
+        [*command, "--deadline", "2026-09-04T16:00:00+00:00"],
+        capture_output=True,
+        encoding="utf-8",
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+        timeout=300,
+        check=False,
+    )
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
+    return folder / "clones", folder / "out", kinds, done.stdout
+
+
+class TestTheClass:
+    @pytest.mark.parametrize("kind", EXPECTED)
+    def test_gives_each_kind_of_student_a_row_that_says_what_it_is(self, graded, kind):
+        _, out, kinds, _ = graded
+        row = rows(out)[kinds[kind].lstrip("'")]
+        passed, mistake, error = EXPECTED[kind]
+        assert (int(row["tasks_passed"]), row["first_mistake"]) == (passed, mistake)
+        assert error in row["error"]
+        assert bool(error) == bool(row["error"])
+
+    def test_judges_what_is_handed_in_too(self, graded):
+        _, out, kinds, _ = graded
+        found = rows(out)
+        assert found[kinds["right"]]["deliverables_passed"] == "6"
+        assert found[kinds["corrupt git"]]["deliverables_passed"] == "5"
+        assert found[kinds["corrupt git"]]["commit"] == "todo"
+        assert found[kinds["300 MB"]]["figure"] == "wrong"
+        assert found[kinds["no git"]]["deliverables_passed"] == "0"
+
+    def test_counts_minutes_from_the_last_commit_to_the_deadline(self, graded):
+        _, out, kinds, _ = graded
+        found = rows(out)
+        assert found[kinds["right"]]["minutes_since_commit"] == "0"
+        assert found[kinds["wrong inverse"]]["minutes_since_commit"] == "61"
+        assert found[kinds["empty"]]["minutes_since_commit"] == ""
+
+    def test_runs_nothing_that_a_clone_asks_git_or_python_to_run(self, graded, place):
+        _, out, kinds, _ = graded
+        assert not list(place[0].rglob("pwned"))
+        assert rows(out)[kinds["own kit"]]["tasks_passed"] == "2"
+
+    def test_leaves_the_clones_as_they_are(self, graded, place):
+        clones = graded[0]
+        assert len(list(clones.iterdir())) == len(KINDS)
+        left = [
+            p for p in clones.rglob("*") if "robo47-" in p.name or p.suffix == ".pyc"
+        ]
+        assert left == []
+
+    def test_guards_the_table_against_formulas(self, graded):
+        table = (graded[1] / "grades.csv").read_text("utf-8-sig")
+        cells = [cell for row in csv.reader(io.StringIO(table)) for cell in row]
+        assert "'" + NAMES["not started"] in cells
+        assert not [c for c in cells if c and c[0] in "=+-@" and not c[1:].isdigit()]
+
+    def test_tells_each_student_what_make_check_tells_them(self, graded, tmp_path):
+        _, out, kinds, _ = graded
+        work = graded[0] / kinds["wrong inverse"] / WEEK / "work" / DAY.script
+        done = subprocess.run(
+            [sys.executable, str(ROOT / "scripts/check_day.py"), "--file", str(work)],
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        tasks = done.stdout.split("\n\n")[1]
+        text = (out / "feedback" / f"{kinds['wrong inverse']}.txt").read_text("utf-8")
+        assert "it points there, not back" in tasks
+        assert tasks in text
+        assert text.startswith(kinds["wrong inverse"])
+        assert max(map(len, text.splitlines())) <= 80
+
+    def test_has_no_path_of_this_machine_in_anything_it_writes(self, graded):
+        for name, content in outputs(graded[1]).items():
+            assert b"robo47-check-" not in content, name
+            assert b"robo47-grade" not in content, name
+
+    def test_lists_the_copyist_beside_who_was_copied(self, graded):
+        page = (graded[1] / "class.html").read_text("utf-8")
+        alike = page[page.index("Similar submissions") : page.index("Everyone")]
+        _, _, kinds, _ = graded
+        assert kinds["copied"] in alike
+        assert kinds["copyist"] in alike
+        assert kinds["wrong inverse"] not in alike
+
+    def test_is_told_in_a_few_lines(self, graded):
+        lines = graded[3].splitlines()
+        assert lines[0].startswith(f"Day 1, {len(KINDS)} students: 7 done")
+        assert lines[1] == f"graded now: {len(KINDS)}; unchanged since: 0"
+        assert "class.html and feedback/" in lines[-1]
+
+
+class TestGradingAgain:
+    def test_does_nothing_where_nothing_changed(self, graded, run):
+        clones, out, *_ = graded
+        before, journal = outputs(out), (out / "grading.jsonl").read_bytes()
+        times = {p: p.stat().st_mtime_ns for p in out.rglob("*") if p.is_file()}
+        done = grade(run, clones, out)
+        assert f"graded now: 0; unchanged since: {len(KINDS)}" in done.stdout
+        assert outputs(out) == before
+        assert (out / "grading.jsonl").read_bytes() == journal
+        assert times == {p: p.stat().st_mtime_ns for p in out.rglob("*") if p.is_file()}
+
+    def test_with_two_processes_gives_the_same_bytes(self, graded, run, tmp_path):
+        clones, out, *_ = graded
+        deadline = ("--deadline", "2026-09-04T16:00:00+00:00", "--processes", 2)
+        assert grade(run, clones, tmp_path, *deadline).returncode == 0
+        assert outputs(tmp_path) == outputs(out)
+
+    def test_after_a_kill_goes_on_and_gives_the_same_bytes(self, graded, run, tmp_path):
+        clones, out, *_ = graded
+        deadline = ("--deadline", "2026-09-04T16:00:00+00:00")
+        kill_at(clones, tmp_path, 5, *deadline)
+        kept = len(journalled(tmp_path)) - 1
+        assert not (tmp_path / "grades.csv").exists()
+        with (tmp_path / "grading.jsonl").open("ab") as journal:
+            journal.write(b'\n{"folder": "stu')  # as a power cut leaves it
+        done = grade(run, clones, tmp_path)
+        assert f"unchanged since: {kept}" in done.stdout
+        assert outputs(tmp_path) == outputs(out)
+
+
+@pytest.fixture
+def small(tmp_path):
+    """Three students, who may be changed, and where their grades go."""
+    make_class(tmp_path / "clones", 3)
+    return tmp_path / "clones", tmp_path / "out"
+
+
+class TestChanges:
+    def test_only_who_committed_anew_is_graded_again(self, small, run):
+        clones, out = small
+        grade(run, clones, out)
+        commit(clones / "student 0001", DEADLINE + 60)
+        done = grade(run, clones, out, "--deadline", "2026-09-04T16:00:00+00:00")
+        assert "graded now: 1; unchanged since: 2" in done.stdout
+        assert rows(out)["student 0001"]["minutes_since_commit"] == "-1"
+
+    def test_an_uncommitted_change_counts_too(self, small, run):
+        clones, out = small
+        grade(run, clones, out)
+        (clones / "student 0001" / WEEK / "work" / DAY.script).write_text(SOLVED)
+        done = grade(run, clones, out)
+        assert "graded now: 1; unchanged since: 2" in done.stdout
+        assert rows(out)["student 0001"]["tasks_passed"] == str(ALL)
+        assert rows(out)["student 0001"]["commit"] == "todo"
+
+    def test_a_new_deadline_needs_no_new_grades(self, small, run):
+        clones, out = small
+        first = "2026-09-04T16:00:00+00:00"
+        grade(run, clones, out, "--deadline", first)
+        done = grade(run, clones, out, "--deadline", "2026-09-04T16:30:00+00:00")
+        assert "graded now: 0" in done.stdout
+        assert rows(out)["student 0001"]["minutes_since_commit"] == "91"
+        grade(run, clones, out)
+        assert rows(out)["student 0001"]["minutes_since_commit"] == "91"
+
+    def test_again_grades_everybody(self, small, run):
+        grade(run, *small)
+        assert "graded now: 3" in grade(run, *small, "--again").stdout
+
+
+class TestTheRoster:
+    def test_gives_names_and_order_and_says_who_has_no_folder(self, small, run):
+        clones, out = small
+        (clones / "roster.csv").write_text(
+            "Name;Folder;Git URL\n=Grace;student 0001;\n\nAda;nobody;\nUp;../..;\n",
+            "utf-8-sig",
+        )
+        done = grade(run, clones, out)
+        assert done.returncode == 0
+        found = rows(out)
+        assert list(found) == ["student 0001", "nobody", "../.."]
+        assert found["student 0001"]["name"] == "'=Grace"
+        assert found["nobody"]["error"] == "there is no such folder"
+        assert found["../.."]["error"] == "''../..' is no name of a folder"
+        assert found["nobody"]["1.1"] == "ungraded"
+
+    @pytest.mark.parametrize(
+        ("text", "says"),
+        [
+            (b"name,git\nAda,x\n", "no column folder"),
+            (b"folder\na\nb\na\n", "line 4: folder 'a' is listed twice"),
+            (b"folder\n\xff\xfe\n", "not in UTF-8"),
+            (b"", "no column folder"),
+            (b"folder\n", "no folders"),
+        ],
+    )
+    def test_is_refused_in_a_line_where_it_is_wrong(self, small, run, text, says):
+        (small[0] / "roster.csv").write_bytes(text)
+        done = grade(run, *small)
+        assert done.returncode == 2
+        assert says in done.stderr
+
+    def test_brings_clones_and_updates_them(self, tmp_path, run):
+        make_class(tmp_path / "origin", 2)
+        clones, out = tmp_path / "clones", tmp_path / "out"
+        clones.mkdir()
+        first = tmp_path / "origin" / "Zoë Ångström"
+        second = tmp_path / "origin" / "student 0001"
+        roster = f"name,folder,git\nZoë,zoe,{first}\nTwo,two,{second}\nNo,no,/none\n"
+        (clones / "roster.csv").write_text(roster, "utf-8")
+        done = grade(run, clones, out, "--pull")
+        assert done.returncode == 1
+        assert rows(out)["zoe"]["tasks_passed"] == str(ALL)
+        assert "not pulled: fatal" in rows(out)["no"]["error"]
+        (second / WEEK / "work" / DAY.script).write_text(SOLVED)
+        commit(second, DEADLINE)
+        with (clones / "zoe" / ".git" / "config").open("a") as config:
+            config.write('[core]\n\tsshCommand = "touch pwned"\n')
+        done = grade(run, clones, out, "--pull")
+        assert rows(out)["two"]["tasks_passed"] == str(ALL)
+        assert "core.sshcommand, which may run" in rows(out)["zoe"]["error"]
+        assert rows(out)["zoe"]["tasks_passed"] == str(ALL)
+
+
+class TestMistakesOfTheTeacher:
+    def test_a_folder_that_is_none_or_is_a_clone(self, tmp_path, run):
+        assert "is no folder" in grade(run, tmp_path / "none", tmp_path).stderr
+        assert "is itself a clone" in grade(run, ROOT, tmp_path).stderr
+        assert "has no folders" in grade(run, tmp_path, tmp_path).stderr
+
+    def test_another_day_in_the_same_place(self, small, run):
+        clones, out = small
+        out.mkdir()
+        head = {"kind": "robo47 grading", "day": 2, "reference": 0, "deadline": False}
+        (out / "grading.jsonl").write_text(json.dumps(head))
+        done = grade(run, clones, out)
+        assert done.returncode == 2
+        assert "holds day 2: give day 1 a folder of its own" in done.stderr
+
+    def test_a_place_that_cannot_be_written(self, small, run):
+        clones, out = small
+        out.write_text("a file")
+        done = grade(run, clones, out)
+        assert done.returncode == 2
+        assert "cannot be" in done.stderr
+
+    def test_values_that_mean_nothing(self, small, run):
+        for words in (["--deadline", "soon"], ["--processes", "0"], ["--day", "9"]):
+            assert grade(run, *small, *words).returncode == 2
+
+    def test_help_fits_80_columns(self, run):
+        said = run(SCRIPT, "--help", COLUMNS="80").stdout
+        assert max(map(len, said.splitlines())) <= 80
+        assert "--dask tls://" in said
+
+
+@pytest.mark.soak
+def test_a_class_of_200_gives_the_same_bytes_however_it_is_graded(tmp_path, run):
+    clones = tmp_path / "clones"
+    make_class(clones, 200)
+    deadline = ("--deadline", "2026-09-04T16:00:00+00:00")
+    whole, two, killed = (tmp_path / name for name in ("whole", "two", "killed"))
+    grade(run, clones, whole, *deadline, "--processes", 1, timeout=600)
+    assert len(rows(whole)) == 200
+    again = grade(run, clones, whole, *deadline)
+    assert "graded now: 0; unchanged since: 200" in again.stdout
+    grade(run, clones, two, *deadline, "--processes", 2, timeout=600)
+    for number in (40, 90, 150):
+        kill_at(clones, killed, number, *deadline)
+    grade(run, clones, killed, timeout=600)
+    assert outputs(two) == outputs(whole)
+    assert outputs(killed) == outputs(whole)
+    assert max(n for folder, n in journalled(killed).items() if folder) == 1
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, width):
+    import html
+
+    from conftest import need
+    from test_report import MEASURE, dom
+
+    names = ("chromium", "chromium-browser", "google-chrome")
+    browser = next(filter(None, map(shutil.which, names)), None)
+    need(browser is not None, "Chromium")
+    page = (graded[1] / "class.html").read_text("utf-8")
+    harness = MEASURE.format(width=width, page=html.escape(page))
+    found = re.search(r"<title>(.*?)</title>", dom(browser, tmp_path, harness))
+    assert found is not None
+    *title, scroll_width, too_wide, _, _, made = found[1].split()
+    assert " ".join(title) == f"Day 1: {DAY.title}"
+    assert int(scroll_width) <= width
+    assert (too_wide, made) == ("0", "0")
+
+
+def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
+    page = (graded[1] / "class.html").read_text("utf-8")
+    assert not re.search(r"https?:|href=|url\(|@import|<script|<link|<img", page)
+    assert "&lt;img src=x onerror=alert(1)&gt;" in page
+
+
+def test_the_folder_of_the_clones_is_not_written_to(graded):
+    assert not (Path(graded[0]) / "grades.csv").exists()

@@ -1,0 +1,103 @@
+"""A class on a Dask cluster of this machine: a scheduler, two workers, one killed."""
+
+import importlib.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from conftest import need
+from make_class import KINDS, make_class
+from test_grade_class import SCRIPT, grade, journalled, outputs, rows
+
+from robo47.paths import ROOT
+
+DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Start a scheduler and two workers on loopback; return its address and them."""
+    need(importlib.util.find_spec("distributed") is not None, "the extra grade: Dask")
+    log = (tmp_path / "dask.log").open("wb")
+    started = []
+
+    def start(what, *arguments):
+        command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
+        command += ["--host", "127.0.0.1", "--no-dashboard"]
+        process = subprocess.Popen(command, stdout=log, stderr=log, cwd=tmp_path)
+        started.append(process)
+        return process
+
+    found = tmp_path / "scheduler.json"
+    start("scheduler", "--port", "0", "--scheduler-file", str(found))
+    wait_for(found.exists)
+    address = json.loads(found.read_text())["address"]
+    workers = []
+    for i in range(2):
+        own = tmp_path / f"worker{i}"
+        arguments = ("--nthreads", "1", "--no-nanny", "--local-directory", str(own))
+        workers.append(start("worker", address, *arguments))
+    yield address, workers
+    for process in reversed(started):
+        process.kill()
+        process.wait()
+    log.close()
+
+
+def wait_for(condition):
+    """Wait until something is so."""
+    deadline = time.monotonic() + 90
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def grade_and_kill_one(clones, out, address, worker, number):
+    """Grade on the cluster and kill a worker once so many are graded."""
+    command = [sys.executable, str(ROOT / SCRIPT), str(clones), *DEADLINE]
+    process = subprocess.Popen(
+        [*command, "--dask", address, "--out", str(out / "grades.csv")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+    )
+    journal = out / "grading.jsonl"
+    wait_for(lambda: journal.exists() and journal.read_bytes().count(b"\n") > number)
+    assert process.poll() is None
+    worker.send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+    said, complained = process.communicate(timeout=600)
+    assert process.returncode == 0, complained
+    return said
+
+
+@pytest.mark.parametrize(
+    ("students", "killed_at"),
+    [(len(KINDS), 3), pytest.param(200, 60, marks=pytest.mark.soak)],
+)
+def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
+    tmp_path, run, cluster, students, killed_at
+):
+    address, (first, second) = cluster
+    clones, here, there = (tmp_path / name for name in ("clones", "here", "there"))
+    make_class(clones, students)
+    grade(run, clones, here, *DEADLINE, timeout=600)
+    said = grade_and_kill_one(clones, there, address, first, killed_at)
+    assert f"graded now: {students};" in said
+    assert second.poll() is None
+    assert outputs(there) == outputs(here)
+    assert len(rows(there)) == students
+    assert max(n for folder, n in journalled(there).items() if folder) == 1
+
+
+def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(tmp_path, run):
+    make_class(tmp_path / "clones", 1)
+    done = grade(run, tmp_path / "clones", tmp_path, "--dask", "tcp://127.0.0.1:1")
+    assert done.returncode == 2
+    installed = importlib.util.find_spec("distributed") is not None
+    says = "no Dask scheduler at" if installed else "--dask needs the package"
+    assert says in done.stderr
