@@ -21,10 +21,11 @@ import os
 import time
 from pathlib import Path
 
-import kit
+import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
-from robo47.grading import engine, kit, overview
+from robo47.grading import engine, overview
+from robo47.grading import kit as own_kit
 from robo47.grading.classroom import Classroom, write_all
 from robo47.grading.journal import Journal
 from robo47.grading.roster import find_students
@@ -122,7 +123,7 @@ def tell(room: Classroom, everybody: list[Graded], out: Path) -> None:
         print(f"not pulled: {len(room.notes):,}; the column error says why")
     if room.lost:
         print(f"lost with their workers: {room.lost:,}; run the same command again")
-    if room.journal.kits - {kit.fingerprint()}:
+    if room.journal.kits - {own_kit.fingerprint()}:
         print("some results are another version's of the kit; --again renews them")
     print(f"wrote {shown(out.absolute())}, and beside it class.html and feedback/")
 
