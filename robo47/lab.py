@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import cli, metrics
 from robo47.checks import Array
+from robo47.metrics.words import count
 from robo47.paths import METRICS_CSV, shown
 
 
@@ -90,9 +91,9 @@ class Lab:
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
         if self.log:
-            for row in self.rows:  # a failed check is recorded too: NaN is its value
-                metrics.append_row(sync=True, allow_nonfinite=True, **row)
-            print(f"\nlogged {len(self.rows)} rows to {shown(METRICS_CSV)}")
+            # A failed check is recorded too: NaN is its value.
+            metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
+            print(f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}")
         else:
             print("\nnothing logged (--no-log)")
         for failure in self.failed:

@@ -25,12 +25,14 @@ from robo47.metrics.mend import (
     restore,
     unsaved_rows,
 )
-from robo47.metrics.rows import Row, refuse_unknown
+from robo47.metrics.rows import Row, typed
 from robo47.metrics.scan import Line, scan
+from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, shown
 from robo47.progress import watched
 
 NEEDED = ("check", "metric", "value")
+EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
 
 
 def main() -> int:
@@ -43,7 +45,7 @@ def main() -> int:
                 " not both."
             )
         return look_after(args)
-    fields = parse(args.fields)
+    fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
         args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
     )
@@ -83,21 +85,24 @@ def parser() -> argparse.ArgumentParser:
     return it
 
 
-def parse(given: list[str]) -> dict[str, str]:
-    """Return the fields of `name=value` words."""
-    example = "check=fk_identity_check metric=inv_err value=2.2e-16"
-    fields = {}
+def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
+    """Return the fields of `name=value` words, or say all that is wrong with them."""
+    fields: dict[str, str] = {}
+    faults = []
     for word in given:
         name, equals, value = word.partition("=")
         if not equals:
-            raise Robo47Error(f'"{word}" is not FIELD=VALUE. Example: {example}')
-        if name in fields:
-            raise Robo47Error(f'"{name}" is given twice. Give it once.')
-        fields[name] = value
-    refuse_unknown(fields)
+            faults.append(f'"{word}" is not FIELD=VALUE')
+        elif name in fields:
+            faults.append(f'"{name}" is given twice')
+        else:
+            fields[name] = value
     missing = [name for name in NEEDED if not fields.get(name)]
     if missing:
-        raise Robo47Error(f"a row needs {', '.join(missing)}. Example: {example}")
+        faults.append(f"a row needs {', '.join(missing)}")
+    faults += typed(fields, allow_nonfinite)[1]
+    if faults:
+        raise Robo47Error(f"not recorded: {'; '.join(faults)}. Example: {EXAMPLE}")
     return fields
 
 
@@ -110,8 +115,7 @@ def look_after(args: argparse.Namespace) -> int:
     """Check, repair or restore; return the exit code."""
     path = args.file
     if args.restore:
-        count = restore(path)
-        print(f"{count} rows put back into {shown(path)}")
+        print(f"{count(restore(path), 'row')} put back into {shown(path)}")
         return cli.EXIT_OK
     return show_repair(path) if args.repair else show_check(path)
 
@@ -137,26 +141,32 @@ def show_check(path: Path) -> int:
         )
     waiting = unsaved_rows(path)
     if waiting:
-        print(f"{waiting} refused rows wait. Put them back: add --restore")
+        waits = f"{count(waiting, 'refused row')} {'waits' if waiting == 1 else 'wait'}"
+        print(f"{waits}. To add what waits: {command('--restore', path)}")
     if bad:
-        print("a mended copy: python scripts/log_metric.py --repair")
-    print(f"{shown(path)}: {rows} rows, {bad + bool(wrong)} problems")
+        print(f"a mended copy: {command('--repair', path)}")
+    problems = count(bad + bool(wrong), "problem")
+    print(f"{shown(path)}: {count(rows, 'row')}, {problems}")
     return cli.EXIT_FAILED if bad or wrong or waiting else cli.EXIT_OK
 
 
 def show_repair(path: Path) -> int:
     """Write the mended copy and print what was done; return 1 if lines are left."""
     done = repair(path, watched(scan(path, as_is=True), path))
-    if wrong := header_problem(path):
-        print(f"line 1: {wrong}")
+    if done.header:
+        print(f"line 1: mended: {done.header}")
     for line in done.mended:
         print(f"line {line.number}: mended: {line.problem}{end_of(line)}")
     for line in done.unread:
         print(f"line {line.number}: left out: {line.problem}{end_of(line)}")
-    print(f"{shown(done.copy)}: {done.rows} rows, {len(done.mended)} of them mended")
+    rows, mended = count(done.rows, "row"), count(len(done.mended), "line")
+    print(f"{shown(done.copy)}: {rows}, {mended} mended")
     if done.rest:
-        print(f"{shown(done.rest)}: {len(done.unread)} lines that are not rows")
-    print(f"{shown(path)} is as it was. If the copy is right, rename it to that.")
+        print(f"{shown(done.rest)}: {count(len(done.unread), 'line')} left out")
+    advice = "If the copy is right, rename it to that."
+    if done.unread and not done.rows:
+        advice = "No line of it could be read as a row: keep it."
+    print(f"{shown(path)} is as it was. {advice}")
     return cli.EXIT_FAILED if done.unread else cli.EXIT_OK
 
 

@@ -18,6 +18,7 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.errors import Robo47Error
 from robo47.metrics.scan import scan
+from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, shown
 from robo47.progress import watched
 from robo47.report import page
@@ -40,12 +41,13 @@ def main() -> int:
     if picture:
         write(out / "report.png", picture)
     print(
-        f"{report.rows:,} rows: {report.count('pass')} checks pass,"
+        f"{count(report.rows, 'row')}: {report.count('pass')} checks pass,"
         f" {report.count('fail')} fail, {report.count('none')} not run yet"
     )
     look = len(report.unread) + len(report.repaired)
     if look:
-        print(f"{look} lines need a look: python scripts/log_metric.py --check")
+        need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
+        print(f"{need}: {command('--check', args.file)}")
     return cli.EXIT_OK
 
 
@@ -80,7 +82,7 @@ def parser() -> argparse.ArgumentParser:
 
 def describe(args: argparse.Namespace, report: Report) -> str:
     """Return one line on which rows these are."""
-    parts = [f"{report.rows:,} rows of {shown(args.file.absolute())}"]
+    parts = [f"{count(report.rows, 'row')} of {shown(args.file.absolute())}"]
     parts += [f"since {args.since}"] if args.since else []
     parts += [f"day {args.day}"] if args.day is not None else []
     parts += [f"check {args.check}"] if args.check else []

@@ -48,11 +48,13 @@ def test_a_row_is_added_from_the_shell(log):
     [
         ([], "a row needs check, metric, value. Example: check="),
         (["check=fk"], "a row needs metric, value"),
-        ([*FIELDS, "vlaue=1"], 'Did you mean "value"?'),
+        ([*FIELDS, "vlaue=1"], 'did you mean "value"?'),
         ([*FIELDS, "path=1"], 'there is no field "path"'),
         ([*FIELDS, "hello"], '"hello" is not FIELD=VALUE'),
         ([*FIELDS, "check=x"], '"check" is given twice'),
         (["check=fk", "metric=err", "value=nan"], "--allow-nonfinite"),
+        (["day=x", "value=abc"], "a row needs check, metric; \"day\" is 'x', not a"),
+        (["day=x", "value=abc"], "\"value\" is 'abc', not a number"),
         (["--check", *FIELDS], "not both"),
     ],
 )
@@ -88,7 +90,7 @@ def test_check_is_content_with_a_good_log(log):
     append_row(log, check="fk")
     done = run(log, "--check")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "1 rows, 0 problems" in done.stdout
+    assert "1 row, 0 problems" in done.stdout
 
 
 def test_check_lists_every_bad_line_with_its_number_and_reason(log):
@@ -179,6 +181,94 @@ def test_a_column_that_the_log_does_not_have_goes_to_the_notes(log):
     assert run(log, "--repair").returncode == 0
     (row,) = read_rows(log.with_name("metrics.mended.csv"))
     assert row["notes"] == "note mood=good"
+
+
+def renamed(**names: str) -> str:
+    """The header with some columns called otherwise."""
+    return ",".join(names.get(name, name) for name in LINE.split(","))
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        renamed(value="val"),
+        renamed(value="Value"),
+        renamed(value="result"),
+        renamed(value=""),
+        renamed(value="metric"),
+        renamed(value="val", n_trials="trials"),
+        renamed(value="val").replace(",", ";"),
+        LINE.replace(",value", ""),
+    ],
+)
+def test_a_header_with_a_renamed_column_is_restored_and_no_cell_moves(log, header):
+    old = OLD.replace(",", ";") if ";" in header else OLD
+    log.write_text(f"{header}\n{old}\n" + f"{old}2\n")
+    done = run(log, "--repair")
+    assert done.returncode == 0
+    assert "line 1: mended: its " in done.stdout
+    assert "moved to the notes" not in done.stdout
+    copy = log.with_name("metrics.mended.csv")
+    assert copy.read_text() == f"{LINE}\n{OLD}\n{OLD}2\n"
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        renamed(value="result", metric="name"),
+        renamed(value="metric", metric="day"),
+        LINE.replace(",seed", "") + ",mood",
+        renamed(value="valu", metric="vale"),
+    ],
+)
+@pytest.mark.parametrize("what", ["--check", "--repair"])
+def test_a_header_that_leaves_columns_in_doubt_is_refused(log, header, what):
+    log.write_text(f"{header}\n{OLD}\n")
+    done = run(log, what)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "cannot be told which column is which" in done.stderr
+    assert LINE in done.stderr
+    assert os.listdir(log.parent) == [log.name]
+
+
+def test_a_renamed_column_beside_an_added_one_keeps_its_values(log):
+    log.write_text(f"{renamed(value='val')},mood\n{OLD},good\n")
+    done = run(log, "--repair")
+    assert "mood moved to the notes" in done.stdout
+    (row,) = read_rows(log.with_name("metrics.mended.csv"))
+    assert (row["value"], row["notes"]) == (1e-16, "note mood=good")
+
+
+def test_cells_under_columns_without_a_name_are_kept_in_the_notes(log):
+    log.write_text(f"{LINE},,\n{OLD},a,b\n{OLD},,\n")
+    assert run(log, "--repair").returncode == 0
+    rows = read_rows(log.with_name("metrics.mended.csv"))
+    assert [row["notes"] for row in rows] == ["note a b", "note"]
+
+
+def test_a_refusal_names_commands_that_do_work_for_this_log(log):
+    log.write_text(f"{renamed(value='val')}\n{OLD}\n")
+    refused = run(log, *FIELDS)
+    assert refused.returncode == 2
+    repair = f"python scripts/log_metric.py --repair --file {log} writes"
+    assert repair in refused.stderr
+    assert refused.stderr.endswith(
+        f"to add it later:\n  python scripts/log_metric.py --restore --file {log}\n"
+    )
+    assert run(log, "--repair").returncode == 0
+    log.with_name("metrics.mended.csv").replace(log)
+    assert "1 refused row waits" in run(log, "--check").stdout
+    assert "1 row put back" in run(log, "--restore").stdout
+    assert len(read_rows(log)) == 2
+
+
+def test_a_copy_without_rows_is_not_offered_as_right(log):
+    log.write_text(f"{LINE}\ncut,2026\n")
+    done = run(log, "--repair")
+    assert done.returncode == 1
+    assert "keep it" in done.stdout
+    assert "rename" not in done.stdout
 
 
 def test_refused_rows_are_offered_and_put_back(log):

@@ -16,9 +16,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from robo47.errors import Robo47Error
-from robo47.metrics import COLUMNS, append_row, logfile, read_rows
+from robo47.metrics import COLUMNS, append_row, append_rows, logfile, read_rows
 from robo47.metrics.commit import short_sha
 from robo47.metrics.header import LINE
+from robo47.metrics.mend import restore
 from robo47.metrics.scan import scan
 
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}
@@ -121,8 +122,8 @@ def test_a_negative_number_stays_a_number(log):
 @pytest.mark.parametrize(
     ("fields", "said"),
     [
-        ({"vlaue": 1}, 'Did you mean "value"'),
-        ({"zzzzz": 1}, "The fields: run_id, date"),
+        ({"vlaue": 1}, 'did you mean "value"?'),
+        ({"zzzzz": 1}, "the fields: run_id, date"),
         ({"value": float("nan")}, '"value" is nan'),
         ({"value": "-inf"}, '"value" is -inf'),
         ({"config": float("inf")}, '"config" is inf'),
@@ -138,6 +139,43 @@ def test_a_wrong_field_is_refused_by_name_and_writes_nothing(log, fields, said):
         append_row(log, **ROW | fields)
     assert said in str(caught.value)
     assert not log.exists()
+
+
+def test_all_wrong_fields_are_named_at_once(log):
+    with pytest.raises(Robo47Error) as caught:
+        append_row(log, dya=1, day="x", seed=float("nan"), value="abc")
+    for name in ("dya", "day", "seed", "value"):
+        assert f'"{name}"' in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_several_rows_land_together_and_in_order(log):
+    append_row(log, **ROW, notes="old")
+    rows = append_rows([ROW | {"notes": "a"}, ROW | {"notes": "b"}], log, sync=True)
+    assert read_rows(log)[1:] == rows
+    assert notes(log) == ["old", "a", "b"]
+    assert append_rows([], log.with_name("none.csv")) == []
+    assert not log.with_name("none.csv").exists()
+
+
+def test_one_wrong_row_among_several_is_named_and_none_is_written(log):
+    with pytest.raises(Robo47Error, match='row 2: "day" is') as caught:
+        append_rows([ROW, ROW | {"day": "x"}, ROW | {"value": "y"}], log)
+    assert 'row 3: "value" is' in str(caught.value)
+    assert not log.exists()
+
+
+def test_of_several_refused_rows_all_are_kept_and_shown_and_come_back(log):
+    log.write_text("something else\n")
+    with pytest.raises(Robo47Error) as caught:
+        append_rows([ROW | {"notes": "a"}, ROW | {"notes": "b"}], log)
+    kept = Path(f"{log}.unsaved").read_text().splitlines()
+    assert [text[-2:] for text in kept] == [",a", ",b"]
+    assert all(f"  row: {text}\n" in str(caught.value) for text in kept)
+    assert str(caught.value).endswith(f"--restore --file {log}")
+    log.unlink()
+    assert restore(log) == 2
+    assert notes(log) == ["a", "b"]
 
 
 def test_a_non_finite_value_is_recorded_when_asked_for(log):
@@ -251,9 +289,12 @@ SWAPPED = LINE.replace("run_id,date", "date,run_id")
         (HEADER + b"\n" + f"{OLD}\r\n".encode("utf-16-le"), "UTF-16"),
         (HEADER.replace(b",", b";") + b"\n", "semicolons"),
         (HEADER.replace(b",", b"\t") + b"\n", "tabs"),
-        (b"\n" + HEADER + b"\n", f"blank. Make the first line: {LINE}"),
-        (OLD.encode() + b"\n", f"no header. Make the first line: {LINE}"),
-        (HEADER.replace(b"seed,", b"") + b"\n", f"missing seed. It must be: {LINE}"),
+        (b"\n" + HEADER + b"\n", "its first line is blank. python scripts/log_"),
+        (OLD.encode() + b"\n", f"the first line must be: {LINE}"),
+        (
+            HEADER.replace(b"seed,", b"") + b"\n",
+            "missing seed. python scripts/",
+        ),
         (HEADER.replace(b"seed", b"sed") + b"\n", "missing seed; extra sed"),
         (HEADER + b",mood\n", "extra mood"),
         (SWAPPED.encode() + b"\n", "out of order date, run_id"),
@@ -435,9 +476,9 @@ def test_half_a_line_from_a_writer_without_a_lock_does_not_swallow_the_row(
         return write(fd, data, sync)
 
     monkeypatch.setattr(logfile, "_write", interrupted)
-    append_row(log, **ROW, notes="new")
-    with pytest.warns(UserWarning, match="could not be read"):
-        assert notes(log) == ["old", "new"]
+    append_rows([ROW | {"notes": "new"}, ROW | {"notes": "second"}], log)
+    with pytest.warns(UserWarning, match="1 line could not be read"):
+        assert sorted(notes(log)) == ["new", "old", "second"]
 
 
 def test_an_echo_that_is_still_being_written_is_not_taken_for_a_cut_line(

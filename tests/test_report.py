@@ -205,7 +205,7 @@ def test_the_command_writes_the_page_and_the_picture(log):
     report_on(log, line(value=1e-9), "cut")
     done = run("--file", str(log))
     assert done.returncode == 0
-    assert "1 lines need a look" in done.stdout
+    assert "1 line needs a look" in done.stdout
     assert "fk" in (log.parent / "report.html").read_text("utf-8")
     with Image.open(log.parent / "report.png") as picture:
         assert picture.size[0] > 2000

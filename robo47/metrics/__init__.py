@@ -1,23 +1,27 @@
 """The course's lab notebook: one plain CSV that loses no row.
 
-`append_row` adds a row with one write under a lock; `read_rows` gives the rows
-back. `metrics/README.md` is the schema. Inside, one job each: `rows` (what a row
-is), `header` (what a first line may be), `lock`, `logfile` (the append), `scan`
-(reading, line by line), `mend` (check, repair, restore), `commit` (git's HEAD).
+`append_row` adds a row with one write under a lock, `append_rows` several;
+`read_rows` gives the rows back. `metrics/README.md` is the schema. Inside, one job
+each: `rows` (what a row is), `header` (what a first line may be), `lock`, `logfile`
+(the append), `scan` (reading, line by line), `mend` (check, repair, restore),
+`commit` (git's HEAD), `words` (that messages share).
 """
 
 import os
 import time
 import warnings
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from robo47.errors import Robo47Error
 from robo47.metrics.commit import short_sha
 from robo47.metrics.logfile import append_or_keep
-from robo47.metrics.rows import COLUMNS, Row, encode, normalise
+from robo47.metrics.rows import COLUMNS, Row, encode, normalise, typed
 from robo47.metrics.scan import scan
+from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, ROOT, shown
 
-__all__ = ["COLUMNS", "append_row", "read_rows"]
+__all__ = ["COLUMNS", "append_row", "append_rows", "read_rows"]
 
 StrPath = str | os.PathLike[str]
 
@@ -46,13 +50,39 @@ def append_row(
         Robo47Error: an unknown field, a value its column cannot hold, or a file
             that cannot take the row; then the message carries the row's text.
     """
-    if "date" not in fields:
-        fields["date"] = time.strftime("%Y-%m-%d")
-    if "git_sha" not in fields:
-        fields["git_sha"] = short_sha(ROOT)
-    row = normalise(fields, allow_nonfinite)
+    row = normalise(_filled(fields), allow_nonfinite)
     append_or_keep(METRICS_CSV if path is None else path, encode(row), sync)
     return row
+
+
+def append_rows(
+    rows: Iterable[Mapping[str, object]],
+    path: StrPath | None = None,
+    *,
+    sync: bool = False,
+    allow_nonfinite: bool = False,
+) -> list[Row]:
+    """Add several rows in one write: all of them or none; return them.
+
+    Args:
+        rows: each the fields of one row, as for `append_row`; likewise the rest.
+
+    Raises:
+        Robo47Error: a row is wrong, which is said of each such row, and none is
+            recorded; or the file cannot take them, and the message carries them all.
+    """
+    added, faults = [], []
+    for number, fields in enumerate(rows, 1):
+        row, wrong = typed(_filled(fields), allow_nonfinite)
+        added.append(row)
+        if wrong:
+            faults.append(f"row {number}: {'; '.join(wrong)}")
+    if faults:
+        raise Robo47Error(f"no row is recorded: {'. '.join(faults)}.")
+    if added:
+        text = "\n".join(encode(row) for row in added)
+        append_or_keep(METRICS_CSV if path is None else path, text, sync)
+    return added
 
 
 def read_rows(path: StrPath | None = None) -> list[Row]:
@@ -77,9 +107,19 @@ def read_rows(path: StrPath | None = None) -> list[Row]:
             rows.append(line.row)
     if unread:
         warnings.warn(
-            f"{shown(chosen)}: {len(unread)} lines could not be read; the first is"
-            f" line {unread[0].number}: {unread[0].problem}."
-            " See them all: python scripts/log_metric.py --check",
+            f"{shown(chosen)}: {count(len(unread), 'line')} could not be read; the"
+            f" first is line {unread[0].number}: {unread[0].problem}."
+            f" See them all: {command('--check', chosen)}",
             stacklevel=2,
         )
     return rows
+
+
+def _filled(fields: Mapping[str, object]) -> dict[str, object]:
+    """Return the fields with the date and the commit, where not given."""
+    filled = dict(fields)
+    if "date" not in filled:
+        filled["date"] = time.strftime("%Y-%m-%d")
+    if "git_sha" not in filled:
+        filled["git_sha"] = short_sha(ROOT)
+    return filled

@@ -1,17 +1,17 @@
 """The first line of the log: which ones are right, and what is wrong with others."""
 
 import codecs
+import difflib
+from pathlib import Path
 from typing import NamedTuple
 
 from robo47.metrics.rows import COLUMNS
+from robo47.metrics.words import command
 
 LINE = ",".join(COLUMNS)
 BOM = codecs.BOM_UTF8
-REPAIR = "python scripts/log_metric.py --repair writes a mended copy"
-UTF16 = (
-    "it holds UTF-16 text, as PowerShell's > and >> write it. Append with"
-    f" scripts/log_metric.py instead; {REPAIR}."
-)
+_UTF16 = "it holds UTF-16 text, as PowerShell's > and >> write it"
+NEAR = 0.7  # difflib's ratio: "val" is near "value", "mood" is not near "method"
 LONGEST = 4096  # bytes that are looked at; the right line has 98
 
 _RIGHT = LINE.encode()
@@ -24,6 +24,7 @@ class Layout(NamedTuple):
     delimiter: str = ","
     utf16: bool = False
     has_header: bool = True
+    is_clear: bool = True  # False: it cannot be told which column is which
 
 
 def line_end(head: bytes) -> bytes | None:
@@ -47,36 +48,59 @@ def layout(head: bytes) -> Layout:
     utf16 = head[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
     first = _first_line(_decoded(head, utf16).lstrip())
     for delimiter in (",", ";", "\t"):
-        names = tuple(
-            name.strip().strip('"').strip() for name in first.split(delimiter)
-        )
+        names = _names(first, delimiter)
         if len(set(names) & set(COLUMNS)) > 2:
-            return Layout(names, delimiter, utf16)
+            meant = _meant(names)
+            return Layout(meant or names, delimiter, utf16, is_clear=meant is not None)
     delimiter = ";" if first.count(";") >= len(COLUMNS) - 1 else ","
     return Layout(COLUMNS, delimiter, utf16, has_header=False)
 
 
-def problem(head: bytes) -> str:
-    """Return what is wrong with a header that `line_end` refused, and what to do."""
+def fault(head: bytes) -> str:
+    """Return what is wrong with a header that `line_end` refused."""
     seen = layout(head)
     if seen.utf16:
-        return UTF16
-    if not _first_line(_decoded(head, utf16=False)).strip():
-        return f"its first line is blank. Make the first line: {LINE}"
+        return _UTF16
+    first = _first_line(_decoded(head, utf16=False))
+    if not first.strip():
+        return "its first line is blank"
     if not seen.has_header:
-        return f"it has no header. Make the first line: {LINE}"
+        return "it has no header"
     if seen.delimiter != ",":
         mark = "semicolons" if seen.delimiter == ";" else "tabs"
+        return f"its columns are separated by {mark}, as a spreadsheet saves them"
+    return f"its header is wrong: {_difference(_names(first, ','))}"
+
+
+def problem(head: bytes, path: Path) -> str:
+    """Return `fault` and what to do about it, for the log at `path`."""
+    seen = layout(head)
+    said = fault(head)
+    if not seen.is_clear:
         return (
-            f"its columns are separated by {mark}, as a spreadsheet saves them. Save"
-            f' it as "CSV UTF-8 (comma delimited)", or: {REPAIR}.'
+            f"{said}. It cannot be told which column is which: in the first line,"
+            f" give each column its own of these names: {LINE}"
         )
-    return f"its header is wrong: {_difference(seen.names)}. It must be: {LINE}"
+    if seen.utf16:
+        return utf16_problem(path)
+    mend = _mend(path)
+    if seen.has_header and seen.delimiter != ",":
+        return f'{said}. Save it as "CSV UTF-8 (comma delimited)", or: {mend}.'
+    return f"{said}. {mend}; the first line must be: {LINE}"
+
+
+def utf16_problem(path: Path) -> str:
+    """Return what to do about a log that has UTF-16 text, at its start or later."""
+    return f"{_UTF16}. Append with scripts/log_metric.py instead; {_mend(path)}."
 
 
 def is_utf16_end(end: bytes) -> bool:
     """Return whether a file's last two bytes are a UTF-16 line end."""
     return end in (b"\n\0", b"\0\n")
+
+
+def _mend(path: Path) -> str:
+    return f"{command('--repair', path)} writes a mended copy"
 
 
 def _decoded(head: bytes, utf16: bool) -> str:
@@ -87,6 +111,30 @@ def _decoded(head: bytes, utf16: bool) -> str:
 
 def _first_line(text: str) -> str:
     return text.partition("\n")[0].rstrip("\r")
+
+
+def _names(first: str, delimiter: str) -> tuple[str, ...]:
+    return tuple(name.strip().strip('"').strip() for name in first.split(delimiter))
+
+
+def _meant(names: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Return the names with renamed columns called as they were; None if in doubt.
+
+    A renamed column is the only one that is not in its place, or has a near name.
+    """
+    misplaced = sum(a != b for a, b in zip(names, COLUMNS, strict=False))
+    if len(names) == len(COLUMNS) and misplaced == 1:
+        return COLUMNS
+    missing = [name for name in COLUMNS if name not in names]
+    mended = []
+    for name in names:
+        unknown = name not in COLUMNS
+        near = difflib.get_close_matches(name.lower(), missing, 1, NEAR)
+        mended.append(near[0] if near and unknown else name)
+    filled = [name for name in mended if name]
+    twice = len(set(filled)) < len(filled)
+    either_way = set(mended) - set(COLUMNS) and set(COLUMNS) - set(mended)
+    return None if twice or either_way else tuple(mended)
 
 
 def _difference(names: tuple[str, ...]) -> str:

@@ -17,6 +17,7 @@ from pathlib import Path
 from robo47.errors import Robo47Error
 from robo47.metrics import header, lock
 from robo47.metrics.rows import is_open_quote
+from robo47.metrics.words import command
 from robo47.paths import shown
 
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
@@ -67,7 +68,8 @@ def append(path: StrPath, text: str, sync: bool) -> None:
     name = os.fspath(path)
     try:
         for _ in range(TRIES):
-            if _try_append(name, text, sync):
+            text = _try_append(name, text, sync)
+            if not text:
                 return
     except OSError as error:
         raise CannotAppendError(f"{_shown(name)}: {_in_words(error, name)}") from None
@@ -108,23 +110,25 @@ def read_at(fd: int, offset: int, count: int) -> bytes:
     return os.read(fd, count)
 
 
-def _try_append(name: str, text: str, sync: bool) -> bool:
-    """Append once; False if the file was replaced or written over meanwhile."""
+def _try_append(name: str, text: str, sync: bool) -> str:
+    """Append once; return the lines that another program spoilt meanwhile."""
     with locked(name) as fd:
         if not _is_at(fd, name):
-            return False
+            return text
         before, end, cut = _continuation(fd, name)
         data = before + text.encode().replace(b"\n", end) + end
         start = _write(fd, data, sync)
         if sync and start == 0:
             _sync_folder(name)
         # A writer without a lock (bash's echo of over 4,096 bytes comes in two
-        # parts) may have left half a line before ours: then ours goes again.
+        # parts) may have left half a line before ours: then our first goes again.
         alone = before or read_at(fd, start - 1, 1) == b"\n"
-        done = alone and read_at(fd, start, len(data)) == data and _is_at(fd, name)
+        there = read_at(fd, start, len(data)) == data and _is_at(fd, name)
     if cut is not None:
         _report_cut(name, cut, before)
-    return bool(done)
+    if not there:
+        return text
+    return "" if alone else text.partition("\n")[0]
 
 
 def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
@@ -134,13 +138,13 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
         return header.LINE.encode() + b"\n", b"\n", None
     end = header.line_end(head)
     if end is None:
-        raise CannotAppendError(f"{_shown(name)}: {header.problem(head)}")
+        raise CannotAppendError(f"{_shown(name)}: {header.problem(head, Path(name))}")
     size, last = _last_two_bytes(fd)
     if not last.endswith(b"\n"):
         time.sleep(MID_WRITE_S)
         size, last = _last_two_bytes(fd)
     if header.is_utf16_end(last):
-        raise CannotAppendError(f"{_shown(name)}: {header.UTF16}")
+        raise CannotAppendError(f"{_shown(name)}: {header.utf16_problem(Path(name))}")
     if last.endswith(b"\n"):
         return b"", end, None
     start = max(0, size - _TAIL)
@@ -212,18 +216,20 @@ def _is_at(fd: int, name: str) -> bool:
 def _keep(name: str, text: str) -> str:
     """Put refused lines beside the log; return what to tell the person."""
     kept = name + UNSAVED
+    rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
+    them = "them" if "\n" in text else "it"
     try:
         for _ in range(TRIES):
             with locked(kept) as fd:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
                     return (
-                        f"  row: {text}\n  kept in {_shown(kept)}; to add it later:"
-                        "\n  python scripts/log_metric.py --restore"
+                        f"{rows}  kept in {_shown(kept)}; to add {them} later:"
+                        f"\n  {command('--restore', Path(name))}"
                     )
     except OSError:
         pass
-    return f"  row: {text}\n  kept nowhere but here: copy it"
+    return f"{rows}  kept nowhere but here: copy {them}"
 
 
 def _shown(name: str) -> str:

@@ -17,28 +17,29 @@ from robo47.metrics.logfile import (
     note_repair,
     read_at,
 )
-from robo47.metrics.rows import encode
+from robo47.metrics.rows import COLUMNS, encode
 from robo47.metrics.scan import Line, scan
 from robo47.paths import shown
 
 
 class Mended(NamedTuple):
-    """What `repair` wrote: the copy, the unreadable rest, and the lines of each."""
+    """What `repair` wrote: the copy, the unreadable rest, and the lines of each.
+
+    `header` says what was wrong with the first line, or "".
+    """
 
     copy: Path
     rest: Path | None
     rows: int
     mended: list[Line]
     unread: list[Line]
+    header: str
 
 
 def header_problem(path: Path) -> str:
-    """Return what is wrong with the log's first line, or ""."""
-    with open(path, "rb") as file:
-        head = file.read(header.LONGEST)
-    if head in (b"", header.BOM) or header.line_end(head):
-        return ""
-    return header.problem(head)
+    """Return what is wrong with the log's first line and what to do, or ""."""
+    head = _wrong_head(path)
+    return header.problem(head, path) if head else ""
 
 
 def unsaved_rows(path: Path) -> int:
@@ -61,7 +62,8 @@ def repair(path: Path, lines: Iterator[Line] | None = None) -> Mended:
         kept word for word in a text file beside the copy.
 
     Raises:
-        Robo47Error: the log cannot be read, or its folder not written.
+        Robo47Error: the log cannot be read, its header leaves in doubt which column
+            is which, or its folder cannot be written.
     """
     rows, mended, unread = [header.LINE], [], []
     for line in lines or scan(path, as_is=True):
@@ -74,7 +76,9 @@ def repair(path: Path, lines: Iterator[Line] | None = None) -> Mended:
             note_repair(path, rows[-1])
     copy = _write_new(path, ".csv", rows)
     rest = _write_new(path, ".rest.txt", [x.text for x in unread]) if unread else None
-    return Mended(copy, rest, len(rows) - 1, mended, unread)
+    head = _wrong_head(path)
+    wrong = _header_mended(head) if head else ""
+    return Mended(copy, rest, len(rows) - 1, mended, unread, wrong)
 
 
 def restore(path: Path) -> int:
@@ -122,6 +126,20 @@ def came_back(path: Path) -> set[str]:
         elif line.startswith("-") and not line.startswith("--- "):
             balance[line[1:]] -= 1
     return {line for line, n in balance.items() if n <= 0 and line.strip()} & now
+
+
+def _wrong_head(path: Path) -> bytes:
+    """Return the log's first bytes if its header is wrong, else none."""
+    with open(path, "rb") as file:
+        head = file.read(header.LONGEST)
+    return b"" if head == header.BOM or header.line_end(head) else head
+
+
+def _header_mended(head: bytes) -> str:
+    names = header.layout(head).names
+    others = [name for name in names if name and name not in COLUMNS]
+    moved = f"; {', '.join(others)} moved to the notes" if others else ""
+    return header.fault(head) + moved
 
 
 def _write_new(path: Path, suffix: str, lines: list[str]) -> Path:

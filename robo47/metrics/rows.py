@@ -6,7 +6,7 @@ import difflib
 import math
 import operator
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from robo47.errors import Robo47Error
 
@@ -47,34 +47,38 @@ def normalise(fields: Mapping[str, object], allow_nonfinite: bool) -> Row:
         allow_nonfinite: let NaN and the infinities pass.
 
     Raises:
-        Robo47Error: names the field, what it holds and what it may hold.
+        Robo47Error: names each wrong field, what it holds and what it may hold.
     """
-    refuse_unknown(fields)
-    row: Row = {}
-    for name in COLUMNS:
-        given = fields.get(name)
-        if not allow_nonfinite and _is_nonfinite(name, given):
-            raise Robo47Error(
-                f'"{name}" is {given}, which no threshold can judge. Find out why;'
-                " to record it as it is, pass allow_nonfinite=True"
-                " (--allow-nonfinite)."
-            )
-        try:
-            row[name] = _typed(name, given)
-        except ValueError as error:
-            raise Robo47Error(f"not recorded: {error}.") from None
+    row, faults = typed(fields, allow_nonfinite)
+    if faults:
+        raise Robo47Error(f"not recorded: {'; '.join(faults)}.")
     return row
 
 
-def refuse_unknown(names: Iterable[str]) -> None:
-    """Raise a Robo47Error for the first name that is no column, with a near one."""
-    for name in names:
-        if name not in COLUMNS:
-            close = difflib.get_close_matches(name, COLUMNS, 1)
-            hint = f' Did you mean "{close[0]}"?' if close else ""
-            raise Robo47Error(
-                f'there is no field "{name}".{hint} The fields: {", ".join(COLUMNS)}.'
+def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:
+    """Return what `normalise` does, and in words every field that is wrong."""
+    row: Row = {}
+    faults = [_unknown(name) for name in fields if name not in COLUMNS]
+    for name in COLUMNS:
+        given = fields.get(name)
+        if not allow_nonfinite and _is_nonfinite(name, given):
+            faults.append(
+                f'"{name}" is {given}, which no threshold can judge: find out why, or'
+                " record it as it is with allow_nonfinite=True (--allow-nonfinite)"
             )
+            continue
+        try:
+            row[name] = _typed(name, given)
+        except ValueError as error:
+            faults.append(str(error))
+    return row, faults
+
+
+def _unknown(name: str) -> str:
+    close = difflib.get_close_matches(name, COLUMNS, 1)
+    if close:
+        return f'there is no field "{name}" (did you mean "{close[0]}"?)'
+    return f'there is no field "{name}" (the fields: {", ".join(COLUMNS)})'
 
 
 def encode(row: Row) -> str:

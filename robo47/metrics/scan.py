@@ -40,7 +40,8 @@ def scan(path: str | os.PathLike[str], as_is: bool = False) -> Iterator[Line]:
         as_is: read also a file whose header is wrong, as well as can be told.
 
     Raises:
-        Robo47Error: no file; or, unless `as_is`, a first line that is not the header.
+        Robo47Error: no file; a first line that is not the header, unless `as_is` and
+            it can be told which column is which.
     """
     chosen = Path(path)
     with _opened(chosen) as file:
@@ -48,8 +49,8 @@ def scan(path: str | os.PathLike[str], as_is: bool = False) -> Iterator[Line]:
         if head in (b"", header.BOM):
             return
         plan = Layout() if header.line_end(head) else header.layout(head)
-        if not as_is and not header.line_end(head):
-            raise Robo47Error(f"{shown(chosen)}: {header.problem(head)}")
+        if not header.line_end(head) and not (as_is and plan.is_clear):
+            raise Robo47Error(f"{shown(chosen)}: {header.problem(head, chosen)}")
         file.seek(0)
         lines: BinaryIO = io.BytesIO(_from_utf16(file)) if plan.utf16 else file
         yield from _lines(lines, plan, _known_repairs(chosen))
@@ -142,12 +143,16 @@ def _thirteen(cells: list[str]) -> tuple[list[str], str]:
 
 def _in_order(cells: list[str], plan: Layout) -> list[str]:
     """Return the cells of a file with other columns, in the log's own order."""
-    if len(cells) != len(plan.names):
-        raise ValueError(f"{len(cells)} columns where its header has {len(plan.names)}")
-    row = dict(zip(plan.names, cells, strict=True))
+    names = plan.names
+    if len(cells) == WIDTH and names == tuple(x for x in COLUMNS if x in names):
+        names = COLUMNS  # the header lost a name, and this row no cell
+    if len(cells) != len(names):
+        raise ValueError(f"{len(cells)} columns where its header has {len(names)}")
+    pairs = list(zip(names, cells, strict=True))
+    row = dict(pairs)
     if plan.delimiter == ";":  # such spreadsheets write 0,5 for 0.5
         row["value"] = row.get("value", "").replace(",", ".")
-    extra = [f"{k}={row[k]}" for k in plan.names if k not in COLUMNS and row[k]]
+    extra = [f"{k}={v}" if k else v for k, v in pairs if k not in COLUMNS and v]
     row["notes"] = " ".join([row.get("notes", ""), *extra]).strip()
     return [row.get(name, "") for name in COLUMNS]
 
