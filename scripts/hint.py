@@ -71,7 +71,9 @@ def show_deliverable(day: Day, name: str) -> int:
     """
     from robo47.checker.deliverables import check_deliverables
 
-    items = {item.name: item for item in check_deliverables(day)}
+    left, _ = check(day, None)
+    found = check_deliverables(day, tasks_pass=not left)
+    items = {item.name: item for item in found}
     if name not in items:
         raise Robo47Error(
             f"{name!r} is no task; expected an id such as 1.4, or one of "
@@ -124,7 +126,7 @@ def main() -> int:
     left, problem = check(day, wanted)
     if problem:
         print(textwrap.fill(problem, WIDTH, break_on_hyphens=False))
-        print("\nMend that line first: until then no task can be judged.")
+        print("\nMend that first: until then no task can be judged.")
         return cli.EXIT_FAILED
     if left:
         show_hint(left[0], options.again)

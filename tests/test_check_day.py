@@ -234,10 +234,19 @@ class TestHint:
         assert "SyntaxError: expected ':'" in done.stdout
         assert "hint 1 of" not in done.stdout
 
-    def test_for_something_to_hand_in_gives_its_remedy(self, run_in, day):
+    def test_for_something_to_hand_in_gives_its_remedy(self, run_in, day, clone):
         done = run_in(HINT, "figure")
         assert done.returncode == 0
         assert f"w1-foundations/{day.figure}" in done.stdout.replace("\n", " ")
+        for row in day.metrics:  # the kit's own run
+            metrics.append_row(
+                clone / "metrics" / "metrics.csv",
+                day=1,
+                check=row.check,
+                metric=row.metric,
+                value=1e-15,
+            )
+        assert "make run DAY=1" in run_in(HINT, "metrics").stdout
 
     def test_says_what_a_task_is_called(self, run_in):
         done = run_in(HINT, "fk")
