@@ -62,6 +62,7 @@ class Day:
         worksheet: the student's worksheet.
         terms: what the worksheet's glossary defines.
         drawings: how many drawings it holds.
+        questions: how many questions it asks.
         metrics: rows of the log.
         folder: the week's folder.
     """
@@ -78,6 +79,7 @@ class Day:
     worksheet: str
     terms: tuple[str, ...]
     drawings: int
+    questions: int
     metrics: tuple[Metric, ...]
     folder: Path
 
@@ -218,6 +220,7 @@ def _day(entries: _Entries, folder: Path) -> Day:
         worksheet=worksheet.get("path", str),
         terms=worksheet.texts("terms"),
         drawings=worksheet.get("drawings", int),
+        questions=worksheet.get("questions", int),
         metrics=tuple(
             Metric(row.get("check", str), row.get("metric", str), row.get("max", float))
             for row in entries.tables("metrics")

@@ -3,6 +3,7 @@
     python scripts/hint.py 1.4           (make hint TASK=1.4)
     python scripts/hint.py 1.4 --again   the last one once more
     python scripts/hint.py               for the first task that does not pass yet
+    python scripts/hint.py figure        what is missing in something you hand in
 
 Each call gives one more hint and the section to re-read. What you have had is
 remembered in .robo47/, which git ignores.
@@ -19,6 +20,7 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
+from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 from robo47.starter import read_script, solution
 from robo47.week import Day, Task, find_day, find_task
@@ -50,16 +52,39 @@ def write_seen(seen: dict[str, int]) -> None:
         os.replace(new, path)
 
 
-def check(day: Day, task: Task | None) -> list[tuple[Task, bool]]:
-    """Return (task, whether the student's passes) of one task, or of all."""
-    tasks = [task] if task else list(day.tasks)
+def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
+    """Return the tasks that do not pass, of one or of all, and why none was judged."""
     if not day.work.is_file():
-        return [(one, False) for one in tasks]
+        return [task] if task else list(day.tasks), ""
     with Sandbox() as sandbox:
+        from robo47.checker.report import Report
         from robo47.checker.tasks import check_tasks
 
         results = check_tasks(day, day.work, sandbox, task.id if task else None)
-    return [(result.task, result.passed) for result in results]
+    left = [result.task for result in results if not result.passed]
+    return left, Report(day, results).problem
+
+
+def show_deliverable(day: Day, name: str) -> int:
+    """Print what is left to do for something to hand in.
+
+    Raises:
+        Robo47Error: the day has nothing of that name.
+    """
+    from robo47.checker.deliverables import check_deliverables
+
+    left, _ = check(day, None)
+    found = check_deliverables(day, tasks_pass=not left)
+    items = {item.name: item for item in found}
+    if name not in items:
+        raise Robo47Error(
+            f"{name!r} is no task; expected an id such as 1.4, or one of "
+            f"{', '.join(items)}"
+        )
+    print(f"{name}\n")
+    for line in (items[name].message or "Nothing is left to do for it.").splitlines():
+        print(textwrap.fill(line, WIDTH, break_on_hyphens=False))
+    return cli.EXIT_OK
 
 
 def show_hint(task: Task, again: bool) -> None:
@@ -89,21 +114,28 @@ def main() -> int:
         epilog=usage,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("task", nargs="?", help="such as 1.4; default: the next one")
+    parser.add_argument(
+        "task", nargs="?", help="such as 1.4, or figure; default: the next task"
+    )
     parser.add_argument("--day", type=int, default=1, help="without a task; default: 1")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
     day, wanted = find_day(options.day), None
+    if options.task and not options.task[0].isdecimal():
+        return show_deliverable(day, options.task)
     if options.task:
         day, wanted = find_task(options.task)
-    results = check(day, wanted)
-    left = [task for task, passed in results if not passed]
+    left, problem = check(day, wanted)
+    if problem:
+        print(textwrap.fill(problem, WIDTH, break_on_hyphens=False))
+        print("\nMend that first: until then no task can be judged.")
+        return cli.EXIT_FAILED
     if left:
         show_hint(left[0], options.again)
     elif wanted:
         show_solution(day, wanted)
     else:
-        print(f"All {len(results)} tasks of day {day.number} pass.")
+        print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
         print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
     return cli.EXIT_OK
 

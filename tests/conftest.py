@@ -58,14 +58,47 @@ def environment_of(clone: Path) -> dict[str, str]:
     return {**os.environ, **own}
 
 
+def kits_worksheet(day) -> str:
+    """Return a day's worksheet as the kit brings it, or skip: a student's own."""
+    text = (day.folder / day.worksheet).read_text("utf-8")
+    untouched = text.count("*(your words)*") == len(day.terms)
+    need(untouched, "the worksheet as the kit brings it; here it is filled in")
+    return text
+
+
+def empty_worksheet(day) -> str:
+    """Return a worksheet with room for all that a day asks, and nothing filled in."""
+    lines = ["# Worksheet", "## Glossary"]
+    for term in day.terms:
+        lines += [f"### {term}", "", "*(your words)*", ""]
+    for i in range(day.drawings):
+        lines += [f"### Drawing {i + 1}: a frame", "", "*(your drawing)*", ""]
+    lines += ["## Can you explain?", ""]
+    for i in range(day.questions):
+        lines += [f"{i + 1}. You move it along x. Whose x? Which", "   side is it on?"]
+        lines += ["", "   *(your answer)*", ""]
+    return "\n".join([*lines, "## Checklist", "- [ ] I ran it", "- [ ] I read it", ""])
+
+
 @pytest.fixture
 def clone(tmp_path):
-    """Return a copy of the kit that a test may work in, without the lab's history."""
+    """Return a copy of the kit that a test may work in, with nothing done in it.
+
+    A student's clone holds rows, a worksheet and pictures of their own: `make test`
+    must pass on it as well.
+    """
     copy = tmp_path / "clone"
     copy.mkdir()
     for name in ("robo47", "scripts", "w1-foundations", "metrics"):
         skipped = shutil.ignore_patterns("__pycache__", "work")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    from robo47 import metrics
+    from robo47.week import find_day
+
+    day = find_day(1, copy)
+    (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
+    (day.folder / day.figure).unlink(missing_ok=True)
+    (day.folder / day.worksheet).write_text(empty_worksheet(day), "utf-8")
     return copy
 
 

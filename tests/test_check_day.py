@@ -8,6 +8,7 @@ import time
 import pytest
 from conftest import environment_of
 
+from robo47 import metrics
 from robo47.week import find_day
 
 CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
@@ -100,6 +101,20 @@ class TestCheck:
         for task in day.tasks[:3]:
             done = run_in(CHECK, "--task", task.id)
             assert (done.returncode, "1 of 1 done." in done.stdout) == (0, True)
+            later = day.tasks[day.tasks.index(task) + 1]
+            assert f"Next: task {later.id}, " in done.stdout
+        last = run_in(CHECK, "--task", day.tasks[-1].id).stdout
+        assert "Next: the whole day: make check DAY=1" in last
+
+    def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
+        log = clone / "metrics" / "metrics.csv"
+        for row in day.metrics:
+            metrics.append_row(
+                log, day=1, check=row.check, metric=row.metric, value=1e-15
+            )
+        assert "0 of 14 done" in run_in(CHECK, 1).stdout
+        work.write_text(day.source.read_text("utf-8"))
+        assert "9 of 14 done" in run_in(CHECK, 1).stdout
 
     def test_names_the_mistake_with_the_number_that_shows_it(self, run_in, work, day):
         solve(day, work, "make_T")
@@ -126,6 +141,8 @@ class TestCheck:
         says = f"day1_transforms.py, line {line}: SyntaxError: expected ':'"
         assert done.stdout.count(says) == 1
         assert "mend that line" in done.stdout
+        assert done.stdout.count("not judged") == 8
+        assert "WRONG" not in done.stdout
 
     def test_shows_what_was_printed_on_request(self, run_in, work, day):
         solve(day, work, "Rz")
@@ -208,6 +225,28 @@ class TestHint:
         (clone / ".robo47").mkdir()
         (clone / ".robo47/hints.json").write_text("[1, {")
         assert "hint 1 of" in run_in(HINT, "1.4").stdout
+
+    @pytest.mark.parametrize("task", [(), ("1.4",)])
+    def test_shows_a_syntax_error_before_any_hint(self, run_in, work, task):
+        work.write_text(work.read_text() + "def f()\n    pass\n")
+        done = run_in(HINT, *task)
+        assert done.returncode == 1
+        assert "SyntaxError: expected ':'" in done.stdout
+        assert "hint 1 of" not in done.stdout
+
+    def test_for_something_to_hand_in_gives_its_remedy(self, run_in, day, clone):
+        done = run_in(HINT, "figure")
+        assert done.returncode == 0
+        assert f"w1-foundations/{day.figure}" in done.stdout.replace("\n", " ")
+        for row in day.metrics:  # the kit's own run
+            metrics.append_row(
+                clone / "metrics" / "metrics.csv",
+                day=1,
+                check=row.check,
+                metric=row.metric,
+                value=1e-15,
+            )
+        assert "make run DAY=1" in run_in(HINT, "metrics").stdout
 
     def test_says_what_a_task_is_called(self, run_in):
         done = run_in(HINT, "fk")

@@ -1,5 +1,6 @@
 """What a day hands in: each item passes when it is done, and says what to do if not."""
 
+import re
 import struct
 import subprocess
 import zlib
@@ -34,7 +35,10 @@ def png(pixels):
     return b"\x89PNG\r\n\x1a\n" + parts
 
 
-def worksheet(terms, *, drawings=3, ticked="x", definition=None):
+ANSWER = "Its own x, so on the right."
+
+
+def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
     own = "My own words say what {} means to me when the arm moves."
     lines = ["# Day 1", "## Glossary"]
     for term in terms:
@@ -42,6 +46,13 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None):
     lines += ["## Drawings"]
     for i in range(drawings):
         lines += [f"### Drawing {i + 1}: a frame", "```", " z", " |", " +-- x", "```"]
+    lines += ["## Can you explain?"]
+    for i in range(5):
+        lines += [
+            f"{i + 1}. It moves along x. Whose x? Which side?",
+            "",
+            f"   {answer}",
+        ]
     return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
 
 
@@ -171,6 +182,56 @@ def test_a_drawing_may_be_a_picture_that_is_there(items, day):
     assert items()["drawings"].passed
 
 
+@pytest.mark.parametrize(
+    ("answer", "open_ones"),
+    [(ANSWER, ""), ("*(your answer)*", "1, 2, 3, 4, 5"), ("Yes.", "1, 2, 3, 4, 5")],
+)
+def test_the_questions_want_an_answer_in_words(items, day, answer, open_ones):
+    text = worksheet(day.terms, answer=answer)
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    item = items()["definitions"]
+    assert item.passed == (not open_ones)
+    assert open_ones in item.message
+
+
+@pytest.mark.parametrize("blank", ["\n\n   ", "\n   ", " "])
+def test_an_answer_may_stand_anywhere_after_its_question(items, day, blank):
+    path = day.folder / day.worksheet
+    text = worksheet(day.terms, answer="*(your answer)*")
+    text = text.replace("Which side?", f"Which side?{blank}{ANSWER}", 2)
+    path.write_text(text, "utf-8")
+    message = items()["definitions"].message
+    assert "Can you explain? 3, 4, 5: answer below each question" in message
+
+
+def test_the_kits_own_pictures_are_nobodys_drawing(items, day):
+    path = day.folder / day.worksheet
+    for name in day.kit_figures:
+        link = f"![mine](../{name})"
+        text = worksheet(day.terms, drawings=2) + f"\n### Drawing 3\n{link}\n"
+        path.write_text(text, "utf-8")
+        assert "Drawing 3: the kit's picture" in items()["drawings"].message
+    copy = path.parent / "mine.png"
+    copy.write_bytes((day.folder / day.kit_figures[0]).read_bytes())
+    path.write_text(text.replace(f"../{name}", "mine.png"), "utf-8")
+    assert "Drawing 3: the kit's picture" in items()["drawings"].message
+
+
+def test_a_drawing_of_two_lines_is_told_how_many_it_takes(items, day):
+    path = day.folder / day.worksheet
+    text = worksheet(day.terms, drawings=2)
+    path.write_text(text + "\n### Drawing 3\n```\n z\n |\n```\n", "utf-8")
+    assert "of 3 lines or more" in items()["drawings"].message
+
+
+def test_every_picture_of_the_lab_guide_is_known_as_the_kits_own():
+    day = find_day(1)
+    guide = (day.folder / day.guide).read_text("utf-8")
+    shown = set(re.findall(r"\(\.\./(figures/\w+\.png)\)", guide))
+    assert shown
+    assert shown <= set(day.kit_figures)
+
+
 def test_a_drawing_of_no_lines_is_none(items, day):
     path = day.folder / day.worksheet
     path.write_text(worksheet(day.terms, drawings=0), "utf-8")
@@ -228,6 +289,16 @@ def test_a_missing_or_unreadable_log_is_told_with_what_to_do(items, clone):
     assert items()["metrics"].status == "wrong"
     log.unlink()
     assert items()["metrics"].status == "todo"
+
+
+def test_rows_count_only_once_the_tasks_pass(day, clone):
+    before, after = (
+        {item.name: item for item in check_deliverables(day, clone, tasks_pass=done)}
+        for done in (False, True)
+    )
+    assert before["metrics"].status == "todo"
+    assert "rows in the log are the kit's" in before["metrics"].message
+    assert after["metrics"].passed
 
 
 def test_what_is_not_committed_is_named_with_the_command(items, day, clone):

@@ -1,6 +1,8 @@
 """What the checker sees beyond the numbers, and how tasks stand to each other."""
 
-from robo47.checker import variant
+import pytest
+
+from robo47.checker import process, variant
 from robo47.week import find_day
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -49,3 +51,77 @@ def test_a_missing_function_is_told_with_the_way_to_get_it_back(check):
     verdict = check(REFERENCE.replace("def Rz(", "def rz("), "1.2")["1.2"]
     assert verdict.mistake == "missing"
     assert "make start RESET=1.2" in verdict.message
+
+
+@pytest.mark.parametrize(
+    ("task", "line", "mischief", "name"),
+    [
+        (
+            "1.3",
+            "    return make_T(R.T, -R.T @ t)",
+            "R, t = R.copy(), t.copy(); T[:] = 0",
+            "T",
+        ),
+        ("1.4", "    w, x, y, z = quat", "quat /= np.linalg.norm(quat)", "quat"),
+    ],
+)
+def test_an_argument_that_is_changed_in_place_is_named(
+    check, task, line, mischief, name
+):
+    assert line in REFERENCE
+    code = REFERENCE.replace(line, f"    {mischief}\n{line}", 1)
+    verdict = check(code, task)[task]
+    assert (verdict.status, verdict.mistake) == ("wrong", "argument-changed")
+    assert f"changed its argument {name}" in verdict.message
+    assert f"{name} = {name}.copy()" in verdict.message
+
+
+def test_a_wrong_answer_keeps_its_name_where_an_argument_is_changed_too(check):
+    line = "    R, t = T[:3, :3], T[:3, 3]"
+    code = REFERENCE.replace(line, f"    T[:3, 3] *= -1\n{line}", 1)
+    verdict = check(code, "1.3")["1.3"]
+    assert (verdict.status, verdict.mistake) != ("wrong", "argument-changed")
+    assert "Besides, inverse changed its argument T" in verdict.message
+
+
+def test_a_chain_that_ignores_its_path_is_told_in_its_own_task(check):
+    code = REFERENCE.replace("for name, joint in path:", "for name, joint in PATH:", 1)
+    verdicts = check(code)
+    assert verdicts["1.6"].mistake == "path-ignored"
+    assert "does not look at path" in verdicts["1.6"].message
+    assert "Task 1.6" in verdicts["1.8"].message
+
+
+def test_a_chain_that_takes_no_path_at_all_passes(check):
+    code = REFERENCE.replace(", path: list = PATH)", ")", 1)
+    code = code.replace("for name, joint in path:", "for name, joint in PATH:", 1)
+    assert check(code, "1.6")["1.6"].status == "passed"
+
+
+def test_a_result_that_is_printed_instead_of_returned_is_told_so(check):
+    printed = REFERENCE.replace("    return T\n", "    print(T)\n", 1)
+    silent = REFERENCE.replace("    return T\n", "    T.copy()\n", 1)
+    assert "print the result instead" in check(printed, "1.1")["1.1"].message
+    verdict = check(silent, "1.1")["1.1"]
+    assert verdict.mistake == "nothing-returned"
+    assert "print" not in verdict.message
+
+
+def test_an_error_inside_a_helper_names_the_lines_that_called_it(check):
+    code = REFERENCE.replace(
+        "link_T(body.pos, body.quat)", "link_T(body.quat, body.pos)"
+    )
+    lines = code.splitlines()
+    (inner,) = (i for i, ln in enumerate(lines, 1) if "w, x, y, z = quat" in ln)
+    (middle,) = (i for i, ln in enumerate(lines, 1) if "make_T(quat_to_R" in ln)
+    outer = next(i for i, ln in enumerate(lines, 1) if "link_T(body.quat" in ln)
+    says = f"(line {inner}, called from line {middle}, from line {outer})"
+    assert says in check(code, "1.6")["1.6"].message
+
+
+def test_a_loop_without_an_end_is_told_in_one_sentence(check, monkeypatch):
+    monkeypatch.setattr(process, "CALL_SECONDS", 1.0)
+    code = REFERENCE.replace("    c, s =", "    while True: pass\n    c, s =", 1)
+    message = check(code, "1.2")["1.2"].message
+    assert message.startswith("Rz did not return: it runs on and on")
+    assert message.endswith("does.")

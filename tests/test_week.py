@@ -4,6 +4,7 @@ import re
 import tomllib
 
 import pytest
+from conftest import kits_worksheet
 
 from robo47.checker.deliverables.worksheet import split_sections
 from robo47.errors import Robo47Error
@@ -47,11 +48,13 @@ class TestEveryDay:
             assert section in headings, task.id
 
     def test_asks_for_what_its_worksheet_has_room_for(self, day):
-        sections = split_sections((day.folder / day.worksheet).read_text("utf-8"))
+        sections = split_sections(kits_worksheet(day))
         assert {term.lower() for term in day.terms} <= sections.keys()
         drawings = [name for name in sections if name.startswith("drawing ")]
         assert len(drawings) == day.drawings
         assert "- [ ]" in sections["checklist"]
+        questions = re.findall(r"^\d+\.", sections["can you explain?"], re.MULTILINE)
+        assert len(questions) == day.questions
 
 
 def edited(tmp_path, *changes):

@@ -110,7 +110,9 @@ class Process:
                 if resources.resident_bytes(self.process) > RESIDENT_BYTES:
                     return replies.stopped("it used more than 1 GB of memory")
                 if time.monotonic() > deadline:
-                    return replies.stopped("it does not come to an end: a loop?")
+                    return replies.stopped(
+                        "it runs on and on, as a loop without an end does"
+                    )
                 continue
             if line is None:
                 return replies.stopped(self._how_it_ended())

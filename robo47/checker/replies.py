@@ -14,11 +14,13 @@ class Question:
         task: whose it is; a task that hangs is not asked again.
         function: a name in the student's file.
         args: float64 arrays, floats, or a `Model`.
+        path: pairs of body and joint, handed over as `path=`; () where it is left out.
     """
 
     task: str
     function: str
     args: tuple[Any, ...]
+    path: tuple[tuple[str, str | None], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,8 @@ class Reply:
         kind: "" where the function returned; the exception's name where it raised one;
             "missing", "unsendable", "stopped" (time, memory, ended, channel).
         line: of the student's file, or None.
+        callers: the lines of it that led there, the nearest first.
+        changed: names of the arguments that are no longer what they were.
         refused: what the guard refused during the call.
         used: which of the noted NumPy functions it called.
         printed: what the function printed.
@@ -47,6 +51,8 @@ class Reply:
     error: str = ""
     kind: str = ""
     line: int | None = None
+    callers: tuple[int, ...] = ()
+    changed: tuple[str, ...] = ()
     refused: tuple[str, ...] = ()
     used: tuple[str, ...] = ()
     printed: str = ""
@@ -75,11 +81,15 @@ def read(message: dict[str, Any]) -> Reply:
         found = message.get(name)
         return tuple(map(str, found)) if isinstance(found, list) else ()
 
+    callers = message.get("callers")
+    callers = callers if isinstance(callers, list) else []
     return Reply(
         value=value,
         error=str(message.get("error", "")),
         kind=str(message.get("kind", "")),
         line=line if isinstance(line, int) else None,
+        callers=tuple(n for n in callers if isinstance(n, int)),
+        changed=texts("changed"),
         refused=texts("refused"),
         used=texts("used"),
         printed=str(message.get("printed", "")),
@@ -101,4 +111,4 @@ def pack(question: Question) -> dict[str, Any]:
             args.append({"number": arg})
         else:
             args.append(wire.pack_value(arg))
-    return {"function": question.function, "args": args}
+    return {"function": question.function, "args": args, "path": question.path}

@@ -8,11 +8,17 @@ from typing import Any, TextIO
 
 from robo47.checker.deliverables import Item
 from robo47.checker.tasks import TaskResult
-from robo47.week import Day
+from robo47.week import Day, Task
 
 WIDTH = 80
-_LABEL = {"passed": "passed", "todo": "to do", "wrong": "WRONG", "close": "CLOSE"}
-_COLOUR = {"passed": "32", "todo": "33", "wrong": "31", "close": "33"}
+_LABEL = {
+    "passed": "passed",
+    "todo": "to do",
+    "wrong": "WRONG",
+    "close": "CLOSE",
+    "unjudged": "not judged",  # the file does not load
+}
+_COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
 _INDENT = 7  # where a message starts
 
 
@@ -59,12 +65,21 @@ class Report:
         for result in self.tasks:
             if not result.passed:
                 task = result.task
-                what = f"task {task.id}, {' and '.join(task.functions)}"
-                return f"{what}. Stuck? make hint TASK={task.id}"
+                return f"{_named(task)}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
                 return f"the {item.name}."
-        return "nothing is left to do here. Well done."
+        if self.items:
+            return "nothing is left to do here. Well done."
+        later = self.day.tasks[self.day.tasks.index(self.tasks[-1].task) + 1 :]
+        whole = f"make check DAY={self.day.number}"
+        if later:
+            return f"{_named(later[0])}. The whole day: {whole}"
+        return f"the whole day: {whole}"
+
+
+def _named(task: Task) -> str:
+    return f"task {task.id}, {' and '.join(task.functions)}"
 
 
 def as_json(report: Report) -> dict[str, Any]:
@@ -127,7 +142,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     for result in report.tasks:
         task, verdict = result.task, result.verdict
         name = ", ".join(task.functions)
-        lines.append(_line(f"{task.id}  {name}", verdict.status, colour))
+        status = "unjudged" if report.problem else verdict.status
+        lines.append(_line(f"{task.id}  {name}", status, colour))
         if not report.problem and verdict.mistake != "unwritten":
             lines += _wrapped(verdict.message, _INDENT)
         if explain:
@@ -158,7 +174,7 @@ def wants_colour(stream: TextIO) -> bool:
 def _line(name: str, status: str, colour: bool) -> str:
     state = _LABEL[status]
     if colour:
-        state = f"\x1b[{_COLOUR[status]}m{state}\x1b[0m"
+        state = f"\x1b[{_COLOUR.get(status, '33')}m{state}\x1b[0m"
     return f"  {name:24}  {state}"
 
 

@@ -65,7 +65,7 @@ def check_tasks(
     try:
         replies = sandbox.run(script, flat, copies, model_copy.facts(), noted)
     except LoadError as error:
-        verdict = Verdict("wrong", "does-not-load", why_not_loaded(script, error.reply))
+        verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in tasks]
     results: dict[str, TaskResult] = {}
     for task in asked:
@@ -88,7 +88,7 @@ def _all_needs(task: Task, day: Day) -> list[str]:
 
 
 def _questions(task: Task, seed: int | None) -> list[Question]:
-    """Return the judge's calls, then a chain's: fresh angles on both Pandas."""
+    """Return the judge's calls, then a chain's: fresh angles, both Pandas, a path."""
     asked = [
         Question(
             task.id,
@@ -105,6 +105,9 @@ def _questions(task: Task, seed: int | None) -> list[Question]:
                 for which in range(len(variant.models()))
                 for q in fresh
             ]
+            if function == variant.TAKES_A_PATH:
+                args = (Model(0), fresh[0])
+                asked.append(Question(task.id, function, args, variant.TO_LINK4))
     return asked
 
 

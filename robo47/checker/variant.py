@@ -2,7 +2,8 @@
 
 The judge's questions are the same at every run, so a table of answers would pass them.
 Fresh angles tell such a table from a computation; longer links tell numbers that are
-read from the model from numbers that are typed in.
+read from the model from numbers that are typed in; a shorter path, such as task 1.8
+hands over, tells whether `path` is looked at.
 """
 
 import secrets
@@ -18,6 +19,8 @@ STRETCH = 1.2  # every offset between two bodies, zeros and turns as they are
 AGREES = 1e-6
 FRAMES = {"compose_fk": "site:attachment_site", "link4_to_world": "body:link4"}
 FRESH = 2  # configurations per model
+TAKES_A_PATH = "compose_fk"
+TO_LINK4 = (("link0", None), *((f"link{i}", f"joint{i}") for i in range(1, 5)))
 
 
 @cache

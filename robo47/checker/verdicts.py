@@ -27,12 +27,13 @@ def verdict_of(task: Task, own: Sequence[Exchange]) -> Verdict:
     for question, reply in own:
         if early := _without_judge(task, question, reply):
             return early
-    judged = own[: len(diagnose.calls(task.id))]
-    verdict = diagnose.judge(task.id, [_answer(reply) for _, reply in judged])
+    count = len(diagnose.calls(task.id))
+    verdict = diagnose.judge(task.id, [_answer(reply) for _, reply in own[:count]])
     if verdict.status == "passed":
-        return _second_look(task, own, verdict)
-    refused = [what for _, reply in own for what in reply.refused]
-    return _refusal(refused[0], None) if refused else verdict
+        verdict = _second_look(task, own, own[count:], verdict)
+    elif refused := [what for _, reply in own for what in reply.refused]:
+        return _refusal(refused[0], None)
+    return _side_effects(own, verdict)
 
 
 def why_not_loaded(script: Path, reply: Reply) -> str:
@@ -81,7 +82,10 @@ def _without_judge(task: Task, question: Question, reply: Reply) -> Verdict | No
 def _answer(reply: Reply) -> Answer:
     if not reply.kind:
         return Answer(reply.value)
-    where = f" (line {reply.line})" if reply.line else ""
+    where = f" (line {reply.line}" if reply.line else ""
+    if callers := [f"line {line}" for line in reply.callers]:
+        where += f", called from {', from '.join(callers)}"
+    where += ")" if where else ""
     return Answer(None, f"{reply.kind}: {reply.error}{where}")
 
 
@@ -100,15 +104,40 @@ def _refusal(what: str, line: int | None) -> Verdict:
     return Verdict("wrong", "refused", says)
 
 
-def _second_look(task: Task, own: Sequence[Exchange], passed: Verdict) -> Verdict:
+def _side_effects(own: Sequence[Exchange], verdict: Verdict) -> Verdict:
+    """Return the verdict with what the functions did beside returning something."""
+    if verdict.mistake == "nothing-returned" and any(reply.printed for _, reply in own):
+        says = f"{verdict.message} Does it print the result instead of returning it?"
+        return replace(verdict, message=says)
+    changed = [(asked.function, name) for asked, r in own for name in r.changed]
+    if not changed or verdict.status == "todo":
+        return verdict
+    function, name = changed[0]
+    says = f"{function} changed its argument {name}, which its caller still needs"
+    says += f"; work on a copy: {name} = {name}.copy()" if name.isidentifier() else ""
+    if verdict.status != "passed":
+        return replace(verdict, message=f"{verdict.message} Besides, {says}.")
+    says = f"The numbers are right, but {says}."
+    return Verdict("wrong", "argument-changed", says, verdict.measured)
+
+
+def _second_look(
+    task: Task, own: Sequence[Exchange], extra: Sequence[Exchange], passed: Verdict
+) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
-    known, longer = (_fresh_error(own, which) for which in (0, 1))
+    known, longer = (_fresh_error(extra, which) for which in (0, 1))
     if known > variant.AGREES:
         says = (
             "Right at the angles that are always asked, but off by "
             f"{known:.3g} at fresh ones: the answers are not computed from q."
         )
         return Verdict("wrong", "looked-up", says, passed.measured)
+    if _ignores_path(extra):
+        says = (
+            "Right for the whole arm, but it does not look at path: asked for the path "
+            "to link4, it goes on to the end effector all the same."
+        )
+        return Verdict("wrong", "path-ignored", says, passed.measured)
     if longer > variant.AGREES:
         says = (
             "Right for this Panda. On one with longer links it would not be: it does "
@@ -125,12 +154,26 @@ def _second_look(task: Task, own: Sequence[Exchange], passed: Verdict) -> Verdic
     return passed
 
 
-def _fresh_error(own: Sequence[Exchange], which: int) -> float:
+def _ignores_path(extra: Sequence[Exchange]) -> bool:
+    """Return whether a shorter path gave the very pose that the whole one gives.
+
+    An error does not count: a chain of one's own may take no path at all.
+    """
+    whole, short = (
+        [r.value for q, r in extra if q.args[0] == Model(0) and bool(q.path) == given]
+        for given in (False, True)
+    )
+    if not short or not isinstance(short[0], np.ndarray):
+        return False
+    return short[0].shape == (4, 4) and np.allclose(short[0], whole[0], atol=1e-9)
+
+
+def _fresh_error(extra: Sequence[Exchange], which: int) -> float:
     """Return how far a chain is off at fresh angles on one Panda; 0 if never asked."""
     fresh = [
         (question, reply)
-        for question, reply in own[-len(variant.models()) * variant.FRESH :]
-        if question.function in variant.FRAMES and question.args[0] == Model(which)
+        for question, reply in extra
+        if question.args[0] == Model(which) and not question.path
     ]
     if not fresh:
         return 0.0

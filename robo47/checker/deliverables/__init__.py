@@ -21,12 +21,15 @@ from robo47.week import Day
 __all__ = ["Item", "check_deliverables"]
 
 
-def check_deliverables(day: Day, root: Path = ROOT) -> list[Item]:
+def check_deliverables(
+    day: Day, root: Path = ROOT, *, tasks_pass: bool = True
+) -> list[Item]:
     """Check what a day hands in.
 
     Args:
         day: from the kit's manifest.
         root: the student's clone.
+        tasks_pass: whether the day's tasks do; until then no row is the student's.
 
     Returns:
         One item per deliverable.
@@ -35,6 +38,6 @@ def check_deliverables(day: Day, root: Path = ROOT) -> list[Item]:
     return [
         check_figure(day, week),
         *check_worksheet(day, week),
-        check_rows(day, root),
+        check_rows(day, root, tasks_pass),
         check_commit(day, root),
     ]

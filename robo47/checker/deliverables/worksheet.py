@@ -10,10 +10,12 @@ FEWEST_WORDS = 8  # of a definition
 SHINGLE = 5  # words in a row that count as taken over
 TAKEN_OVER = 0.5  # share of a definition's shingles that may stand in the lab guide
 DRAWN_LINES = 3  # of a drawing made of text
+FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
 
 _HEADING = re.compile(r"(#{1,6})\s+(.*?)\s*#*$")
 _FENCE = re.compile(r"\s*(```|~~~)")
 _IMAGE = re.compile(r"!\[[^\]]*\]\(\s*<?([^)>\s]+)[^)]*\)|<img[^>]+src=[\"']([^\"']+)")
+_QUESTION = re.compile(r"\s{0,3}\d+[.)]\s+\S")
 _BOX = re.compile(r"\s*[-*+]\s+\[([ xX])\]\s*(.*)")
 # A template's own words: quoted or italic instructions, and lines to write on.
 _PROMPT = re.compile(r"\s*(>.*|_[^_]+_|\*[^*]+\*|[._\s…]*|TODO.*)$")
@@ -42,8 +44,8 @@ def check_worksheet(day: Day, week: Path) -> list[Item]:
         guide = ""
     where = from_root(path, week)
     return [
-        _definitions(sections, day.terms, guide, where),
-        _drawings(sections, day.drawings, path.parent, where),
+        _in_words(sections, day, guide, where),
+        _drawings(sections, day, path.parent, where),
         _checklist(sections, where),
     ]
 
@@ -77,6 +79,38 @@ def image_names(text: str) -> list[str]:
     return [first or second for first, second in _IMAGE.findall(text)]
 
 
+def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
+    """Check what is written: the definitions, and then the answers."""
+    item = _definitions(sections, day.terms, guide, where)
+    open_ones = _unanswered(sections.get("can you explain?", ""), day.questions)
+    if not (open_ones and item.passed):
+        return item
+    numbers = ", ".join(map(str, open_ones))
+    says = f"All {len(day.terms)} are there. Can you explain? {numbers}: "
+    return Item("definitions", "todo", f"{says}answer below each question, in {where}.")
+
+
+def _unanswered(section: str, number: int) -> list[int]:
+    """Return the numbers of the questions without an answer in words.
+
+    A question ends with the last question mark of its first paragraph; what comes
+    after it is the answer.
+    """
+    found: list[list[str]] = []
+    for line in section.splitlines():
+        if _QUESTION.match(line):
+            found.append([])
+        if found:
+            found[-1].append("" if _PROMPT.match(line) else line)
+    answered = []
+    for lines in found:
+        first, _, rest = "\n".join(lines).partition("\n\n")
+        answer = first.rpartition("?")[2] if "?" in first else ""
+        answered.append(len(_words(f"{answer} {rest}")) >= FEWEST_ANSWER_WORDS)
+    answered += [False] * (number - len(answered))
+    return [i for i, done in enumerate(answered[:number], start=1) if not done]
+
+
 def _definitions(
     sections: dict[str, str], terms: tuple[str, ...], guide: str, where: str
 ) -> Item:
@@ -107,10 +141,13 @@ def _definitions(
     return Item("definitions", "todo" if untouched else "wrong", " ".join(says))
 
 
-def _drawings(sections: dict[str, str], number: int, folder: Path, where: str) -> Item:
-    """Check that each drawing is an image that exists, or drawn as text."""
+def _drawings(sections: dict[str, str], day: Day, folder: Path, where: str) -> Item:
+    """Check that each drawing is an image of the student's, or drawn as text."""
+    number = day.drawings
     missing: list[str] = []
     broken: list[str] = []
+    kits: list[str] = []
+    pictures = [day.folder / name for name in day.kit_figures]
     for index in range(1, number + 1):
         start = f"drawing {index}"
         text = next(
@@ -122,19 +159,24 @@ def _drawings(sections: dict[str, str], number: int, folder: Path, where: str) -
             "",
         )
         images = image_names(text)
-        if any(_is_image(name, folder) for name in images) or _is_drawn(text):
+        there = [name for name in images if _is_image(name, folder)]
+        own = [name for name in there if not _is_one_of(pictures, name, folder)]
+        if own or _is_drawn(text):
             continue
-        (broken if images else missing).append(str(index))
-    if not (missing or broken):
+        (kits if there else broken if images else missing).append(str(index))
+    if not (missing or broken or kits):
         return Item("drawings")
-    says = [f"{number - len(missing) - len(broken)} of {number} in {where}."]
+    done = number - len(missing) - len(broken) - len(kits)
+    says = [f"{done} of {number} in {where}."]
     if missing:
         says.append(
-            f"Drawing {', '.join(missing)}: add ![](photo.jpg), or draw it as text "
-            "between two lines of ```."
+            f"Drawing {', '.join(missing)}: add ![](photo.jpg), or draw it as text, "
+            f"of {DRAWN_LINES} lines or more, between two lines of ```."
         )
     if broken:
         says.append(f"Drawing {', '.join(broken)}: its image file is not there.")
+    if kits:
+        says.append(f"Drawing {', '.join(kits)}: the kit's picture; draw your own.")
     untouched = len(missing) == number
     return Item("drawings", "todo" if untouched else "wrong", " ".join(says))
 
@@ -163,6 +205,15 @@ def _is_image(name: str, folder: Path) -> bool:
         return (folder / name.replace("%20", " ")).stat().st_size > 0
     except (OSError, ValueError):
         return False
+
+
+def _is_one_of(pictures: list[Path], name: str, folder: Path) -> bool:
+    """Return whether an image is one of the kit's, even under another name."""
+    try:
+        data = (folder / name.replace("%20", " ")).read_bytes()
+    except (OSError, ValueError):
+        return False
+    return any(path.is_file() and path.read_bytes() == data for path in pictures)
 
 
 def _is_drawn(text: str) -> bool:

@@ -96,7 +96,9 @@ def _answer(
                 send(at=index, missing=True)
                 continue
             args = [_argument(packed, wire, models) for packed in call["args"]]
-            reply = {"value": wire.pack_value(function(*args))}
+            named = {"path": list(map(tuple, call["path"]))} if call["path"] else {}
+            reply = {"value": wire.pack_value(function(*args, **named))}
+            reply["changed"] = _changed(function, call["args"], args, wire)
         except wire.UnsendableError as error:
             reply = {"error": f"it returned {error}", "kind": "unsendable"}
         except BaseException as error:
@@ -111,17 +113,39 @@ def _argument(packed: Any, wire: Any, models: Any) -> Any:
     return packed["number"] if "number" in packed else wire.unpack_value(packed)
 
 
+def _changed(function: Any, packed: Any, args: list[Any], wire: Any) -> list[str]:
+    """Return the names of the arrays that a call left other than it got them."""
+    code = getattr(function, "__code__", None)
+    names = code.co_varnames[: code.co_argcount] if code else ()
+    found = []
+    for index, (before, arg) in enumerate(zip(packed, args, strict=True)):
+        if "array" not in before:
+            continue
+        try:
+            same = wire.pack_value(arg) == before
+        except wire.UnsendableError:
+            same = False
+        if not same:
+            found.append(names[index] if index < len(names) else f"{index + 1}")
+    return found
+
+
 def _describe(error: BaseException, path: Path) -> dict[str, Any]:
-    """Return an exception as text and the line of the student's file it came from."""
-    line, trace = None, error.__traceback__
+    """Return an exception as text and the lines of the student's file that led to it.
+
+    "line" is where it happened, "callers" the calls before it, the nearest first.
+    """
+    lines, trace = [], error.__traceback__
     while trace:
         if trace.tb_frame.f_code.co_filename == str(path):
-            line = trace.tb_lineno
+            lines.append(trace.tb_lineno)
         trace = trace.tb_next
     text = str(error)
+    line, callers = (lines[-1] if lines else None), lines[-2::-1]
     if isinstance(error, SyntaxError):
-        line, text = error.lineno, error.msg or text
-    return {"error": text[:500], "kind": type(error).__name__, "line": line}
+        line, callers, text = error.lineno, [], error.msg or text
+    kind = type(error).__name__
+    return {"error": text[:500], "kind": kind, "line": line, "callers": callers[:3]}
 
 
 class _Kept(io.StringIO):

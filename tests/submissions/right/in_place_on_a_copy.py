@@ -12,6 +12,7 @@ def inverse(T):
 
 
 def quat_to_R(quat):
+    quat = quat.copy()
     quat /= np.linalg.norm(quat)
     w, x, y, z = quat
     R = 2 * np.outer(quat[1:], quat[1:])
