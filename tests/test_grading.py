@@ -12,6 +12,7 @@ from typing import ClassVar
 import pytest
 from make_class import DAY, ODD_WAY, SOLVED, STARTER, WEEK, own_way, renamed
 
+from robo47.checker.deliverables import check_deliverables
 from robo47.errors import Robo47Error
 from robo47.grading import bars, collect, engine, history, kit, overview, similar
 from robo47.grading.feedback import feedback_path
@@ -21,6 +22,7 @@ from robo47.grading.package import Package
 from robo47.grading.result import ITEMS, Mark, Result, from_json, ungraded
 from robo47.grading.roster import Student
 from robo47.grading.sheet import Graded, plain
+from robo47.week import find_day
 
 SCRIPT = f"{WEEK}/work/{DAY.script}"
 links = pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
@@ -94,6 +96,15 @@ class TestWhatIsRead:
         pictures.pop(f"{WEEK}/{DAY.worksheet}")
         assert pictures == {f"{WEEK}/my pic.jpg": b"x"}
 
+    def test_takes_along_a_picture_that_is_the_kits_own(self, clone):
+        kits = next(p for p in (DAY.folder / n for n in DAY.kit_figures) if p.is_file())
+        sheet = clone / WEEK / DAY.worksheet
+        sheet.parent.mkdir()
+        (clone / WEEK / "mine.png").write_bytes(kits.read_bytes())
+        sheet.write_text("![](../mine.png)")
+        files = collect.collect(student(clone), DAY).files
+        assert files[f"{WEEK}/mine.png"] == kits.read_bytes()
+
     def test_a_repository_around_the_clone_is_not_the_students(self, clone):
         subprocess.run(["git", "init", "-q"], cwd=clone, check=True)
         (clone / "inner").mkdir()
@@ -123,6 +134,11 @@ class TestWhatTravels:
         names = ("../out.py", "/out.py", "a/../../out.py", "a\0b", "x" * 999, "good/b")
         Package(1, "", dict.fromkeys(names, b"1")).unpack(inside)
         assert [p.name for p in tmp_path.rglob("*") if p.is_file()] == ["b"]
+
+
+def test_the_table_has_a_column_for_each_deliverable_of_the_checker(clone):
+    found = check_deliverables(find_day(1, clone), clone)
+    assert tuple(item.name for item in found) == ITEMS
 
 
 class TestTheGrader:
@@ -265,13 +281,21 @@ class TestTheOverview:
             (["passed"] * 7 + ["todo"], "under way"),
             (["todo"] * 8, "not started"),
             (["todo"] * 7 + ["close"], "stuck"),
+            (["passed"] * 7 + ["wrong"], "stuck"),
             (["ungraded"] * 8, "ungraded"),
         ],
     )
     def test_says_where_a_student_is(self, statuses, state):
-        assert (
-            overview.state(Graded(Student("", "", Path()), result(*statuses))) == state
-        )
+        wrong = {i: "name" for i, s in enumerate(statuses) if s in ("close", "wrong")}
+        one = result(*statuses, mistakes=wrong)
+        assert overview.state(Graded(Student("", "", Path()), one)) == state
+
+    def test_counts_a_file_that_does_not_load_as_stuck(self):
+        one = result(*["todo"] * 8, mistakes=dict.fromkeys(range(8), "does-not-load"))
+        graded = Graded(Student("A", "", Path()), one)
+        assert overview.state(graded) == "stuck"
+        (only,) = overview.diagnoses(DAY, [graded])
+        assert (only.mistake, only.task) == ("does-not-load", "1.1")
 
     def test_counts_who_stops_where(self):
         one = Graded(Student("", "", Path()), result("passed", *["wrong"] * 7))

@@ -52,7 +52,7 @@ def collect(student: Student, day: Day) -> Package:
     history = read_history(clone, wanted)
     item = _commit_item(day, history, files, unread)
     files |= _helpers(clone, f"{day.folder.name}/work")
-    files |= _pictures(clone, f"{day.folder.name}/{day.worksheet}", files)
+    files |= _pictures(clone, day, files)
     facts = (item, history.commit, history.committed)
     return Package(day.number, kit.fingerprint(), files, unread, *facts)
 
@@ -156,8 +156,14 @@ def _helpers(clone: Path, work: str) -> dict[str, bytes]:
     return found
 
 
-def _pictures(clone: Path, worksheet: str, files: dict[str, bytes]) -> dict[str, bytes]:
-    """Return a byte for each picture of the worksheet: that it exists is all we ask."""
+def _pictures(clone: Path, day: Day, files: dict[str, bytes]) -> dict[str, bytes]:
+    """Return the worksheet's pictures: one byte says that it is there.
+
+    What may be one of the kit's own, by its size, is returned whole.
+    """
+    worksheet = wanted_files(day)[1]
+    kits = [day.folder / name for name in day.kit_figures]
+    sizes = {path.stat().st_size for path in kits if path.is_file()}
     text = files.get(worksheet, b"").decode("utf-8", "replace")
     # line by line, and no long ones: a search must not take longer than the file merits
     lines = [line for line in text.splitlines() if len(line) <= LINE]
@@ -169,6 +175,7 @@ def _pictures(clone: Path, worksheet: str, files: dict[str, bytes]) -> dict[str,
         if path.startswith(("/", "../")) or path in files:
             continue
         with contextlib.suppress(UnreadError):
-            if _size(clone, path):
-                found[path] = b"x"
+            if size := _size(clone, path):
+                whole = size in sizes and read(clone, path, FIGURE)
+                found[path] = whole or b"x"
     return found

@@ -39,7 +39,7 @@ def grade(package: Package, day: Day) -> Result:
         clone.mkdir()
         package.unpack(clone)
         tasks, error = _tasks(package, day, clone)
-        items = _items(package, day, clone)
+        items = _items(package, day, clone, all(task.passed for task in tasks))
         result = _result(day, tasks, items, error)
         return _tidy(result, clone)
 
@@ -49,9 +49,8 @@ def _tasks(package: Package, day: Day, clone: Path) -> tuple[list[TaskResult], s
     name = wanted_files(day)[0]
     if name not in package.files:
         if name in package.unread:
-            verdict = Verdict(
-                "wrong", "does-not-load", f"{name} {package.unread[name]}."
-            )
+            says = f"{name} {package.unread[name]}."
+            verdict = Verdict("todo", "does-not-load", says)
         else:
             start = f"{name} is not there. Begin with: make start DAY={day.number}"
             verdict = Verdict("todo", "not-started", start)
@@ -64,7 +63,7 @@ def _tasks(package: Package, day: Day, clone: Path) -> tuple[list[TaskResult], s
     return results, "" if loads else results[0].verdict.message
 
 
-def _items(package: Package, day: Day, clone: Path) -> list[Item]:
+def _items(package: Package, day: Day, clone: Path, tasks_pass: bool) -> list[Item]:
     """Return the deliverables, in the checker's order."""
     week = clone / day.folder.name
     _, worksheet, figure, log = wanted_files(day)
@@ -72,7 +71,7 @@ def _items(package: Package, day: Day, clone: Path) -> list[Item]:
     checks: list[tuple[str, tuple[str, ...], Callable[[], list[Item]]]] = [
         (figure, ("figure",), lambda: [check_figure(day, week)]),
         (worksheet, written, lambda: check_worksheet(day, week)),
-        (log, ("metrics",), lambda: [check_rows(day, clone)]),
+        (log, ("metrics",), lambda: [check_rows(day, clone, tasks_pass)]),
     ]
     items: list[Item] = []
     for file, names, check in checks:

@@ -8,8 +8,6 @@ from robo47.grading.result import Mark
 from robo47.grading.sheet import Graded
 from robo47.week import Day
 
-NO_MISTAKES = ("", "unwritten", "waits", "not-started")  # nothing to explain again
-
 
 @dataclass(frozen=True)
 class Diagnosis:
@@ -104,7 +102,6 @@ def _roots(day: Day, graded: Graded) -> dict[str, Mark]:
     roots: dict[str, Mark] = {}
     for task in day.tasks:
         mark = marks[task.id]
-        wrong = mark.status in ("wrong", "close") and mark.mistake not in NO_MISTAKES
-        if wrong and all(marks[need].passed for need in task.needs):
+        if mark.is_mistake and all(marks[need].passed for need in task.needs):
             roots.setdefault(mark.mistake, mark)
     return roots

@@ -25,7 +25,7 @@ def _person(graded: Graded, course: Course) -> str:
     mistake = graded.result.first_mistake
     badge, says = "", graded.error
     if mistake:
-        role = STATUS[mistake.status][0]
+        role = "limit" if mistake.status == "close" else "fail"
         name = escape(f"{mistake.id} {mistake.mistake}")
         badge = f'<span class="badge {role}">{name}</span>'
         says = mistake.message

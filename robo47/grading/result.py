@@ -7,6 +7,8 @@ from typing import Any
 from robo47.week import Day
 
 ITEMS = ("figure", "definitions", "drawings", "checklist", "metrics", "commit")
+# Names of what is only not there yet: nothing to explain again.
+NO_MISTAKES = ("", "unwritten", "waits", "not-started")
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
 
 
@@ -30,6 +32,11 @@ class Mark:
     def passed(self) -> bool:
         """Whether nothing is left to do."""
         return self.status == "passed"
+
+    @property
+    def is_mistake(self) -> bool:
+        """Whether something was written and is not right, or cannot be read."""
+        return not self.passed and self.mistake not in NO_MISTAKES
 
 
 @dataclass(frozen=True)
@@ -56,8 +63,7 @@ class Result:
     @property
     def first_mistake(self) -> Mark | None:
         """The first task with a mistake in it, or None."""
-        wrong = ("wrong", "close")
-        return next((task for task in self.tasks if task.status in wrong), None)
+        return next((task for task in self.tasks if task.is_mistake), None)
 
     def to_json(self) -> dict[str, Any]:
         """Return it as plain data."""
