@@ -16,6 +16,7 @@ SECONDS = 60
 WITHOUT_ROBOT = (
     "import runpy, sys; from robo47 import menagerie; "
     f"menagerie.panda_folder = lambda: None; sys.argv[0] = {str(SCRIPT)!r}; "
+    f"sys.path.insert(0, {str(SCRIPT.parent)!r}); "
     "runpy.run_path(sys.argv[0], run_name='__main__')"
 )
 

@@ -7,6 +7,7 @@ import time
 
 import pytest
 from conftest import environment_of
+from test_deliverables import PICTURE, git, png, worksheet
 
 from robo47 import metrics
 from robo47.week import find_day
@@ -115,6 +116,22 @@ class TestCheck:
         assert "0 of 14 done" in run_in(CHECK, 1).stdout
         work.write_text(day.source.read_text("utf-8"))
         assert "9 of 14 done" in run_in(CHECK, 1).stdout
+
+    def test_of_a_day_that_is_done_finds_nothing_left(self, run_in, work, day, clone):
+        work.write_text(day.source.read_text("utf-8"))
+        lab = run_in(
+            "w1-foundations/work/day1_transforms.py",
+            ROBO47_METRICS=str(clone / "metrics" / "metrics.csv"),
+        )
+        assert lab.returncode == 0, lab.stderr
+        (day.folder / day.worksheet).write_text(worksheet(day.terms), "utf-8")
+        (day.folder / day.figure).write_bytes(png(PICTURE))
+        for command in (["init", "-q"], ["add", "-A"], ["commit", "-qm", "Day 1"]):
+            git(clone, *command)
+        done = run_in(CHECK, 1)
+        assert done.returncode == 0, done.stdout
+        assert "14 of 14 done, 100 % of the day." in done.stdout
+        assert "nothing is left to do here. Well done." in done.stdout
 
     def test_names_the_mistake_with_the_number_that_shows_it(self, run_in, work, day):
         solve(day, work, "make_T")

@@ -215,7 +215,8 @@ def test_the_command_writes_the_page_and_the_picture(log):
 def test_the_command_works_without_pillow(log):
     report_on(log, line(value=1e-9))
     script = (
-        "import runpy, sys; sys.modules['PIL'] = None\n"
+        f"import runpy, sys; sys.path.insert(0, {str(SCRIPT.parent)!r})\n"
+        "sys.modules['PIL'] = None\n"
         f"sys.argv = ['report', '--file', {str(log)!r}]\n"
         f"runpy.run_path({str(SCRIPT)!r}, run_name='__main__')"
     )

@@ -24,6 +24,7 @@ def run_after(preparation: str, *arguments: object) -> subprocess.CompletedProce
     """Run the script in a Python that was prepared first."""
     code = (
         f"import runpy, sys; sys.argv[:] = {[str(SCRIPT), *map(str, arguments)]!r}\n"
+        f"sys.path.insert(0, {str(SCRIPT.parent)!r})\n"
         f"{preparation}\n"
         "runpy.run_path(sys.argv[0], run_name='__main__')"
     )
