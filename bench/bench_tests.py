@@ -28,7 +28,8 @@ def run() -> dict:
     seconds = time.perf_counter() - start
     passed = re.search(r"(\d+) passed", done.stdout)
     if done.returncode != 0 or not passed:
-        raise Robo47Error("`make test` fails: mend that before timing it")
+        failed = ", ".join(re.findall(r"^FAILED (\S+)", done.stdout, re.MULTILINE))
+        raise Robo47Error(f"`make test` fails, so its time says nothing: {failed}")
     slow = re.findall(r"^([\d.]+s) call +tests/\S+::(\S+)", done.stdout, re.MULTILINE)
     return {
         "seconds": seconds,
