@@ -12,18 +12,13 @@ import argparse
 import ast
 import contextlib
 import re
-import sys
 import textwrap
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-try:
-    import jupytext
-
-    from robo47 import cli
-    from robo47.paths import ROOT, shown
-except ModuleNotFoundError as missing:
-    sys.exit(f"{missing.name} is not in this Python: run `make notebook` in the clone")
+from robo47 import cli
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
 
 SCRIPT = ROOT / "w1-foundations" / "src" / "day1_transforms.py"
 NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
@@ -75,7 +70,17 @@ SLIDERS = (
 
 
 def build() -> str:
-    """Return the notebook as the text of its file."""
+    """Return the notebook as the text of its file.
+
+    Raises:
+        Robo47Error: jupytext is not installed.
+    """
+    try:
+        import jupytext
+    except ModuleNotFoundError:
+        raise Robo47Error(
+            "jupytext is not installed; run make notebook, which brings it"
+        ) from None
     source = SCRIPT.read_text("utf-8")
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
     cells = [*head(tree), *library(tree, lines), *lab(tree, lines)]
