@@ -13,14 +13,12 @@ class Question:
     Attributes:
         task: whose it is; a task that hangs is not asked again.
         function: a name in the student's file.
-        args: float64 arrays, floats, or a `Model`.
-        path: pairs of body and joint, handed over as `path=`; () where it is left out.
+        args: float64 arrays, floats, a `Model` or a `Path`.
     """
 
     task: str
     function: str
     args: tuple[Any, ...]
-    path: tuple[tuple[str, str | None], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -28,6 +26,13 @@ class Model:
     """Stands for a model in a question's arguments: its place in `run`'s list."""
 
     index: int
+
+
+@dataclass(frozen=True)
+class Path:
+    """An argument that is a path: pairs of body and joint (None where none turns it)."""
+
+    pairs: tuple[tuple[str, str | None], ...]
 
 
 @dataclass(frozen=True)
@@ -43,8 +48,11 @@ class Reply:
         callers: the lines of it that led there, the nearest first.
         changed: names of the arguments that are no longer what they were.
         refused: what the guard refused during the call.
-        used: which of the noted NumPy functions it called.
         printed: what the function printed.
+        again: the value when the question was asked a second time, apart.
+        again_error: "" or what went wrong then.
+        shares: what the answer shares its memory with: "another answer", or the name
+            of an argument.
     """
 
     value: Any = None
@@ -54,8 +62,10 @@ class Reply:
     callers: tuple[int, ...] = ()
     changed: tuple[str, ...] = ()
     refused: tuple[str, ...] = ()
-    used: tuple[str, ...] = ()
     printed: str = ""
+    again: Any = None
+    again_error: str = ""
+    shares: tuple[str, ...] = ()
 
 
 class LoadError(Exception):
