@@ -53,7 +53,9 @@ def _read(name: str) -> tuple[str, tuple[str, ...]]:
     try:
         source = path.read_text("utf-8")
     except OSError:
-        raise Robo47Error(f"a day's library names {shown(path)}, which is not there") from None
+        raise Robo47Error(
+            f"a day's library names {shown(path)}, which is not there"
+        ) from None
     inner: list[str] = []
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom) and node.module == "robo47":

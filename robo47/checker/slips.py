@@ -20,7 +20,11 @@ def unfinished(source: str, function: str) -> str:
     if not isinstance(definition, ast.FunctionDef):
         return ""
     body = definition.body
-    if body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
+    if (
+        body
+        and isinstance(body[0], ast.Expr)
+        and isinstance(body[0].value, ast.Constant)
+    ):
         body = body[1:]  # the docstring
     gaps = [node for node in body if _is_gap(node)]
     rest = [node for node in body if not _is_gap(node)]

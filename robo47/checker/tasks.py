@@ -4,6 +4,7 @@ import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from robo47.checker import model_copy
 from robo47.checker.library import library_of
@@ -78,7 +79,7 @@ def check_tasks(
         replies = sandbox.run(
             script,
             [question for some in questions.values() for question in some],
-            [model_copy.copy_model(robot.model) for robot in models],
+            [_copied(robot) for robot in models],
             model_copy.facts(),
             library_of(day),
             {task.id: set(day.needs(task.id)) for task in asked},
@@ -115,6 +116,11 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
     }
 
 
+def _copied(robot: Robot) -> dict[str, Any]:
+    """Return a robot as it travels; only an unchanged one is what `load` returns."""
+    return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
+
+
 def _sent(question: Question, models: Sequence[Robot]) -> Question:
     """Return a question as it travels: a robot as its place among the models."""
     args = tuple(
@@ -128,7 +134,7 @@ def _following(
     task: Task, day: Day, verdict: Verdict, results: dict[str, TaskResult]
 ) -> Verdict:
     """Return a verdict with the first task below it that has to be right first."""
-    if verdict.status in ("passed", "todo"):
+    if verdict.status in ("passed", "todo") or verdict.mistake == "missing":
         return verdict
     for need in day.needs(task.id):
         if not results[need].passed:

@@ -89,7 +89,9 @@ def _early(task: Task, function: str, reply: Reply, source: str) -> Verdict | No
         )
         return Verdict("wrong", "missing", says)
     if reply.kind == "waits":
-        return Verdict("todo", "waits", reply.error, follows=reply.error)
+        stopped = reply.error.removeprefix("task ")
+        says = f"Not asked: it builds on task {stopped}, which did not return."
+        return Verdict("todo", "waits", says, follows=stopped)
     if reply.kind == "BdbQuit":
         says = f"It stops in the debugger (line {reply.line}): take breakpoint() out."
         return Verdict("wrong", "breakpoint", says)

@@ -83,7 +83,9 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
     return None
 
 
-def first_wrong(names: Sequence[str], given: Sequence[Any], right: Sequence[Array]) -> str:
+def first_wrong(
+    names: Sequence[str], given: Sequence[Any], right: Sequence[Array]
+) -> str:
     """Return from which prefix of the chain on the student is wrong, in a sentence.
 
     Args:
@@ -110,9 +112,7 @@ def first_wrong(names: Sequence[str], given: Sequence[Any], right: Sequence[Arra
     )
 
 
-def _in_place_of(
-    S: Array, factors: Sequence[Factor]
-) -> Iterable[tuple[Factor, Array]]:
+def _in_place_of(S: Array, factors: Sequence[Factor]) -> Iterable[tuple[Factor, Array]]:
     """Yield per factor what the student has in its place, (n, 4, 4)."""
     n = len(S)
     before = [np.broadcast_to(np.eye(4), (n, 4, 4))]
