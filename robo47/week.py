@@ -116,15 +116,34 @@ def find_day(number: int, root: Path = ROOT) -> Day:
     Raises:
         Robo47Error: no week has that day, or a manifest is not right.
     """
-    days = {
-        day.number: day
-        for manifest in sorted(root.glob("w*/week.toml"))
-        for day in load_week(manifest)
-    }
+    days = {day.number: day for day in all_days(root)}
     if number not in days:
         known = ", ".join(str(n) for n in sorted(days)) or "none"
         raise Robo47Error(f"there is no day {number} yet; the kit has: {known}")
     return days[number]
+
+
+def all_days(root: Path = ROOT) -> list[Day]:
+    """Return every day that the kit has, in order.
+
+    Args:
+        root: as `find_day`.
+
+    Raises:
+        Robo47Error: a manifest is not right.
+    """
+    manifests = sorted(root.glob("w*/week.toml"))
+    days = [day for manifest in manifests for day in load_week(manifest)]
+    return sorted(days, key=lambda day: day.number)
+
+
+def started_day(root: Path = ROOT) -> int:
+    """Return the number of the latest day whose lab the student has begun, else 1.
+
+    Args:
+        root: as `find_day`.
+    """
+    return max((day.number for day in all_days(root) if day.work.exists()), default=1)
 
 
 def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:

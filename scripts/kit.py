@@ -35,7 +35,7 @@ def go_on():
             + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew)."
         )
     os.environ["ROBO47_HANDED_ON"] = "1"  # once: a broken .venv must not go in circles
-    command = [OWN] + sys.argv  # noqa: RUF005 (Python 2 has no other way)
+    command = [OWN] + sys.argv
     if os.name == "nt":  # execv there returns to the shell before the script has ended
         import subprocess
 
@@ -52,10 +52,8 @@ def explain_gl(kind, error, trace):
         sys.__excepthook__(kind, error, trace)
         return
     sys.stdout.flush()
-    sys.stderr.write(
-        "error: MuJoCo cannot use MUJOCO_GL=" + chosen + " here. Unset it; `make doctor`"
-        " says what draws on this machine.\n"
-    )
+    says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL\n"
+    sys.stderr.write(says.format(chosen))
     sys.stderr.flush()
     os._exit(2)  # after this hook Python would end with 1
 

@@ -10,7 +10,6 @@ Does nothing when nothing changed, and heals what an interrupted run left behind
 Two at once wait for each other. Uses `uv` where it is installed.
 """
 
-# ruff: noqa: UP
 # Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
 # annotations) that would keep Python 2.7 or 3.6 from saying that it is too old.
 import argparse
@@ -158,7 +157,7 @@ def alone(name):
         folder = os.path.join(ROOT, ".robo47")
         if not os.path.isdir(folder):
             os.makedirs(folder)
-        file = open(os.path.join(folder, name + ".lock"), "a+b")
+        file = open(os.path.join(folder, name + ".lock"), "a+b")  # noqa: SIM115
     except OSError:  # a folder that nobody can write to: setting up will say so
         yield
         return
@@ -264,8 +263,8 @@ def provide(venv, anew, uv):
     wanted, folder = "{}.{}".format(*version), os.path.basename(venv)
     if has is not None and has >= OLDEST and not anew:
         if has != version:
-            say("{} keeps its Python {}.{}.".format(folder, *has))
-            say("    To make it anew with {}: make setup PYTHON={}".format(wanted, python))
+            say("{} keeps its Python {}.{}; to change that:".format(folder, *has))
+            say("make setup PYTHON=" + python)
         return
     before = "{}.{}".format(*has) if has else recorded_version(venv)
     if before and not anew:
