@@ -16,7 +16,7 @@ from robo47.paths import ROOT
 @pytest.fixture
 def log(monkeypatch, tmp_path) -> Path:
     path = tmp_path / "m.csv"
-    monkeypatch.setattr("robo47.lab.METRICS_CSV", path)
+    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", path)
     monkeypatch.setattr("robo47.metrics.METRICS_CSV", path)
     monkeypatch.setattr(sys, "argv", ["lab"])
     return path
