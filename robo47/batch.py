@@ -95,7 +95,7 @@ class Cursor:
         """Add a hinge about a unit axis, (3,)."""
         axis = rounded(self.R @ axis)
         k = int(np.argmax(np.abs(axis)))
-        if abs(axis[k]) != 1.0:  # none of the moving frame's own axes: make it z
+        if np.count_nonzero(axis) > 1:  # none of the moving frame's own: make it z
             self._rotate(_frame_with_z(axis))
             k, axis = 2, np.array([0.0, 0.0, 1.0])
         # A shift along the axis commutes with the turn, so it can wait.
