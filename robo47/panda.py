@@ -23,6 +23,8 @@ from robo47 import menagerie
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
+from robo47.panda_reading import home_pose as home_pose  # read here, named here
+from robo47.panda_reading import screws as screws
 from robo47.paths import TWIN_XML, menagerie_root, shown
 
 # The handout's `home_q`: the arm at the ready, every joint within its limits.
