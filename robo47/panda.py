@@ -23,14 +23,23 @@ from robo47 import menagerie
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
-from robo47.panda_reading import home_pose as home_pose  # read here, named here
-from robo47.panda_reading import screws as screws
+from robo47.panda_reading import (  # read there, named here
+    ARM_JOINTS,
+    hand_inertia,
+    home_pose,
+    inertias,
+    screws,
+)
 from robo47.paths import TWIN_XML, menagerie_root, shown
+
+__all__ = [
+    "DRIVES", "END_FRAME", "READY_Q", "describe", "hand_inertia", "home_pose",
+    "home_q", "inertias", "load", "provenance", "screws",
+]  # fmt: skip
 
 # The handout's `home_q`: the arm at the ready, every joint within its limits.
 READY_Q = np.array([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785])
 READY_Q.flags.writeable = False  # shared by every importer
-ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 
 # Where each entry's arm ends: the same point, turned by 180 degrees about z.
 END_FRAME = {
