@@ -101,8 +101,7 @@ def osc_torque(
 def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -> Array:
     """Return the part of tau that does not accelerate the hand.
 
-    (I - J^T Lambda J M^-1) tau: the dynamically consistent projector. It is the only
-    one for which J M^-1 (its result) = 0; I - J^+ J is not (Khatib 1987).
+    (I - J^T Lambda J M^-1) tau, for which J M^-1 (its result) = 0 (Khatib 1987).
 
     Args:
         J: site Jacobian, (..., m, n).
@@ -189,8 +188,8 @@ def impedance_torque(
     J = checks.array(J, "J", ("m", "n"))
     m, n = J.shape[-2:]
     wrench = checks.array(wrench, "wrench", (m,))
-    qd, bias, tau_null = checks.same_size(qd=qd, bias=bias, tau_null=tau_null)
-    checks.array(qd, "qd", (n,))
+    bias, qd = checks.array(bias, "bias", (n,)), checks.array(qd, "qd", (n,))
+    tau_null = checks.array(tau_null, "tau_null", (n,))
     friction = checks.per_joint(damping, "damping", qd) * qd
     return _times(_T(J), wrench) + bias + friction + tau_null
 
