@@ -74,6 +74,38 @@ def unit(v: Array, name: str) -> Array:
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
+def unit_vector(v: ArrayLike, name: str) -> Array:
+    """Return v as float64, (..., 3), after checking that its length is 1."""
+    v = array(v, name, (3,))
+    length = np.linalg.norm(v, axis=-1)
+    if (bad := np.abs(length - 1.0) > RIGID_TOL).any():
+        raise ValueError(
+            f"{_first(bad, name)} has length {length[bad][0]:.6g}; expected 1: "
+            "divide it by its length"
+        )
+    return v
+
+
+def screws(S: ArrayLike, name: str) -> Array:
+    """Return S as float64, (..., 6), after checking that omega has length 1 or 0."""
+    S = array(S, name, (6,))
+    length = np.linalg.norm(S[..., :3], axis=-1)
+    if (bad := np.minimum(np.abs(length - 1.0), length) > RIGID_TOL).any():
+        raise ValueError(
+            f"{_first(bad, name)} is no screw: omega, its first three numbers, has "
+            f"length {length[bad][0]:.6g}; expected 1 (a hinge) or 0 (a slide)"
+        )
+    return S
+
+
+def screws_and_q(S: ArrayLike, q: ArrayLike) -> tuple[Array, Array]:
+    """Return an arm's screws, (..., n, 6), and q, (..., n), checked together."""
+    S = screws(S, "screws")
+    if S.ndim < 2:
+        raise ValueError(f"screws has shape {S.shape}; expected (..., n, 6)")
+    return S, array(q, "q", S.shape[-2:-1])
+
+
 def rotation(R: ArrayLike, name: str) -> Array:
     """Return R as float64, (..., 3, 3), after checking that it is a rotation."""
     R = array(R, name, (3, 3))
@@ -107,3 +139,8 @@ def pose_flaw(T: Array, tol: float) -> str | None:
         row = worst[np.argmax(np.abs(worst - [0, 0, 0, 1]).max(axis=-1))]
         return f"its bottom row is {np.round(row, 6).tolist()}; expected [0, 0, 0, 1]"
     return rotation_flaw(T[..., :3, :3], tol)
+
+
+def _first(bad: NDArray[np.bool_], name: str) -> str:
+    """Return the first bad one's name: "screws[2]", or "S" where there is only one."""
+    return name + "".join(f"[{i}]" for i in np.argwhere(bad)[0])

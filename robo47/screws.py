@@ -10,9 +10,7 @@ omega = 0 and moves along v. Conventions:
   the arm at q = 0, where the end effector's pose is M = `T_world_ee`.
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.
 
-Sources: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4, Appendix C for
-Denavit and Hartenberg's parameters; Craig, *Introduction to Robotics* (2005), section
-3.4, for the convention used here.
+Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
 """
 
 import functools
@@ -20,9 +18,10 @@ import functools
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
-from robo47.batch import Cursor, Plan, evaluate
-from robo47.checks import RIGID_TOL, Array
+from robo47 import checks, poe, se3
+from robo47.checks import Array
+from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
+from robo47.dh import dh_link as dh_link
 
 
 def skew(w: ArrayLike) -> Array:
@@ -61,7 +60,7 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or an axis not of length 1.
     """
-    axis = _unit(checks.array(axis, "axis", (3,)), "axis")
+    axis = checks.unit_vector(axis, "axis")
     return se3.axis_angle(axis, theta)
 
 
@@ -78,7 +77,7 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or an axis not of length 1.
     """
-    axis = _unit(checks.array(axis, "axis", (3,)), "axis")
+    axis = checks.unit_vector(axis, "axis")
     point = checks.array(point, "point", (3,))
     v = _cross(point, axis)
     return np.concatenate([np.broadcast_to(axis, v.shape), v], axis=-1)
@@ -117,7 +116,7 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or omega of another length.
     """
-    S, theta = checked_screws(S, "S"), checks.array(theta, "theta", ())
+    S, theta = checks.screws(S, "S"), checks.array(theta, "theta", ())
     K, v = skew(S[..., :3]), S[..., 3:, None]
     KK, angle = K @ K, theta[..., None, None]
     s, c = np.sin(angle), 1.0 - np.cos(angle)
@@ -173,34 +172,67 @@ def ad(V: ArrayLike) -> Array:
     return out
 
 
-def checked_screws(S: ArrayLike, name: str) -> Array:
-    """Return screws as float64, (..., 6), after checking that each is one."""
-    S = checks.array(S, name, (6,))
-    length = np.linalg.norm(S[..., :3], axis=-1)
-    bad = np.minimum(np.abs(length - 1.0), length) > RIGID_TOL
-    if bad.any():
-        raise ValueError(
-            f"{_first(bad, name)}: omega, its first three numbers, has length "
-            f"{length[bad][0]:.6g}; expected 1 (a hinge) or 0 (a slide)"
-        )
-    return S
+def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
+    """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
+
+    Many configurations of one arm take one vectorised pass (`robo47.poe`), which is as
+    fast as `kinematics.fk`: it makes the same moves.
+
+    Args:
+        screws: space screws (omega; v), (..., n, 6).
+        M: `T_world_ee` at q = 0, (..., 4, 4).
+        q: joint angles in radians (metres for slides), (..., n).
+
+    Returns:
+        T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.1).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, no screw or not a pose.
+    """
+    S, q = checks.screws_and_q(screws, q)
+    M = checks.pose(M, "M")
+    if S.ndim == M.ndim == 2:
+        return poe.end_poses(poe.arm_of(S, M), q)
+    steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
+    return functools.reduce(np.matmul, steps) @ M
 
 
-def _unit(v: Array, name: str) -> Array:
-    length = np.linalg.norm(v, axis=-1)
-    bad = np.abs(length - 1.0) > RIGID_TOL
-    if bad.any():
-        raise ValueError(
-            f"{_first(bad, name)} has length {length[bad][0]:.6g}; expected a unit "
-            "vector: divide it by its length"
-        )
-    return v
+def body_screws(screws: ArrayLike, M: ArrayLike) -> Array:
+    """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
+
+    Args:
+        screws: space screws (omega; v), (..., n, 6).
+        M: `T_world_ee` at q = 0, (..., 4, 4).
+
+    Returns:
+        Body screws (omega; v), (..., n, 6) (Modern Robotics, section 4.1.3).
+
+    Raises:
+        ValueError: as `fk_space`.
+    """
+    S = checks.screws(screws, "screws")
+    return S @ np.swapaxes(adjoint(se3.inverse(M)), -1, -2)
 
 
-def _first(bad: Array, name: str) -> str:
-    """Return the name of the first bad one: "screws[2]", "S" where there is one."""
-    index = np.argwhere(bad)[0]
-    return name + "".join(f"[{i}]" for i in index)
+def fk_body(body_screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
+    """Return the end effector's pose, M e^[B1] q1 ... e^[Bn] qn.
+
+    M e^[B] = e^[Ad(M) B] M takes M from the left end to the right one, so this is
+    `fk_space` with the screws seen from the world.
+
+    Args:
+        body_screws: body screws (omega; v), (..., n, 6).
+        M: `T_world_ee` at q = 0, (..., 4, 4).
+        q: joint angles in radians (metres for slides), (..., n).
+
+    Returns:
+        T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.3).
+
+    Raises:
+        ValueError: as `fk_space`.
+    """
+    B = checks.screws(body_screws, "body_screws")
+    return fk_space(B @ np.swapaxes(adjoint(M), -1, -2), M, q)
 
 
 def _cross(a: Array, b: Array) -> Array:
