@@ -96,7 +96,7 @@ class Cursor:
         axis = rounded(self.R @ axis)
         k = int(np.argmax(np.abs(axis)))
         if np.count_nonzero(axis) > 1:  # none of the moving frame's own: make it z
-            self._rotate(_frame_with_z(axis))
+            self._rotate(frame_with_z(axis))
             k, axis = 2, np.array([0.0, 0.0, 1.0])
         # A shift along the axis commutes with the turn, so it can wait.
         self._flush_shift(keep=k)
@@ -197,7 +197,7 @@ def rounded(R: Array) -> Array:
     return np.where(np.abs(R - nearest) < ROUNDING, nearest, R)
 
 
-def _frame_with_z(axis: Array) -> Array:
+def frame_with_z(axis: Array) -> Array:
     """Return some rotation whose third column is the unit axis, (3, 3)."""
     x = np.cross(np.eye(3)[np.argmin(np.abs(axis))], axis)
     x /= np.linalg.norm(x)

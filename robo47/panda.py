@@ -25,6 +25,7 @@ from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
 from robo47.panda_reading import (  # read there, named here
     ARM_JOINTS,
+    arm,
     hand_inertia,
     home_pose,
     inertias,
@@ -33,7 +34,7 @@ from robo47.panda_reading import (  # read there, named here
 from robo47.paths import TWIN_XML, menagerie_root, shown
 
 __all__ = [
-    "DRIVES", "END_FRAME", "READY_Q", "describe", "hand_inertia", "home_pose",
+    "DRIVES", "END_FRAME", "READY_Q", "arm", "describe", "hand_inertia", "home_pose",
     "home_q", "inertias", "load", "provenance", "screws",
 ]  # fmt: skip
 

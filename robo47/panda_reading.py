@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from robo47 import kinematics, se3
+from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.screws import screw_axis, skew
@@ -128,6 +129,34 @@ def hand_inertia(
         com = p + R @ model.body_ipos[b]
         parts.append((float(model.body_mass[b]), com, R @ about_com @ R.T))
     return _lumped([part for part in parts if part[0] > 0.0])
+
+
+def arm(model: mujoco.MjModel) -> Arm:
+    """Return the arm, hand included, for loops: see `robo47.arm`.
+
+    Args:
+        model: any entry of `robo47.panda.load`.
+
+    Returns:
+        The seven links; the last one carries the hand, where there is one, with its
+        fingers closed. It ends at `home_pose`.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
+    """
+    poses = kinematics.fk_all(model, np.zeros(model.nq))
+    links = [_link(model, name) for name in ARM_JOINTS]
+    dofs = [int(model.joint(name).dofadr[0]) for name in ARM_JOINTS]
+    bare = Arm(
+        screws(model),
+        home_pose(model),
+        np.stack([poses[f"body:{model.body(link).name}"] for link in links]),
+        *inertias(model),
+        armature=model.dof_armature[dofs],
+        damping=model.dof_damping[dofs],
+        gravity=model.opt.gravity.copy(),
+    )
+    return bare.carrying(*hand_inertia(model))
 
 
 def _lumped(parts: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array]:

@@ -192,7 +192,7 @@ def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
     S, q = checks.screws_and_q(screws, q)
     M = checks.pose(M, "M")
     if S.ndim == M.ndim == 2:
-        return poe.end_poses(poe.arm_of(S, M), q)
+        return poe.end_poses(S, M, q)
     steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
     return functools.reduce(np.matmul, steps) @ M
 
