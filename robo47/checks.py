@@ -24,15 +24,19 @@ def array(value: ArrayLike, name: str, shape: tuple[int | str, ...]) -> Array:
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} is not an array of numbers: {error}") from None
     sizes = checked.shape[max(checked.ndim - len(shape), 0) :]
-    if len(sizes) != len(shape) or any(
-        size == 0 if isinstance(wanted, str) else size != wanted
-        for size, wanted in zip(sizes, shape, strict=True)
-    ):
+    if sizes != shape and not _fits(sizes, shape):
         wanted = ", ".join(["...", *map(str, shape)])
         raise ValueError(f"{name} has shape {checked.shape}; expected ({wanted})")
     if not np.isfinite(checked).all():
         raise ValueError(f"{name} holds a number that is not finite (NaN or infinity)")
     return checked
+
+
+def _fits(sizes: tuple[int, ...], shape: tuple[int | str, ...]) -> bool:
+    return len(sizes) == len(shape) and all(
+        size > 0 if isinstance(wanted, str) else size == wanted
+        for size, wanted in zip(sizes, shape, strict=True)
+    )
 
 
 def same_size(**named: ArrayLike) -> list[Array]:
