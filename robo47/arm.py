@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, screws
+from robo47 import checks
 from robo47.arm_state import ArmState, Constants, from_pseudo_inertia, pseudo_inertias
 from robo47.checks import Array
 
@@ -64,7 +64,7 @@ class Arm:
         for name in ("armature", "damping"):
             value = checks.array(getattr(self, name), name, ())
             object.__setattr__(self, name, np.broadcast_to(value, (n,)))
-        screws.checked_screws(self.screws, "screws")
+        checks.screws(self.screws, "screws")
 
     @cached_property
     def constants(self) -> Constants:

@@ -80,6 +80,8 @@ class Constants:
             [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
         pairs: omega and v of each joint as two columns, (n, 3, 2).
         pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
+        before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
+        after: 1 on and above it: after @ x sums x inwards, from the tip.
         lower: true on and below the diagonal, (n, n).
         armature: on a diagonal, (n, n).
         A_base: acceleration of a base that feels like gravity, (6,).
@@ -95,7 +97,9 @@ class Constants:
         self.pairs = arm.screws.reshape(n, 2, 3).swapaxes(1, 2).copy()
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
-        self.lower = np.tri(n, dtype=bool)
+        self.before = np.tri(n)
+        self.after = self.before.T.copy()
+        self.lower = self.before.astype(bool)
         self.armature = np.diag(arm.armature)
         self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
 
@@ -169,7 +173,8 @@ class ArmState:
     @cached_property
     def _momenta(self) -> Array:
         """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
-        carried = self.G[::-1].cumsum(axis=0)[::-1]
+        n = len(self.q)
+        carried = (self._c.after @ self.G.reshape(n, 36)).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]
 
     @cached_property
@@ -195,9 +200,9 @@ class ArmState:
             Torque, N m, (n,).
         """
         ad_V, V, A = self._motion(qd)
-        both = self.G @ np.stack([A + self._c.A_base, V], axis=-1)
-        F = both[:, :, 0] - (ad_V.swapaxes(1, 2) @ both[:, :, 1:])[:, :, 0]
-        return (self._S * F[::-1].cumsum(axis=0)[::-1]).sum(axis=1)
+        F = self.G @ (A + self._c.A_base)[:, :, None]
+        F -= ad_V.swapaxes(1, 2) @ (self.G @ V[:, :, None])
+        return (self._S * (self._c.after @ F[:, :, 0])).sum(axis=1)
 
     def site_bias(self, qd: ArrayLike) -> Array:
         """Return the acceleration of the arm's end at qdd = 0: J_site's rate times qd.
@@ -222,9 +227,9 @@ class ArmState:
         if qd.shape != (n,):
             raise ValueError(f"qd has shape {qd.shape}; expected ({n},)")
         added = self._S * qd[:, None]
-        V = added.cumsum(axis=0)
+        V = self._c.before @ added
         ad_V = (V @ AD).reshape(n, 6, 6)
-        return ad_V, V, (ad_V @ added[:, :, None])[:, :, 0].cumsum(axis=0)
+        return ad_V, V, self._c.before @ (ad_V @ added[:, :, None])[:, :, 0]
 
 
 def _cross(a: Array, b: Array) -> Array:
