@@ -19,6 +19,10 @@ TABLE_HALF = (0.2, 0.45)  # m
 CUBE_HALF = 0.02  # m: the cube is 40 mm wide, the open hand 80 mm
 CUBE_MASS = 0.08  # kg; the hand's grip lifts up to 0.17
 FRICTION = 1.0  # sliding, of pads and cube; below about 0.45 the cube slips out
+# Time constant of the grip's contacts, s; two time steps, the least MuJoCo allows. Its
+# contacts leave out the change of the Jacobian (Jdot qd), so a carried cube creeps
+# outwards while the arm swings: 7.2 mm at MuJoCo's default of 0.02, 0.9 mm at 0.004.
+GRIP_TIME = 0.004
 TCP = (0.0, 0.0, 0.1034)  # m, on `hand`: between the middles of the two pads
 PAD_HALF = (0.0085, 0.004, 0.0085)  # m, the Menagerie's own fingertip pads
 PAD_POS = (0.0, 0.0055, 0.0445)  # m, on each finger
@@ -70,12 +74,13 @@ def table_top(
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         spec.body("hand").add_site(name="tcp", pos=TCP)
         for finger in ("left_finger", "right_finger"):
-            _box(spec.body(finger), f"{finger}_pad", PAD_HALF, PAD_POS, friction)
+            pad = _box(spec.body(finger), f"{finger}_pad", PAD_HALF, PAD_POS, friction)
+            pad.solref[0] = GRIP_TIME
         _add_table(spec, TABLE_HEIGHT)
         cube = spec.worldbody.add_body(name="cube", pos=pose[:3], quat=pose[3:])
         cube.add_freejoint()
         geom = _box(cube, "cube", (CUBE_HALF,) * 3, (0.0, 0.0, 0.0), friction)
-        geom.mass = mass
+        geom.mass, geom.solref[0] = mass, GRIP_TIME
         geom.rgba = [0.95, 0.55, 0.15, 1.0]
         for key in spec.keys:  # the cube adds seven numbers to qpos
             key.qpos = [*key.qpos, *pose]

@@ -18,8 +18,8 @@ from robo47.checks import Array
 
 GRAVITY = 9.81  # m/s2, of `heaviest_cube`
 # The quintic's largest speed and acceleration, times T and T^2.
-_PEAK_SPEED = 15.0 / 8.0
-_PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
+PEAK_SPEED = 15.0 / 8.0
+PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
 _TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x as the world's
 
 
@@ -59,8 +59,8 @@ def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array
         Duration in seconds, (...); 0 where nothing moves.
     """
     dq = np.abs(checks.array(dq, "dq", ("n",)))
-    by_speed = _PEAK_SPEED * dq / _limit(v_max, "v_max", dq)
-    by_acceleration = np.sqrt(_PEAK_ACCELERATION * dq / _limit(a_max, "a_max", dq))
+    by_speed = PEAK_SPEED * dq / _limit(v_max, "v_max", dq)
+    by_acceleration = np.sqrt(PEAK_ACCELERATION * dq / _limit(a_max, "a_max", dq))
     return np.maximum(by_speed, by_acceleration).max(axis=-1)
 
 
