@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.rotation_log import log_rotation
 
 GRAVITY = 9.81  # m/s2, of `heaviest_cube`
 # The quintic's largest speed and acceleration, times T and T^2.
@@ -156,11 +157,11 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     T0, T1 = checks.pose(T0, "T0"), checks.pose(T1, "T1")
     s = checks.array(s, "s", ())
     R0, p0 = T0[..., :3, :3], T0[..., :3, 3]
-    quat = se3.R_to_quat(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
-    sine = np.linalg.norm(quat[..., 1:], axis=-1)
-    axis = np.where(sine[..., None] > 0.0, quat[..., 1:], [0.0, 0.0, 1.0])
-    turn = se3.axis_angle(axis, s * 2.0 * np.arctan2(sine, quat[..., 0]))
-    return se3.make_T(R0 @ turn, p0 + s[..., None] * (T1[..., :3, 3] - p0))
+    turn = log_rotation(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
+    angle = np.linalg.norm(turn, axis=-1)
+    axis = np.where(angle[..., None] > 0.0, turn, [0.0, 0.0, 1.0])
+    R = R0 @ se3.axis_angle(axis, s * angle)
+    return se3.make_T(R, p0 + s[..., None] * (T1[..., :3, 3] - p0))
 
 
 def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
@@ -187,13 +188,9 @@ def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
 
 
 def carry(
-    m1: ArrayLike,
-    c1: ArrayLike,
-    I1: ArrayLike,
-    m2: ArrayLike,
-    c2: ArrayLike,
-    I2: ArrayLike,
-) -> Array:
+    m1: ArrayLike, c1: ArrayLike, I1: ArrayLike,
+    m2: ArrayLike, c2: ArrayLike, I2: ArrayLike,
+) -> Array:  # fmt: skip
     """Return the one body that two bodies are when the first holds the second.
 
     Masses add up; the inertias are moved to the common centre of mass by the
@@ -240,6 +237,7 @@ def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Ar
 
 def _limit(value: ArrayLike, name: str, dq: Array) -> Array:
     """Return limits above 0, where infinity is allowed and means none."""
+    value = np.asarray(value, dtype=np.float64)
     none = np.isposinf(value)
     finite = checks.per_joint(np.where(none, 1.0, value), name, dq)
     return np.where(none, np.inf, checks.positive(finite, name))
