@@ -9,7 +9,16 @@ from functools import cache
 import numpy as np
 
 from robo47 import kinematics, panda, screws, se3
-from robo47.diagnose import Ask, Matrix, Pose, Rotation, Twist, draw
+from robo47.diagnose import Ask, Matrix, Pose, Probe, Rotation, Twist, draw
+
+from .mistakes import places
+from .mistakes.frames import ADJOINT, BODY_SCREWS
+from .mistakes.lines import JOINT_SCREWS, SCREW_AXIS
+from .mistakes.links import DH_LINK
+from .mistakes.motions import EXP_SCREW
+from .mistakes.products import FK_BODY, FK_SPACE
+from .mistakes.tables import DH_FK
+from .mistakes.turns import EXP_ROTATION, SKEW
 
 JOINTS = tuple(f"the screw of joint{i}" for i in range(1, 8))
 TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
@@ -117,28 +126,46 @@ def _dh_fk(table, q):
     return np.array([screws.dh_fk(one, x) for one, x in zip(table, q, strict=True)])
 
 
-NEAR = 1e-5
+NEAR = 1e-5  # further off is wrong, not only rounded
+
+SCREWS = Matrix((7, 6), rows=JOINTS, columns=TWIST)
+
+
+def _chain(inputs, truth, mistakes) -> Ask:
+    return Ask(
+        inputs,
+        Pose(wrong_way="maps the world to the end effector"),
+        truth=truth,
+        mistakes=mistakes,
+        near=NEAR,
+        probe=Probe(places.alone(inputs)),
+        unnamed=places.unnamed,
+        measured=places.measured,
+    )
+
+
+def _plain(inputs, kind, truth, mistakes) -> Ask:
+    return Ask(inputs, kind, truth=truth, mistakes=mistakes, near=NEAR)
+
 
 QUESTIONS = {
-    "skew": Ask(_vectors, Matrix((3, 3)), truth=screws.skew, near=NEAR),
-    "exp_rotation": Ask(_turns, Rotation(), truth=se3.axis_angle, near=NEAR),
-    "screw_axis": Ask(_hinges, Twist(), truth=screws.screw_axis, near=NEAR),
-    "exp_screw": Ask(_motions, Pose(), truth=screws.exp_screw, near=NEAR),
-    "joint_screws": Ask(
-        _links,
-        Matrix((7, 6), rows=JOINTS, columns=TWIST),
-        truth=screws.joint_screws,
+    "skew": _plain(_vectors, Matrix((3, 3)), screws.skew, SKEW),
+    "exp_rotation": _plain(_turns, Rotation(), se3.axis_angle, EXP_ROTATION),
+    "screw_axis": _plain(_hinges, Twist(), screws.screw_axis, SCREW_AXIS),
+    "exp_screw": _plain(_motions, Pose(), screws.exp_screw, EXP_SCREW),
+    "joint_screws": _plain(_links, SCREWS, screws.joint_screws, JOINT_SCREWS),
+    "fk_space": _chain(_arms, screws.fk_space, FK_SPACE),
+    "adjoint": _plain(_poses, Matrix((6, 6)), screws.adjoint, ADJOINT),
+    "body_screws": _plain(_without_q, SCREWS, screws.body_screws, BODY_SCREWS),
+    "fk_body": _chain(_seen_by_the_hand, screws.fk_body, FK_BODY),
+    "dh_link": _plain(_rows, Pose(), screws.dh_link, DH_LINK),
+    "dh_fk": Ask(
+        _tables,
+        Pose(wrong_way="maps the world to the flange"),
+        truth=_dh_fk,
+        mistakes=DH_FK,
         near=NEAR,
+        unnamed=places.unnamed_row,
+        measured=places.measured,
     ),
-    "fk_space": Ask(_arms, Pose(), truth=screws.fk_space, near=NEAR),
-    "adjoint": Ask(_poses, Matrix((6, 6)), truth=screws.adjoint, near=NEAR),
-    "body_screws": Ask(
-        _without_q,
-        Matrix((7, 6), rows=JOINTS, columns=TWIST),
-        truth=screws.body_screws,
-        near=NEAR,
-    ),
-    "fk_body": Ask(_seen_by_the_hand, Pose(), truth=screws.fk_body, near=NEAR),
-    "dh_link": Ask(_rows, Pose(), truth=screws.dh_link, near=NEAR),
-    "dh_fk": Ask(_tables, Pose(), truth=_dh_fk, near=NEAR),
 }
