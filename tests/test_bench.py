@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import ROOT
 
 from bench import bench_fk, bench_growth, table, timing
+from conftest import ROOT
 from robo47 import kinematics, panda, verify
 
 RESULTS = ROOT / "bench" / "results.json"

@@ -1,4 +1,4 @@
-"""Where along a serial chain a product of poses goes wrong: in one factor, or from where.
+"""Where along a serial chain a product of poses goes wrong.
 
 The right product, cut before or after a factor, is A @ F @ B. If the student's pose is
 A @ X @ B, then all but that place is right, and X is what stands in F's place. Any task

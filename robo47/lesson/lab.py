@@ -144,14 +144,13 @@ class Lab:
         return cli.EXIT_OK
 
     def _judge(self, name: str, wanted: Metric, value: float, bound: float) -> None:
-        strict = value < bound if wanted.min is None else value > bound
-        side = "limit" if wanted.min is None else "at least"
-        verdict = cli.paint("PASS", "good") if strict else cli.paint("FAIL", "bad")
+        good = wanted.passes(value)
+        side = "limit" if wanted.min is None else "over"
+        verdict = cli.paint("PASS", "good") if good else cli.paint("FAIL", "bad")
         number, limit = number_of(value), f"{bound:g}"
         print(f"  {verdict}  {name}: {number} ({side} {limit})")
-        if not strict:
-            must = "under" if wanted.min is None else "over"
-            self.failed.append(f"{name} is {number}; it must be {must} {limit}")
+        if not good:
+            self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
 
 
 def day_of(script: Path) -> Day:
