@@ -81,9 +81,9 @@ def test_a_script_that_is_no_lab_is_refused(log):
 
 def test_a_log_that_refuses_costs_no_row_and_no_word_of_how_it_went(log, capsys):
     log.write_text(LINE.replace("value", "val") + "\n")
-    assert lab_with(1e-9, 2.0, 3e-9).finish() == 1
+    with pytest.raises(Robo47Error) as caught:
+        lab_with(1e-9, 2.0, 3e-9).finish()
     kept = Path(f"{log}.unsaved").read_text().splitlines()
     assert len(kept) == 3
-    shown = capsys.readouterr()
-    assert "FAILED: fk by hand is 2" in shown.out
-    assert all(text in shown.err for text in kept)
+    assert all(f"  row: {text}\n" in str(caught.value) for text in kept)
+    assert "FAILED: fk by hand is 2" in capsys.readouterr().out

@@ -78,8 +78,8 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
             f"q. {rest}",
         )
     for factor, X in found:
-        if factor.unnamed and (finding := factor.unnamed(X)):
-            return Finding(finding.slug, f"{finding.message}. {rest}")
+        if factor.unnamed and (wrong := factor.unnamed(X)):
+            return Finding(wrong.slug, f"{wrong.message}. {rest}")
     return None
 
 

@@ -118,7 +118,7 @@ class Vector(Kind):
         off = np.abs(S - T).max(axis=0) > NEAR * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return None
-        where = " and ".join(self.name(i) for i in np.flatnonzero(off))
+        where = " and ".join(self.name(int(i)) for i in np.flatnonzero(off))
         return Finding(
             "few-entries-off",
             f"All entries are right but {where}: up to {self.apart(S, T)} off.",

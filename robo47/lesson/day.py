@@ -274,7 +274,7 @@ def load_day(manifest: Path) -> Day:
 
 
 def _manifests(root: Path) -> dict[int, Path]:
-    found = {}
+    found: dict[int, Path] = {}
     for path in sorted(root.glob("w*/day*/day.toml")):
         if number := re.fullmatch(r"day(\d+)", path.parent.name):
             other = found.setdefault(int(number[1]), path)

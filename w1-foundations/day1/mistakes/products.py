@@ -142,7 +142,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
         ),
         Mistake(
             "ready-subtracted",
-            "the ready pose's angles are subtracted from q; each joint turns by q itself",
+            "the ready pose's angles are subtracted; each joint turns by q itself",
             lambda q: arm.fk(q - READY_Q),
             "the pose at q minus those angles",
         ),
