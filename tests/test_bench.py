@@ -10,7 +10,7 @@ import pytest
 from compare import assert_same
 from conftest import ROOT
 
-from bench import bench_fk, bench_growth, table, timing
+from bench import bench_dynamics, bench_fk, bench_growth, table, timing
 from robo47 import kinematics, panda, verify
 
 RESULTS = ROOT / "bench" / "results.json"
@@ -52,6 +52,30 @@ def test_a_rival_that_is_not_installed_is_left_out_and_named(monkeypatch, twin):
     assert results["left_out"] == {"gone": "No module named 'pinocchio'"}
     assert set(results["rows"]) == {"ours"}
     assert results["rows"]["ours"]["error"] < 1e-14
+
+
+@pytest.mark.parametrize("name", ["robo47 batch", "MuJoCo, loop"])
+def test_a_rival_in_dynamics_gives_mujocos_answers(name, twin):
+    motion = bench_dynamics._motion(20)
+    rival, truth = bench_dynamics.RIVALS[name](), bench_dynamics.truths(motion)
+    for question in bench_dynamics.QUESTIONS:
+        assert_same(rival.solve(question, motion), truth[question], 1e-12)
+
+
+def test_the_dynamics_table_has_a_row_for_every_rival_and_names_the_missing(
+    monkeypatch, twin
+):
+    def missing():
+        raise ImportError("No module named 'pinocchio'")
+
+    monkeypatch.setitem(bench_dynamics.RIVALS, "Pinocchio, loop", missing)
+    monkeypatch.setattr(bench_dynamics, "ONE", 10)
+    results = bench_dynamics.run(rounds=1, n=300)
+    lines = "\n".join(table._dynamics(results))
+    assert lines.count("robo47 batch") == lines.count("MuJoCo, loop") == 3
+    assert "left out: Pinocchio, loop (No module named 'pinocchio')" in lines
+    assert max(row["error"] for rows in results["questions"].values()
+               for row in rows.values()) < 1e-11  # fmt: skip
 
 
 def test_memory_beyond_input_and_output_does_not_grow_with_the_batch(twin):
