@@ -7,7 +7,8 @@
 Parts: fk (kinematics), dynamics (mass matrix, torques, Jacobian, one configuration),
 lab (the whole script), growth, metrics (a row of the log), tests (`make test`), checker
 (save to verdict), first-minute (a fresh clone; needs the network). All in one run,
-taking turns; results are ratios, since seconds differ from machine to machine. Writes bench/results.json and bench/bench.png.
+taking turns; results are ratios, since seconds differ from machine to machine.
+Writes bench/results.json and bench/bench.png.
 """
 
 import argparse
