@@ -14,18 +14,59 @@ Array = NDArray[np.float64]
 RIGID_TOL = 1e-6
 
 
-def array(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
-    """Return value as float64 after checking its trailing shape and finiteness."""
+def array(value: ArrayLike, name: str, shape: tuple[int | str, ...]) -> Array:
+    """Return value as float64 after checking its trailing shape and finiteness.
+
+    A letter in the shape, as in (6, "n"), stands for any size of at least 1.
+    """
     try:
         checked = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} is not an array of numbers: {error}") from None
-    if checked.shape[max(checked.ndim - len(shape), 0) :] != shape:
+    sizes = checked.shape[max(checked.ndim - len(shape), 0) :]
+    if sizes != shape and not _fits(sizes, shape):
         wanted = ", ".join(["...", *map(str, shape)])
         raise ValueError(f"{name} has shape {checked.shape}; expected ({wanted})")
     if not np.isfinite(checked).all():
         raise ValueError(f"{name} holds a number that is not finite (NaN or infinity)")
     return checked
+
+
+def _fits(sizes: tuple[int, ...], shape: tuple[int | str, ...]) -> bool:
+    return len(sizes) == len(shape) and all(
+        size > 0 if isinstance(wanted, str) else size == wanted
+        for size, wanted in zip(sizes, shape, strict=True)
+    )
+
+
+def same_size(**named: ArrayLike) -> list[Array]:
+    """Return vectors as float64 after checking that their last sizes are equal."""
+    (first, value), *others = named.items()
+    vectors = [array(value, first, ("n",))]
+    n = vectors[0].shape[-1]
+    return vectors + [array(value, name, (n,)) for name, value in others]
+
+
+def per_joint(value: ArrayLike, name: str, like: Array) -> Array:
+    """Return one number for all joints, or one for each as in `like`, as float64."""
+    value = array(value, name, ())
+    return array(value, name, like.shape[-1:]) if value.ndim else value
+
+
+def positive(value: ArrayLike, name: str) -> Array:
+    """Return numbers as float64 after checking that all are above 0."""
+    value = array(value, name, ())
+    if np.any(value <= 0.0):
+        raise ValueError(f"{name} is {value.min():g}; it must be above 0")
+    return value
+
+
+def not_negative(value: ArrayLike, name: str) -> Array:
+    """Return numbers as float64 after checking that none is below 0."""
+    value = array(value, name, ())
+    if np.any(value < 0.0):
+        raise ValueError(f"{name} is {value.min():g}; it must not be below 0")
+    return value
 
 
 def unit(v: Array, name: str) -> Array:

@@ -49,7 +49,7 @@ def screws(model: mujoco.MjModel) -> Array:
         Robo47Error: the model has no joint1 to joint7.
     """
     rows = []
-    poses = kinematics.fk_all(model, np.zeros(model.nq))
+    poses = kinematics.fk_all(model, _drawn(model))
     for name in ARM_JOINTS:
         joint = _joint(model, name)
         T = poses[f"body:{model.body(int(model.jnt_bodyid[joint.id])).name}"]
@@ -70,7 +70,7 @@ def home_pose(model: mujoco.MjModel) -> Array:
     Raises:
         Robo47Error: the model has neither.
     """
-    poses = kinematics.fk_all(model, np.zeros(model.nq))
+    poses = kinematics.fk_all(model, _drawn(model))
     for frame in ENDS:
         if frame in poses:
             return poses[frame] + 0.0
@@ -118,7 +118,7 @@ def hand_inertia(
     """
     link7 = _link(model, ARM_JOINTS[-1])
     bodies = [b for b in range(model.nbody) if _hangs_on(model, b, link7)]
-    q = np.zeros(model.nq)
+    q = _drawn(model)
     q[[model.jnt_qposadr[j] for b in bodies for j in _joints_of(model, b)]] = opening
     poses = kinematics.fk_all(model, q)
     T_link7_world = se3.inverse(poses[f"body:{model.body(link7).name}"])
@@ -144,7 +144,7 @@ def arm(model: mujoco.MjModel) -> Arm:
     Raises:
         Robo47Error: the model has no joint1 to joint7.
     """
-    poses = kinematics.fk_all(model, np.zeros(model.nq))
+    poses = kinematics.fk_all(model, _drawn(model))
     links = [_link(model, name) for name in ARM_JOINTS]
     dofs = [int(model.joint(name).dofadr[0]) for name in ARM_JOINTS]
     bare = Arm(
@@ -157,6 +157,15 @@ def arm(model: mujoco.MjModel) -> Arm:
         gravity=model.opt.gravity.copy(),
     )
     return bare.carrying(*hand_inertia(model))
+
+
+def _drawn(model: mujoco.MjModel) -> Array:
+    """Return qpos with hinges and slides at 0; a free body where the file has it."""
+    q = model.qpos0.copy()
+    for joint in range(model.njnt):
+        if model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
+            q[model.jnt_qposadr[joint]] = 0.0
+    return q
 
 
 def _lumped(parts: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array]:
