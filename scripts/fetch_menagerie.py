@@ -215,9 +215,8 @@ def main() -> int:
     parser.add_argument("--verify", action="store_true", help="hash every file again")
     parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
-    if options.daily and asked().exists():
-        if asked().read_text("utf-8", "replace") == str(datetime.date.today()):
-            return cli.EXIT_OK
+    if options.daily and asked_today():
+        return cli.EXIT_OK
     root = menagerie_root()
     if options.show or options.verify:
         if menagerie.panda_folder() is None:
@@ -247,6 +246,12 @@ def bring(root: Path) -> None:
         show(menagerie.read_provenance())
     else:
         show(adopt(root))
+
+
+def asked_today() -> bool:
+    """Return whether no source answered today."""
+    today = str(datetime.date.today())
+    return asked().is_file() and asked().read_text("utf-8", "replace") == today
 
 
 def asked() -> Path:
