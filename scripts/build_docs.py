@@ -1,7 +1,8 @@
 """Insert fresh outputs into the documents, or check that the ones there still hold.
 
-    python scripts/build_docs.py            run the commands, rewrite their outputs
-    python scripts/build_docs.py --check    change nothing, exit 1 where one drifted
+    make docs                                run the commands, rewrite outputs
+    python3 scripts/build_docs.py            the same
+    python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
 
 A document asks for an output between two comments:
 

@@ -52,7 +52,8 @@ def run_lab(day: Day) -> tuple[int, dict[tuple[str, str], float]]:
             check=False,
         )
         rows = read_rows(log) if log.exists() else []
-    return done.returncode, {(r["check"], r["metric"]): r["value"] for r in rows}
+    values = {(str(r["check"]), str(r["metric"])): r["value"] for r in rows}
+    return done.returncode, {k: float(v) for k, v in values.items() if v is not None}
 
 
 def lines_of(day: Day) -> list[Line]:
