@@ -1,14 +1,13 @@
 """Ask Pinocchio for the Panda's poses and keep its answers for the tests.
 
-    python scripts/make_oracle.py            write tests/data/pinocchio_panda.json
-    python scripts/make_oracle.py --check    compute anew and compare with that file
+    make oracle                              write tests/data/pinocchio_panda.json
+    python3 scripts/make_oracle.py --check   compute anew and compare with it
 
 Pinocchio (pin) reads the same MJCF files but shares no code with MuJoCo or with us.
 It is 480 MB installed and has no Windows wheel, so it gets an environment of its own,
 .venv-oracle, and the tests read its answers from a small file.
 """
 
-import argparse
 import json
 import os
 import subprocess
@@ -100,9 +99,7 @@ def largest_difference(ours: dict, theirs: dict) -> float:
 
 def main() -> int:
     """Write the oracle file, or check it."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
     fresh = ask()
