@@ -2,8 +2,8 @@
 
     python3 scripts/check_day.py 1              the whole day (make check DAY=1)
     python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
-    python3 scripts/check_day.py 1 --watch      again at every save, until Ctrl-C
-    python3 scripts/check_day.py 1 --explain    what was measured and printed, too
+    python3 scripts/check_day.py 1 --watch      again at each save, until Ctrl-C
+    python3 scripts/check_day.py 1 --explain    what was measured and printed
     python3 scripts/check_day.py 1 --json       for tools
 
 Your code runs in a process of its own, on a copy; nothing of yours is changed.

@@ -2,7 +2,7 @@
 
     make notebook DAY=1                              write it
     python3 scripts/make_notebook.py --day 1         the same
-    python3 scripts/make_notebook.py --check         only say if it is up to date
+    python3 scripts/make_notebook.py --check         only say if it is old
 
 The script is the only source: its functions and the steps of its main() become
 cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
