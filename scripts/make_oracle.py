@@ -1,7 +1,7 @@
 """Ask Pinocchio for the Panda's poses and keep its answers for the tests.
 
-    make oracle                              write tests/data/pinocchio_panda.json
-    python3 scripts/make_oracle.py --check   compute anew and compare with it
+    make oracle                      write tests/data/pinocchio_panda.json
+    make oracle ARGS=--check         compute anew and compare with it
 
 Pinocchio (pin) reads the same MJCF files but shares no code with MuJoCo or with us.
 It is 480 MB installed and has no Windows wheel, so it gets an environment of its own,
