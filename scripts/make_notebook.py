@@ -16,11 +16,11 @@ import tomllib
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+from robo47.week import Day, find_day, started_day
 
 from robo47 import cli
 from robo47.errors import Robo47Error
 from robo47.paths import shown
-from robo47.week import Day, find_day, started_day
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 MARKER = re.compile(r"^ *# (?:end)?region (\S+)\n", re.MULTILINE)
