@@ -61,7 +61,7 @@ def check_python(python: str) -> Line:
             "todo",
             "Python",
             found,
-            "The kit needs 3.11 or newer: install it, then make setup PYTHON=python3.13",
+            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
         )
     if not own:
         broken = VENV_PYTHON.exists()

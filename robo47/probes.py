@@ -47,9 +47,10 @@ print(json.dumps(found))
 """
 LESSONS_PROBE = """
 import json
-from robo47 import originals, week
+from robo47 import originals
+from robo47.lesson.day import all_days
 from robo47.paths import shown
-days = week.all_days()
+days = all_days()
 others = [shown(day.source) for day in days if not originals.is_kits(day)]
 print(json.dumps({"days": len(days), "others": others}))
 """

@@ -19,8 +19,8 @@ from robo47 import cli
 from robo47.errors import Robo47Error
 from robo47.figures import backends
 from robo47.figures.lessons import lesson_figures
+from robo47.lesson.day import find_day, started_day
 from robo47.paths import shown
-from robo47.week import find_day, started_day
 
 
 def main() -> int:

@@ -16,10 +16,10 @@ import tomllib
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-from robo47.week import Day, find_day, started_day
 
 from robo47 import cli
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import shown
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
@@ -86,7 +86,7 @@ def extras(day: Day) -> dict[str, list[str]]:
     Raises:
         Robo47Error: the day's notebook.toml is not right; says where.
     """
-    path = day.folder / f"day{day.number}" / "notebook.toml"
+    path = day.own / "notebook.toml"
     if not path.exists():
         return {}
     found: dict[str, list[str]] = {}

@@ -48,5 +48,5 @@ def configurations(rng: np.random.Generator, n: int) -> Array:
 
 
 @cache
-def _arm():
+def _arm():  # noqa: ANN202 (an MjModel)
     return panda.load("panda_nohand")

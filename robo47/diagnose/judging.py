@@ -15,6 +15,7 @@ from robo47.diagnose.rounds import (
     Round,
     held_out_answers,
     in_words,
+    parts,
     right_answers,
     stacked,
 )

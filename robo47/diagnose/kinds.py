@@ -137,10 +137,10 @@ class _Halves(Kind):
     halves = ("first half", "second half")
 
     @property
-    def expected(self) -> str:
+    def expected(self) -> str:  # noqa: D102
         return f"six numbers ({'; '.join(self.halves)})"
 
-    def general(self) -> Sequence[Mistake]:
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
         first, second = self.halves
         return (
             Mistake(
@@ -153,7 +153,7 @@ class _Halves(Kind):
             TRUNCATED,
         )
 
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         first, second = (
             float(np.abs(S[:, half] - T[:, half]).max()) / self.scale
             for half in (slice(0, 3), slice(3, 6))

@@ -71,7 +71,7 @@ class Jacobian(Matrix):
         rows = gap.any(axis=1)
         where = (
             ""
-            if rows.all() or (rows[:3].any() and rows[3:].any())
+            if rows.all() or rows[:3].any() and rows[3:].any()
             else (" in its omega rows" if rows[:3].any() else " in its v rows")
         )
         if found := one_factor(self, S, T):
@@ -134,7 +134,7 @@ def few_entries(
     if not len(rows):
         return None
     one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    own_name = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
+    own_name = one_column and columns[0] == ignored or one_row and rows[0] == ignored
     if own_name and len(rows) > 1:
         return None
     names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
