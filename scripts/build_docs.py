@@ -111,9 +111,8 @@ def main() -> int:
         drift += len(drifted)
         if drifted and not options.check:
             write(path, text)
-    print(
-        f"{len(DOCUMENTS)} documents, {drift} outputs {'drifted' if drift else 'new'}"
-    )
+    state = "drifted" if options.check else "renewed"
+    print(f"{len(DOCUMENTS)} documents, {drift} outputs {state}")
     return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK
 
 
