@@ -75,7 +75,7 @@ DH_LINK = [
     ),
     Mistake(
         "a-and-d-swapped",
-        "a and d have changed places: a is along x, d along z",
+        "the two lengths a and d have changed places: a is along x, d along z",
         lambda alpha, a, d, theta: link(alpha, d, a, theta),
         "the right one with the two swapped",
     ),
@@ -105,13 +105,13 @@ DH_LINK = [
     ),
     Mistake(
         "a-sign",
-        "a is taken the wrong way along x",
+        "the length a is taken the wrong way along x",
         lambda alpha, a, d, theta: link(alpha, -a, d, theta),
         "the right one with -a",
     ),
     Mistake(
         "d-sign",
-        "d is taken the wrong way along z",
+        "the length d is taken the wrong way along z",
         lambda alpha, a, d, theta: link(alpha, a, -d, theta),
         "the right one with -d",
     ),
