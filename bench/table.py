@@ -15,6 +15,7 @@ def render(results: dict[str, Any]) -> str:
     lines.append(", ".join(f"{name} {about[name]}" for name in tools if name in about))
     parts = {
         "fk": _fk,
+        "ik": _ik,
         "dynamics": _dynamics,
         "lab": _lab,
         "growth": _growth,
@@ -44,6 +45,23 @@ def _fk(fk: dict[str, Any]) -> list[str]:
         )
     lines += [f"  left out: {name} ({why})" for name, why in fk["left_out"].items()]
     return lines
+
+
+def _ik(ik: dict[str, Any]) -> list[str]:
+    rows = ik["rows"]
+    ours = rows["robo47 solve_ik"]["us"]
+    lines = [
+        f"Inverse kinematics, {ik['n']:,} random targets, to 1e-8, one thread",
+        f"  {'':33}  {'us each':>7}  {'ours /':>6}  {'solved':>9}  {'within':>6}"
+        f"  {'steps':>5}",
+    ]
+    for name, row in sorted(rows.items(), key=lambda item: item[1]["us"]):
+        solved = f"{row['solved']}/{row['targets']}"
+        lines.append(
+            f"  {name:33}  {row['us']:7.0f}  {ours / row['us']:6.3f}  {solved:>9}"
+            f"  {row['within']:6}  {row['steps']:5.1f}"
+        )
+    return [*lines, *(f"  left out: {n} ({why})" for n, why in ik["left_out"].items())]
 
 
 def _dynamics(dynamics: dict[str, Any]) -> list[str]:

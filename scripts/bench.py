@@ -4,11 +4,11 @@
     python scripts/bench.py fk lab          only these parts
     python scripts/bench.py --table         the last results, nothing is run
 
-Parts: fk (kinematics), dynamics (mass matrix, torques, Jacobian, one configuration),
-lab (the whole script), growth, metrics (a row of the log), tests (`make test`), checker
-(save to verdict), first-minute (a fresh clone; needs the network). All in one run,
-taking turns; results are ratios, since seconds differ from machine to machine.
-Writes bench/results.json and bench/bench.png.
+Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
+configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make
+test`), checker (save to verdict), first-minute (a fresh clone; needs the network). All
+in one run, taking turns; results are ratios, since seconds differ from machine to
+machine. Writes bench/results.json and bench/bench.png.
 """
 
 import argparse
@@ -33,9 +33,17 @@ from bench.table import render  # noqa: E402
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
 PARTS = (
-    "fk", "dynamics", "lab", "growth", "metrics", "tests", "checker", "first-minute"
+    "fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker",
+    "first-minute",
 )  # fmt: skip
-VERSIONS = ("mujoco", "numpy", "pin", "roboticstoolbox-python", "modern-robotics")
+VERSIONS = (
+    "mujoco",
+    "numpy",
+    "pin",
+    "roboticstoolbox-python",
+    "modern-robotics",
+    "mink",
+)
 
 
 def machine() -> dict[str, Any]:

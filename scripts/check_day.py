@@ -21,8 +21,8 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, ROOT, shown
 from robo47.lesson.day import Day, find_day, find_task, started_day
+from robo47.paths import METRICS_CSV, ROOT, shown
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 

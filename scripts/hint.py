@@ -19,9 +19,9 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import ROOT, shown
-from robo47.lesson.starter import read_script, solution
 from robo47.lesson.day import Day, Task, find_day, find_task, started_day
+from robo47.lesson.starter import read_script, solution
+from robo47.paths import ROOT, shown
 
 
 def seen_file() -> Path:

@@ -19,8 +19,8 @@ from tqdm import tqdm
 
 from robo47 import cli
 from robo47.errors import Robo47Error
-from robo47.metrics import read_rows
 from robo47.lesson.day import Day, all_days
+from robo47.metrics import read_rows
 
 Line = tuple[int, str, str, str, str, str]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit")

@@ -6,6 +6,7 @@ import os
 import sys
 
 import pytest
+
 from conftest import ROOT
 
 if not os.environ.get("ROBO47_CI"):

@@ -7,8 +7,9 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT, need
 from inspection import SCRIPT, Served
+
+from conftest import ROOT, need
 
 VIEW = "scripts/view_panda.py"
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
