@@ -16,8 +16,8 @@ with every joint's own axis. A link's factor is fixed; a joint's factor is
 
 (MuJoCo documentation, Computation chapter, "Kinematics").
 
-A frame is named "body:link4" or "site:attachment_site"; the bare name serves where
-only one object has it. Units: metres, radians, quaternions (w, x, y, z).
+A frame is named "body:link4"; the bare name serves where only one object has it.
+Units: metres, radians, quaternions (w, x, y, z).
 """
 
 from collections.abc import Iterator
@@ -100,14 +100,11 @@ class Chain:
 
 
 def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
-    """Return the chain from the world to a frame, read from the model.
+    """Return the chain from the world to a frame, a copy of what the model says.
 
     Args:
         model: any compiled MJCF model.
         frame: "body:NAME", "site:NAME", or a name that only one of them has.
-
-    Returns:
-        The chain; it copies what it needs, so the model may be changed or freed.
 
     Raises:
         ValueError: no such frame, or a body and a site share the bare name.
