@@ -11,7 +11,6 @@ in one run, taking turns; results are ratios, since seconds differ from machine 
 machine. Writes bench/results.json and bench/bench.png.
 """
 
-import argparse
 import datetime
 import importlib
 import importlib.metadata
@@ -74,13 +73,12 @@ def cpu() -> str:
 
 def main() -> int:
     """Run the parts that are asked for and keep the results of the others."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("parts", nargs="*", metavar="PART", help="default: all of them")
     parser.add_argument("--table", action="store_true", help="print the last results")
     options = parser.parse_args()
-    if unknown := set(options.parts) - set(PARTS):
+    unknown = set(options.parts) - set(PARTS)
+    if unknown:
         raise Robo47Error(
             f"no part {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}"
         )

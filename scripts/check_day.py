@@ -1,10 +1,10 @@
 """Check a day: which tasks and deliverables stand, and what exactly went wrong.
 
-    python scripts/check_day.py 1               the whole day (make check DAY=1)
-    python scripts/check_day.py 1 --task 1.4    one task      (make check TASK=1.4)
-    python scripts/check_day.py 1 --watch       again at every save, until Ctrl-C
-    python scripts/check_day.py 1 --explain     with what was measured and printed
-    python scripts/check_day.py 1 --json        for tools
+    python3 scripts/check_day.py 1              the whole day (make check DAY=1)
+    python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
+    python3 scripts/check_day.py 1 --watch      again at each save, until Ctrl-C
+    python3 scripts/check_day.py 1 --explain    what was measured and printed
+    python3 scripts/check_day.py 1 --json       for tools
 
 Your code runs in a process of its own, on a copy; nothing of yours is changed.
 Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.

@@ -1,9 +1,9 @@
 """Get the next hint for a task; the solution, to compare, once yours passes.
 
-    python scripts/hint.py 1.4           (make hint TASK=1.4)
-    python scripts/hint.py 1.4 --again   the last one once more
-    python scripts/hint.py               for the first task that does not pass yet
-    python scripts/hint.py figure        what is missing in something you hand in
+    python3 scripts/hint.py 1.4          (make hint TASK=1.4)
+    python3 scripts/hint.py 1.4 --again  the last one once more
+    python3 scripts/hint.py              for the first task that is not passed
+    python3 scripts/hint.py figure       what is missing in it
 
 Each call gives one more hint and the section to re-read. What you have had is
 remembered in .robo47/, which git ignores.

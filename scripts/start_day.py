@@ -76,9 +76,9 @@ def reset(task_id: str) -> int:
 def free_name(work: Path, task_id: str) -> Path:
     """Return a name beside the student's file that nothing has yet."""
     number = 1
-    while (path := work.with_suffix(f".before-{task_id}-{number}.txt")).exists():
+    while work.with_suffix(f".before-{task_id}-{number}.txt").exists():
         number += 1
-    return path
+    return work.with_suffix(f".before-{task_id}-{number}.txt")
 
 
 def main() -> int:
