@@ -16,6 +16,7 @@ def render(results: dict[str, Any]) -> str:
     parts = {
         "fk": _fk,
         "ik": _ik,
+        "dynamics": _dynamics,
         "lab": _lab,
         "growth": _growth,
         "metrics": _metrics,
@@ -61,6 +62,22 @@ def _ik(ik: dict[str, Any]) -> list[str]:
             f"  {row['within']:6}  {row['steps']:5.1f}"
         )
     return [*lines, *(f"  left out: {n} ({why})" for n, why in ik["left_out"].items())]
+
+
+def _dynamics(dynamics: dict[str, Any]) -> list[str]:
+    lines = [f"Dynamics of the Panda, {dynamics['n']:,} configurations, one thread"]
+    for question, rows in dynamics["questions"].items():
+        ours = rows["robo47 batch"]["us"]
+        lines.append(f"  {question:32}  {'us each':>8}  {'ours /':>6}  {'error':>7}")
+        lines += [
+            f"    {name:30}  {row['us']:8.3f}  {ours / row['us']:6.3f}"
+            f"  {row['error']:7.0e}"
+            for name, row in sorted(rows.items(), key=lambda item: item[1]["us"])
+        ]
+    lines.append("  one configuration at a time, us")
+    lines += [f"    {what:30}  {us:8.1f}" for what, us in dynamics["one"].items()]
+    left_out = dynamics["left_out"].items()
+    return lines + [f"  left out: {name} ({why})" for name, why in left_out]
 
 
 def _lab(lab: dict[str, Any]) -> list[str]:

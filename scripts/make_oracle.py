@@ -1,7 +1,7 @@
 """Ask Pinocchio for the Panda's poses and forces and keep its answers for the tests.
 
-    python scripts/make_oracle.py            write the files in tests/data/
-    python scripts/make_oracle.py --check    compute anew and compare with them
+    make oracle                      write the files in tests/data/
+    make oracle ARGS=--check         compute anew and compare with them
 
 pinocchio_panda.json holds poses of every frame; dynamics_oracle.json what crba and rnea
 say: both with the armature, which Pinocchio reads from the file, without damping.
@@ -14,7 +14,6 @@ It is 480 MB installed and has no Windows wheel, so it gets an environment of it
 .venv-oracle, and the tests read its answers from a small file.
 """
 
-import argparse
 import json
 import os
 import subprocess
@@ -206,9 +205,7 @@ ORACLES = {
 
 def main() -> int:
     """Write the oracle files, or check them."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
     all_same = True

@@ -1,7 +1,7 @@
 """A day's catalogue: students' files, and what each is to be told.
 
     python tests/catalogue.py 1              every file of day 1: what differs, totals
-    python tests/catalogue.py 1 fk_hand      files with that in their name, with messages
+    python tests/catalogue.py 1 fk_hand      with messages, files named like that
 
 Each file opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3: passed`) and, below it,
 what the student did. Where a mistake cannot show when the file runs as a lab, the first
@@ -20,18 +20,20 @@ from typing import NamedTuple
 
 import inprocess
 
+from conftest import load_script
 from robo47.diagnose import Verdict
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, find_day
 
 _HEADER = re.compile(
-    r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?\n# .+\n"
+    r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"
+    r"\n# .+\n"
 )
 STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
 
 
 class Submission(NamedTuple):
-    """One file: what folder it is in, its tasks, what it must be told, seen in a run."""
+    """One file: its folder, its tasks, what it must be told, whether a run shows it."""
 
     path: Path
     folder: str
@@ -74,10 +76,7 @@ def run_as_lab(day: Day, submission: Submission | None = None) -> int:
         day: whose complete script is run, without logging, in this process.
         submission: its functions of the day's tasks take the script's place.
     """
-    lab = types.ModuleType(day.source.stem)
-    lab.__file__ = str(day.source)
-    source = day.source.read_text("utf-8").replace("\nimport kit ", "\n# ")
-    exec(compile(source, str(day.source), "exec"), vars(lab))
+    lab = load_script(day.source)
     if submission:
         own = types.ModuleType(submission.path.stem)
         code = submission.path.read_text("utf-8")

@@ -20,7 +20,7 @@ def right(ask):
 
 
 def replies_of(values, ask):
-    """Return replies with these answers, per part (n, ...); the second time the same."""
+    """Return replies with these answers, per part (n, ...), twice the same."""
     columns = parts(values) if isinstance(values, tuple) else (np.asarray(values),)
     found = []
     for row in zip(*columns, strict=True):

@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import ROOT
 
-from bench import bench_fk, bench_growth, bench_ik, table, timing
+from bench import bench_dynamics, bench_fk, bench_growth, bench_ik, table, timing
+from conftest import ROOT
 from robo47 import kinematics, panda, verify
 
 RESULTS = ROOT / "bench" / "results.json"
@@ -77,6 +77,30 @@ def test_answers_of_inverse_kinematics_are_judged_not_believed(monkeypatch, twin
     assert max(map(len, text.splitlines())) <= 80
 
 
+@pytest.mark.parametrize("name", ["robo47 batch", "MuJoCo, loop"])
+def test_a_rival_in_dynamics_gives_mujocos_answers(name, twin):
+    motion = bench_dynamics._motion(20)
+    rival, truth = bench_dynamics.RIVALS[name](), bench_dynamics.truths(motion)
+    for question in bench_dynamics.QUESTIONS:
+        assert_same(rival.solve(question, motion), truth[question], 1e-12)
+
+
+def test_the_dynamics_table_has_a_row_for_every_rival_and_names_the_missing(
+    monkeypatch, twin
+):
+    def missing():
+        raise ImportError("No module named 'pinocchio'")
+
+    monkeypatch.setitem(bench_dynamics.RIVALS, "Pinocchio, loop", missing)
+    monkeypatch.setattr(bench_dynamics, "ONE", 10)
+    results = bench_dynamics.run(rounds=1, n=300)
+    lines = "\n".join(table._dynamics(results))
+    assert lines.count("robo47 batch") == lines.count("MuJoCo, loop") == 3
+    assert "left out: Pinocchio, loop (No module named 'pinocchio')" in lines
+    assert max(row["error"] for rows in results["questions"].values()
+               for row in rows.values()) < 1e-11  # fmt: skip
+
+
 def test_memory_beyond_input_and_output_does_not_grow_with_the_batch(twin):
     chain = kinematics.chain_to(panda.load("panda_nohand"), "attachment_site")
     small, large = (
@@ -119,7 +143,8 @@ def test_the_table_is_printed_without_running_anything(run):
 def test_an_unknown_part_is_refused_with_the_ones_there_are(run):
     done = run("scripts/bench.py", "kf")
     assert done.returncode == 2
-    assert "no part kf; there are fk, ik, lab" in done.stderr
+    assert "no part kf; there are fk, ik" in done.stderr
+    assert "no part kf; there are fk, dynamics, lab" in done.stderr
 
 
 def test_the_handouts_script_mended_runs(real_panda):
