@@ -29,6 +29,7 @@ PAD_POS = (0.0, 0.0055, 0.0445)  # m, on each finger
 
 PRESS_HEIGHT = 0.4  # m, of the table's top in `press_table`
 TIP_RADIUS = 0.02  # m, of the ball whose centre is `attachment_site`
+PRESS_XY = (0.44, 0.0)  # m, a good place to press; how stiff the arm is depends on it
 TOUCH = PRESS_HEIGHT + TIP_RADIUS  # m, height of `attachment_site` at first touch
 
 
@@ -108,6 +109,7 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
         tip = spec.body("attachment").add_geom(
             name="tip", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[TIP_RADIUS, 0, 0]
         )
+        tip.contype = tip.conaffinity = 1
         tip.mass = 0.0  # what the arm weighs stays as it is
         _add_table(spec, PRESS_HEIGHT)
 
@@ -147,6 +149,7 @@ def _box(body, name: str, half, pos, friction: float, condim: int = 4):
     geom = body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=half, pos=pos)
     geom.friction[0] = friction
     geom.condim = condim
+    geom.contype = geom.conaffinity = 1  # the twin's own default is 0
     return geom
 
 
