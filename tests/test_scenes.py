@@ -37,8 +37,8 @@ def test_the_cube_rests_on_the_table_with_its_weight(robot):
     for _ in range(500):
         data.qpos[:7], data.qvel[:7] = READY_Q, 0.0
         mujoco.mj_step(model, data)
-    # measured 4.0e-5 m deep on 4.0.0 and on 3.3.0; limit twice that
-    assert_same(cube_pose(model, data)[:3], [0.5, 0.2, 0.22], 8e-5)
+    # measured 3.9e-5 m deep on 4.0.0, 7.9e-5 on 3.3.0; limit twice that
+    assert_same(cube_pose(model, data)[:3], [0.5, 0.2, 0.22], 1.6e-4)
     force = scenes.contact_force(model, data, "cube", "table_top")
     assert force == pytest.approx(scenes.CUBE_MASS * 9.81, rel=1e-3)
     assert scenes.contact_force(model, data, "cube", "left_finger_pad") == 0.0
