@@ -7,7 +7,6 @@ everything that can fail is tried in a process of its own.
 from __future__ import annotations
 
 import functools
-import json
 import os
 import platform
 import re
@@ -16,52 +15,24 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-ROOT = Path(__file__).resolve().parent.parent  # no robo47 import: it may be broken
+from robo47.probes import (
+    GL_PROBE,
+    LESSONS_PROBE,
+    MUJOCO_PROBE,
+    PYTHON_PROBE,
+    ROBOT_PROBE,
+    ROOT,
+    VERSIONS_PROBE,
+    probe,
+)
+
 VENV_PYTHON = (
     ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 )
 OLDEST = (3, 11)
 LEAST_FREE_GB = 1
-PROBE_SECONDS = 60
-
-PYTHON_PROBE = "import json, platform; print(json.dumps(platform.python_version()))"
-VERSIONS_PROBE = """
-import json
-from importlib import metadata
-found = {}
-for name in ("mujoco", "mujoco-core", "numpy"):
-    try:
-        found[name] = metadata.version(name)
-    except metadata.PackageNotFoundError:
-        pass
-print(json.dumps(found))
-"""
-MUJOCO_PROBE = """
-import json, mujoco
-mujoco.mj_forward(m := mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(m))
-print(json.dumps(mujoco.__version__))
-"""
-ROBOT_PROBE = """
-import json
-from robo47 import menagerie, panda
-from robo47.paths import menagerie_root
-found = panda.provenance()
-found["loads"] = panda.load("panda_nohand").nq
-folder = menagerie.panda_folder()
-if folder:
-    record = menagerie.read_provenance().get("files")
-    found["files"] = len(record or ())
-    found["changed"] = menagerie.changed_files(folder, record or {})[:3]
-    found["missing"] = menagerie.missing_files(folder)[:3]
-print(json.dumps(found))
-"""
-GL_PROBE = """
-import json
-from robo47.figures import probe_backends
-print(json.dumps(probe_backends()))
-"""
 
 
 class Line(NamedTuple):
@@ -71,27 +42,6 @@ class Line(NamedTuple):
     about: str
     found: str
     remedy: str = ""
-
-
-def probe(python: str, code: str) -> tuple[Any, str]:
-    """Run code that prints one JSON value; return it, or None and the last words."""
-    try:
-        done = subprocess.run(
-            [python, "-c", code],
-            cwd=str(ROOT),
-            capture_output=True,
-            timeout=PROBE_SECONDS,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return None, "no answer after {} s".format(PROBE_SECONDS)  # noqa: UP032
-    except OSError as error:
-        return None, str(error.strerror)
-    try:
-        return json.loads(done.stdout.decode("utf-8", "replace").splitlines()[-1]), ""
-    except (ValueError, IndexError):
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        return None, said[-1] if said else f"ended with code {done.returncode}"
 
 
 def kit_python() -> str:
@@ -135,7 +85,7 @@ def check_mujoco(python: str) -> Line:
         return Line("good", "MuJoCo", version)
     installed = probe(python, VERSIONS_PROBE)[0] or {}
     if "mujoco" not in installed:
-        return Line("todo", "MuJoCo", "not installed", "make day1")
+        return Line("todo", "MuJoCo", "not installed", "make setup")
     found = "{} does not work: {}".format(installed["mujoco"], why)
     if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
@@ -154,30 +104,45 @@ def check_mujoco(python: str) -> Line:
 def check_robot(python: str) -> Line:
     """The Panda: its source, and whether its files are as they were fetched."""
     found, why = probe(python, ROBOT_PROBE)
-    fetch = "python scripts/fetch_menagerie.py"
     if found is None:
         return Line("todo", "robot", why.split("Robo47Error: ")[-1])
     if "files" not in found:
         says = "not fetched; the labs run on the embedded twin"
-        return Line("note", "robot", says, "With a network: " + fetch)
+        return Line("note", "robot", says, "With a network: make robot")
     broken = sorted({*found["missing"], *found["changed"]})
     if broken:
-        remedy = "Delete " + found["folder"] + ", then: " + fetch
+        remedy = "Delete " + found["folder"] + ", then: make robot"
         return Line("todo", "robot", "not as fetched: " + ", ".join(broken), remedy)
     where = found["commit"] or "sha256 " + found["content"]
     hashes = "{} files match".format(found["files"]) if found["files"] else "no hashes"
     return Line("good", "robot", ", ".join([found["source"], where[:15], hashes]))
 
 
+def check_lessons(python: str) -> Line:
+    """The lab scripts of the lessons: the kit's own, or something saved over them."""
+    found, why = probe(python, LESSONS_PROBE)
+    if found is None:
+        return Line("todo", "lessons", why.split("Robo47Error: ")[-1])
+    if found["others"]:
+        says = "not the kit's: " + ", ".join(found["others"])
+        remedy = "To get it back: git checkout -- " + found["others"][0]
+        return Line("todo", "lessons", says, remedy)
+    return Line("good", "lessons", "days: {}".format(found["days"]))
+
+
 def check_gl(python: str) -> Line:
     """Which OpenGL back ends really draw."""
-    found, why = probe(python, GL_PROBE)
+    chosen = os.environ.get("MUJOCO_GL", "")
+    found, why = probe(python, GL_PROBE, gl=True)
     if found is None:
         return Line("note", "pictures", "not tried: " + why)
     draws = [name for name, says in found.items() if says == "renders"]
     if draws:
         return Line("good", "pictures", "drawn with " + ", ".join(draws))
     why = "; ".join(name + ": " + says for name, says in found.items())
+    if chosen:  # the one that was tried
+        says = "MUJOCO_GL=" + chosen + " does not draw here: " + found[chosen.strip()]
+        return Line("todo", "pictures", says, "Unset it: unset MUJOCO_GL")
     if sys.platform.startswith("linux"):
         return Line(
             "todo",
@@ -239,7 +204,7 @@ def examine() -> list[Line]:
     python = kit_python()
     checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
     if check_python(python).status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_gl)
+        inside = (check_mujoco, check_robot, check_lessons, check_gl)
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []

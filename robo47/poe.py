@@ -95,7 +95,7 @@ def jacobian_columns(arm: Arm, q: Array, at_end: bool) -> tuple[Array, Array, Ar
         x, y, z = x - end[0, 3], y - end[1, 3], z - end[2, 3]
     # v = point x omega, written out: np.cross takes ten times as long.
     J[3], J[4], J[5] = y * c - z * b, z * a - x * c, x * b - y * a
-    if arm.pitch.any():
+    if arm.pitch.any() or not arm.turns.all():
         J[3:] = J[3:] * arm.turns + J[:3] * arm.pitch
         J[:3] *= arm.turns
     return J, end[:, :3], end[:, 3]

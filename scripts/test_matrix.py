@@ -1,14 +1,13 @@
 """Run the tests on the oldest and the newest MuJoCo and Python that the kit claims.
 
     make test-matrix                                  all four
-    python scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
-    python scripts/test_matrix.py --pytest "-k se3"   only some of the tests
+    python3 scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
+    python3 scripts/test_matrix.py --pytest "-k se3"   only some of the tests
 
 Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that is
 not on this machine's PATH is named and left out.
 """
 
-import argparse
 import os
 import shlex
 import shutil
@@ -73,9 +72,7 @@ def run(command: list[str]) -> None:
 
 def main() -> int:
     """Run every pair and print one line for each."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--python", nargs="+", default=PYTHONS, metavar="X.Y")
     parser.add_argument("--mujoco", nargs="+", default=MUJOCOS, metavar="X.Y.Z")
     parser.add_argument("--pytest", default="", help="options for pytest, in quotes")

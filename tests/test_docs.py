@@ -4,9 +4,9 @@ import re
 import shutil
 
 import pytest
-from conftest import ROOT, kits_worksheet, need
 
-from robo47.week import find_day
+from conftest import ROOT, kits_worksheet, need
+from robo47.lesson.day import find_day
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
@@ -20,6 +20,7 @@ DOCUMENTS = [
 ]
 
 
+@pytest.mark.kit
 def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
     need(shutil.which("make") is not None, "make")
     done = run("scripts/build_docs.py", "--check")

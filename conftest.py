@@ -1,0 +1,208 @@
+"""What every test file shares: the robot, a clean environment, and honest skips."""
+
+import os
+import shutil
+import subprocess
+import sys
+import textwrap
+import types
+from pathlib import Path
+
+import mujoco
+import pytest
+
+from robo47 import menagerie, panda
+from robo47.errors import Robo47Error
+from robo47.figures import backends
+
+ROOT = Path(__file__).resolve().parent
+
+
+def need(available: bool, what: str) -> None:
+    """Skip a test for want of something, or fail where CI was to install it."""
+    if not available:
+        if os.environ.get("ROBO47_CI"):
+            pytest.fail(f"CI must provide {what}")
+        pytest.skip(f"needs {what}")
+
+
+def load_script(path):
+    """Return a lab script as a module, without handing on to the kit's own Python."""
+    module = types.ModuleType(path.stem)
+    module.__file__ = str(path)
+    source = path.read_text("utf-8").replace("\nimport kit ", "\n# ")
+    exec(compile(source, str(path), "exec"), vars(module))
+    return module
+
+
+@pytest.fixture
+def real_panda() -> Path:
+    """Return the real Panda's folder."""
+    folder = menagerie.panda_folder()
+    need(folder is not None, "the real Panda: python scripts/fetch_menagerie.py")
+    assert folder is not None
+    return folder
+
+
+@pytest.fixture
+def twin(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hide the Menagerie, so that `panda.load` falls back to the twin."""
+    monkeypatch.setattr(menagerie, "panda_folder", lambda: None)
+
+
+@pytest.fixture(params=["real", "twin"])
+def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
+    """Return panda_nohand, once from the Menagerie and once from the twin."""
+    request.getfixturevalue("real_panda" if request.param == "real" else "twin")
+    return panda.load("panda_nohand")
+
+
+def environment_of(clone: Path) -> dict[str, str]:
+    """Return this environment, with a clone's own `robo47` and this clone's robot."""
+    robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
+    paths = [str(clone), os.environ.get("PYTHONPATH", "")]
+    own = {"PYTHONPATH": os.pathsep.join(filter(None, paths)), "COLUMNS": "80"}
+    if Path(robots).is_dir():
+        own["MENAGERIE_ROOT"] = robots
+    return {**os.environ, **own}
+
+
+def kits_worksheet(day) -> str:
+    """Return a day's worksheet as the kit brings it, or skip: a student's own."""
+    text = (day.folder / day.worksheet).read_text("utf-8")
+    untouched = text.count("*(your words)*") == len(day.terms)
+    need(untouched, "the worksheet as the kit brings it; here it is filled in")
+    return text
+
+
+def empty_worksheet(day) -> str:
+    """Return a worksheet with room for all that a day asks, and nothing filled in."""
+    lines = ["# Worksheet", "## Glossary"]
+    for term in day.terms:
+        lines += [f"### {term}", "", "*(your words)*", ""]
+    for i in range(day.drawings):
+        lines += [f"### Drawing {i + 1}: a frame", "", "*(your drawing)*", ""]
+    lines += ["## Can you explain?", ""]
+    for i in range(day.questions):
+        lines += [f"{i + 1}. You move it along x. Whose x? Which", "   side is it on?"]
+        lines += ["", "   *(your answer)*", ""]
+    return "\n".join([*lines, "## Checklist", "- [ ] I ran it", "- [ ] I read it", ""])
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of the kit that a test may work in, with nothing done in it.
+
+    A student's clone holds rows, a worksheet and pictures of their own: `make test`
+    must pass on it as well.
+    """
+    copy = tmp_path / "clone"
+    copy.mkdir()
+    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+        skipped = shutil.ignore_patterns("__pycache__", "work")
+        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    from robo47 import metrics
+    from robo47.lesson.day import find_day
+
+    day = find_day(1, copy)
+    (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
+    (day.folder / day.figure).unlink(missing_ok=True)
+    (day.folder / day.worksheet).write_text(empty_worksheet(day), "utf-8")
+    return copy
+
+
+@pytest.fixture
+def run_in(clone):
+    """Run a script of that copy as a student would, in a process of its own."""
+
+    def run_script(script, *arguments, **environment):
+        return subprocess.run(
+            [sys.executable, str(clone / script), *map(str, arguments)],
+            cwd=clone,
+            env={**environment_of(clone), **environment},
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=120,
+            check=False,
+        )
+
+    return run_script
+
+
+@pytest.fixture
+def gl() -> None:
+    """Skip where no OpenGL backend draws pictures."""
+    try:
+        backends.rendering_environment()
+    except Robo47Error as error:
+        need(False, f"an OpenGL backend: {error}")
+
+
+@pytest.fixture
+def run():
+    """Run a script of the kit as a person would, in a process of its own."""
+
+    def run_script(
+        script, *arguments, cwd=ROOT, stdin=None, timeout=120, **environment
+    ):
+        return subprocess.run(
+            [sys.executable, str(ROOT / script), *map(str, arguments)],
+            cwd=cwd,
+            input=stdin,
+            env={**os.environ, **{k: str(v) for k, v in environment.items()}},
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=timeout,
+            check=False,
+        )
+
+    return run_script
+
+
+@pytest.fixture
+def student(tmp_path):
+    """Write a student's file and return its path."""
+
+    def write(code, name="day1_transforms.py"):
+        path = tmp_path / "work" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(textwrap.dedent(code), "utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def ask(student):
+    """Ask a student's file for `f()`, or for what is given."""
+
+    from robo47 import panda
+    from robo47.checker.model_copy import copy_model, facts
+    from robo47.checker.replies import Question
+    from robo47.checker.sandbox import Sandbox
+
+    def run(code, *questions, library=None, needs=None):
+        with Sandbox() as sandbox:
+            models = [copy_model(panda.load("panda_nohand"), "panda_nohand")]
+            asked = questions or [Question("1.1", "f", ())]
+            file = student(code)
+            return sandbox.run(file, asked, models, facts(), library, needs)
+
+    return run
+
+
+@pytest.fixture
+def check(student):
+    """Check a student's file; return {task: verdict}."""
+    from robo47.checker.sandbox import Sandbox
+    from robo47.checker.tasks import check_tasks
+    from robo47.lesson.day import find_day
+
+    def run(code, only=None):
+        with Sandbox() as sandbox:
+            results = check_tasks(find_day(1), student(code), sandbox, only)
+        return {result.task.id: result.verdict for result in results}
+
+    return run

@@ -1,0 +1,89 @@
+"""What the lab's end does with the rows of its run."""
+
+import hashlib
+import sys
+from pathlib import Path
+
+import pytest
+
+from robo47.errors import Robo47Error
+from robo47.lesson.day import find_day
+from robo47.lesson.lab import Lab
+from robo47.metrics import read_rows
+from robo47.metrics.header import LINE
+
+SCRIPT = find_day(1).source
+
+
+@pytest.fixture
+def log(monkeypatch, tmp_path) -> Path:
+    path = tmp_path / "m.csv"
+    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", path)
+    monkeypatch.setattr("robo47.metrics.METRICS_CSV", path)
+    monkeypatch.setattr(sys, "argv", ["lab"])
+    return path
+
+
+def lab_with(*values) -> Lab:
+    lab = Lab(str(SCRIPT), "A lab.")
+    for value in values:
+        lab.record("fk_by_hand", value)
+    return lab
+
+
+def test_the_rows_of_a_run_are_logged_together(log, capsys):
+    assert lab_with(1e-9).finish() == 0
+    assert "logged 1 row to" in capsys.readouterr().out
+    assert lab_with(1e-9, float("nan")).finish() == 1
+    assert [row["n_failures"] for row in read_rows(log)] == [0, 0, 1]
+    assert "logged 2 rows to" in capsys.readouterr().out
+
+
+def test_checking_and_recording_is_one_call_with_the_manifests_limit(log, capsys):
+    lab_with(2e-8).finish()
+    out = capsys.readouterr().out
+    assert "FAIL  fk by hand: 2.0e-08 (limit 1e-08)" in out
+    (row,) = read_rows(log)
+    assert (row["value"], row["n_failures"]) == (2e-8, 1)
+
+
+def test_the_absolute_value_is_judged(log, capsys):
+    lab = lab_with([-0.5, 1e-9])
+    lab.check("e", [-0.5, -0.3])
+    assert lab.finish() == 1
+    out = capsys.readouterr().out
+    assert "FAIL  e: 0.5" in out
+    (row,) = read_rows(log)
+    assert (row["value"], row["n_trials"], row["n_failures"]) == (0.5, 2, 1)
+
+
+def test_a_number_at_its_limit_fails_as_the_week_and_the_check_say(log):
+    assert lab_with(1e-8).finish() == 1
+
+
+def test_a_row_says_which_file_wrote_it(log):
+    lab_with(1e-9).finish()
+    (row,) = read_rows(log)
+    digest = hashlib.sha256(SCRIPT.read_bytes()).hexdigest()
+    assert row["notes"] == f"limit 1e-08; file {digest[:8]}"
+
+
+def test_a_number_that_the_manifest_does_not_know_is_refused(log):
+    lab = Lab(str(SCRIPT), "A lab.")
+    with pytest.raises(Robo47Error, match=r"has 0 metrics fk; it has fk_identity"):
+        lab.record("fk", 0.0)
+
+
+def test_a_script_that_is_no_lab_is_refused(log):
+    with pytest.raises(Robo47Error, match=r"helpers\.py is no lab"):
+        Lab("helpers.py", "")
+
+
+def test_a_log_that_refuses_costs_no_row_and_no_word_of_how_it_went(log, capsys):
+    log.write_text(LINE.replace("value", "val") + "\n")
+    with pytest.raises(Robo47Error) as caught:
+        lab_with(1e-9, 2.0, 3e-9).finish()
+    kept = Path(f"{log}.unsaved").read_text().splitlines()
+    assert len(kept) == 3
+    assert all(f"  row: {text}\n" in str(caught.value) for text in kept)
+    assert "FAILED: fk by hand is 2" in capsys.readouterr().out

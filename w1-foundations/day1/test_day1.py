@@ -1,0 +1,225 @@
+"""Day 1's lab: the functions against oracles, the script as a person runs it."""
+
+import re
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from conftest import ROOT, load_script
+from robo47 import panda, se3, verify
+from robo47.metrics import read_rows
+
+SCRIPT = "w1-foundations/src/day1_transforms.py"
+
+
+def load_lab():
+    return load_script(ROOT / SCRIPT)
+
+
+lab = load_lab()
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_labs_functions_agree_with_the_library_and_scipy(seed):
+    rng = np.random.default_rng(seed)
+    quat, t, theta = rng.normal(size=4), rng.normal(size=3), rng.uniform(-7, 7)
+    R = Rotation.from_quat(quat, scalar_first=True).as_matrix()
+    T = se3.make_T(R, t)
+    assert_same(lab.make_T(R, t), T, 0.0)
+    assert_same(lab.Rz(theta), Rotation.from_euler("z", theta).as_matrix(), 1e-15)
+    assert_same(lab.inverse(T), se3.inverse(T), 1e-15)
+    assert_same(lab.quat_to_R(quat), R, 1e-14)
+    assert_same(lab.link_T(t, quat), T, 1e-14)
+    assert_same(lab.joint_T(theta), se3.make_T(se3.Rz(theta), np.zeros(3)), 1e-15)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_predicted_translations_are_those_of_the_two_products(seed):
+    rng = np.random.default_rng(seed)
+    A, B = (
+        se3.make_T(se3.quat_to_R(rng.normal(size=4)), rng.normal(size=3))
+        for _ in range(2)
+    )
+    predicted = lab.predict_order(A, B)
+    assert_same(predicted, [(A @ B)[:3, 3], (B @ A)[:3, 3]], 1e-14)
+
+
+def test_the_labs_chain_agrees_with_mujoco_at_random_configurations(either_panda):
+    q = verify.random_q(either_panda, 200, seed=47)
+    truth = verify.mujoco_poses(either_panda, q)
+    for i, row in enumerate(q):
+        T = truth["site:attachment_site"][i]
+        assert_same(lab.compose_fk(either_panda, row), T, 1e-14)
+        T = truth["body:link4"][i]
+        assert_same(lab.link4_to_world(either_panda, row), T, 1e-14)
+
+
+def test_the_worked_cases_in_the_docstrings_are_true(twin):
+    model = panda.load("panda_nohand")
+    assert_same(lab.make_T(np.eye(3), (1, 2, 3)) @ [0, 0, 0, 1], [1, 2, 3, 1], 0.0)
+    assert_same(lab.Rz(np.pi / 2) @ [1, 0, 0], [0, 1, 0], 1e-16)
+    assert_same(lab.inverse(lab.make_T(np.eye(3), (1, 0, 0)))[:3, 3], [-1, 0, 0], 0.0)
+    assert_same(lab.quat_to_R(np.array([1, 1, 0, 0])), se3.Rx(np.pi / 2), 1e-15)
+    above = lab.link_T(np.array([0, 0, 0.333]), np.array([1, 0, 0, 0]))
+    assert_same(above[:3, 3], [0, 0, 0.333], 0.0)
+    assert_same(lab.joint_T(0), np.eye(4), 0.0)
+    upright = lab.compose_fk(model, np.zeros(7))
+    assert_same(upright[:3, 3], [0.088, 0, 0.926], 1e-12)
+    assert_same(
+        lab.link4_to_world(model, np.zeros(7))[:3, 3], [0.0825, 0, 0.649], 1e-12
+    )
+
+
+def test_the_path_is_the_models_own(either_panda):
+    names = [name for name, _ in lab.PATH]
+    assert names == [either_panda.body(i).name for i in range(1, either_panda.nbody)]
+    for name, joint in lab.PATH:
+        body = either_panda.body(name)
+        if joint:
+            assert either_panda.joint(joint).bodyid[0] == body.id
+            assert_same(either_panda.joint(joint).axis, [0, 0, 1], 0.0)
+            assert either_panda.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_HINGE
+    site = either_panda.site("attachment_site")
+    assert either_panda.body(int(site.bodyid[0])).name == names[-1]
+    assert_same([*site.pos, *site.quat], [0, 0, 0, 1, 0, 0, 0], 0.0)
+
+
+def test_importing_the_lab_prints_nothing_and_starts_nothing(capsys):
+    load_lab()
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("cwd", "script"),
+    [(".", SCRIPT), ("w1-foundations", "src/day1_transforms.py"), (None, None)],
+)
+def test_the_lab_runs_from_any_folder(run, tmp_path, cwd, script):
+    folder = ROOT / cwd if cwd else tmp_path
+    done = run(SCRIPT, "--no-log", cwd=folder)
+    lines = done.stdout.splitlines()
+    assert (done.returncode, done.stderr) == (0, "")
+    assert lines[0].startswith("robot: Franka Panda (panda_nohand), ")
+    assert lines[-1] == "All checks PASSED."
+    assert max(map(len, lines)) <= 80
+    assert done.stdout.count("PASS  ") == 9
+
+
+def test_a_run_logs_the_handouts_row_and_the_by_hand_check(run, tmp_path):
+    log = tmp_path / "metrics.csv"
+    for _ in range(2):
+        done = run(SCRIPT, ROBO47_METRICS=log)
+        assert done.returncode == 0, done.stderr
+    rows = read_rows(log)
+    assert len(rows) == 4
+    identity, by_hand = rows[:2]
+    expected = {"run_id": "day1_transforms", "day": 1, "check": "fk_identity_check"}
+    expected |= {"seed": 0, "method": "manual", "n_trials": 3}
+    expected |= {"n_failures": 0, "metric": "inv_err"}
+    assert {k: identity[k] for k in expected} == expected
+    assert 0 <= identity["value"] < 1e-10
+    assert (by_hand["check"], by_hand["metric"]) == ("fk_by_hand", "max_abs_err")
+    assert (by_hand["n_trials"], by_hand["seed"]) == (1_000, 47)
+    assert 0 < by_hand["value"] < 1e-8
+
+
+def test_no_log_leaves_the_file_alone(run, tmp_path):
+    log = tmp_path / "metrics.csv"
+    done = run(SCRIPT, "--no-log", ROBO47_METRICS=log)
+    assert "nothing logged" in done.stdout
+    assert not log.exists()
+
+
+def test_a_failing_check_is_named_recorded_and_exits_1(monkeypatch, tmp_path, capsys):
+    failing = load_lab()
+    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr("robo47.metrics.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr(sys, "argv", ["day1"])
+    monkeypatch.setattr(failing, "LIBRARY_TRIALS", 10)
+    monkeypatch.setattr(failing, "quat_to_R", lambda q: se3.quat_to_R(np.roll(q, -1)))
+    assert failing.main() == 1
+    said = capsys.readouterr().out
+    assert re.search(r"FAIL  largest \|by hand - MuJoCo\|: \d", said)
+    assert "FAILED: largest |by hand - MuJoCo| is" in said
+    assert "All checks PASSED" not in said
+    assert len(read_rows(tmp_path / "m.csv")) == 2
+
+
+def test_the_twin_stands_in_and_the_first_line_says_so(monkeypatch, twin, capsys):
+    monkeypatch.setattr(sys, "argv", ["day1", "--no-log"])
+    assert lab.main() == 0
+    assert "the kit's embedded twin" in capsys.readouterr().out.splitlines()[0]
+
+
+def refused(done, words):
+    """Assert one clear line on stderr, a non-zero exit and no traceback."""
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert words in done.stderr
+    assert done.stderr.startswith("error: ")
+    assert "All checks PASSED" not in done.stdout
+
+
+def test_a_broken_model_file_is_one_clear_line(run, tmp_path):
+    folder = tmp_path / "franka_emika_panda"
+    folder.mkdir()
+    (folder / "panda_nohand.xml").write_text("<mujoco><worldbody>")
+    done = run(SCRIPT, "--no-log", MENAGERIE_ROOT=tmp_path)
+    refused(done, "panda_nohand.xml cannot be loaded")
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_model_without_the_site_is_one_clear_line(run, tmp_path):
+    folder = tmp_path / "franka_emika_panda"
+    folder.mkdir()
+    (folder / "panda_nohand.xml").write_text("<mujoco/>")
+    done = run(SCRIPT, "--no-log", MENAGERIE_ROOT=tmp_path)
+    refused(done, "has no site:attachment_site")
+
+
+def test_a_log_that_cannot_be_written_is_one_clear_line(run, tmp_path):
+    refused(run(SCRIPT, ROBO47_METRICS=tmp_path), str(tmp_path.name))
+
+
+def test_a_wrong_option_explains_itself(run):
+    done = run(SCRIPT, "--nolog")
+    assert done.returncode == 2
+    assert "unrecognized arguments: --nolog" in done.stderr
+
+
+def test_help_teaches(run):
+    done = run(SCRIPT, "--help")
+    assert done.returncode == 0
+    assert "make day1" in done.stdout
+    assert "--no-log" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["identity", "transposed", "Rz_swapped"])
+def test_a_wrong_chain_cannot_record_a_small_number(name, monkeypatch, tmp_path):
+    wrong = load_lab()
+    right, Rz = wrong.compose_fk, wrong.Rz
+
+    def transposed(model, q, path=wrong.PATH):
+        T = right(model, q, path)
+        T[:3, :3] = T[:3, :3].T.copy()
+        return T
+
+    changes = {
+        "identity": ("compose_fk", lambda model, q, path=(): np.eye(4)),
+        "transposed": ("compose_fk", transposed),
+        "Rz_swapped": ("Rz", lambda theta: Rz(np.pi / 2 - theta)),
+    }
+    monkeypatch.setattr(wrong, *changes[name])
+    monkeypatch.setattr("robo47.metrics.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr(sys, "argv", ["day1"])
+    monkeypatch.setattr(wrong, "LIBRARY_TRIALS", 10)
+    assert wrong.main() == 1
+    by_hand = read_rows(tmp_path / "m.csv")[1]
+    assert by_hand["check"] == "fk_by_hand"
+    assert by_hand["value"] > 0.1
+    assert by_hand["n_failures"] > 900
