@@ -8,12 +8,17 @@ import textwrap
 import types
 from pathlib import Path
 
+import hypothesis
 import mujoco
 import pytest
 
 from robo47 import menagerie, panda
 from robo47.errors import Robo47Error
 from robo47.figures import backends
+
+# No time is asserted: a busy machine is no failure.
+hypothesis.settings.register_profile("kit", deadline=None)
+hypothesis.settings.load_profile("kit")
 
 ROOT = Path(__file__).resolve().parent
 
