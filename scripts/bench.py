@@ -4,10 +4,11 @@
     python scripts/bench.py fk lab          only these parts
     python scripts/bench.py --table         the last results, nothing is run
 
-Parts: fk (kinematics), lab (the whole script), growth, metrics (a row of the log),
-tests (`make test`), checker (save to verdict), first-minute (a fresh clone; needs the
-network). All in one run, taking turns; results are ratios, since seconds differ from
-machine to machine. Writes bench/results.json and bench/bench.png.
+Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
+configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make
+test`), checker (save to verdict), first-minute (a fresh clone; needs the network). All
+in one run, taking turns; results are ratios, since seconds differ from machine to
+machine. Writes bench/results.json and bench/bench.png.
 """
 
 import datetime
@@ -30,8 +31,18 @@ from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
-PARTS = ("fk", "lab", "growth", "metrics", "tests", "checker", "first-minute")
-VERSIONS = ("mujoco", "numpy", "pin", "roboticstoolbox-python", "modern-robotics")
+PARTS = (
+    *("fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker"),
+    "first-minute",
+)
+VERSIONS = (
+    "mujoco",
+    "numpy",
+    "pin",
+    "roboticstoolbox-python",
+    "modern-robotics",
+    "mink",
+)
 
 
 def machine() -> dict[str, Any]:

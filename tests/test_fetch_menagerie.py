@@ -7,8 +7,8 @@ import subprocess
 import tarfile
 
 import pytest
-from conftest import ROOT
 
+from conftest import ROOT
 from robo47 import menagerie
 
 SCRIPT = "scripts/fetch_menagerie.py"

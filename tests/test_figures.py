@@ -6,9 +6,9 @@ import sys
 import mujoco
 import numpy as np
 import pytest
-from conftest import need
 from pictures import count, differing, pixels
 
+from conftest import need
 from robo47 import figures, panda
 from robo47.errors import Robo47Error
 from robo47.figures import backends

@@ -4,9 +4,9 @@ import os
 
 import numpy as np
 import pytest
-from conftest import ROOT
 from pictures import count, differing
 
+from conftest import ROOT
 from robo47 import panda
 
 if not os.environ.get("ROBO47_CI"):

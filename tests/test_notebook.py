@@ -9,6 +9,7 @@ import shutil
 import sys
 
 import pytest
+
 from conftest import ROOT
 
 if not os.environ.get("ROBO47_CI"):

@@ -8,8 +8,9 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import ROOT, need
 from inspection import SCRIPT, Served
+
+from conftest import ROOT, need
 
 VIEW = "scripts/view_panda.py"
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}

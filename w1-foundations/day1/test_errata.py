@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import ROOT
 from test_day1 import lab
 
+from conftest import ROOT
 from robo47 import kinematics, panda, se3
 
 ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
