@@ -232,7 +232,7 @@ class TestWhatItMayImport:
     )
     def test_is_the_kits_library_of_earlier_days(self, ask, line):
         code = (
-            f"import numpy as np\n{line}\ndef f(): return make_T(n.eye(3), [1, 2, 3])"
+            f"import numpy as np\n{line}\ndef f(): return make_T(np.eye(3), [1, 2, 3])"
         )
         (reply,) = ask(code, library=LIBRARY)
         assert reply.value[:3, 3].tolist() == [1, 2, 3]
