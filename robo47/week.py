@@ -38,11 +38,24 @@ class Task:
 
 @dataclass(frozen=True)
 class Metric:
-    """A row that the log must hold, and the range of its value."""
+    """A row that the log must hold, and the range of its value; None is no bound."""
 
     check: str
     metric: str
-    max: float
+    max: float | None = None
+    min: float | None = None
+
+    @property
+    def limit(self) -> str:
+        """The range as people write it: "at most 1e-08"."""
+        parts = [] if self.min is None else [f"at least {self.min:g}"]
+        parts += [] if self.max is None else [f"at most {self.max:g}"]
+        return " and ".join(parts)
+
+    def passes(self, value: float) -> bool:
+        """Return whether a value is within the range; NaN never is."""
+        high = self.max is None or value <= self.max
+        return value == value and high and (self.min is None or value >= self.min)
 
 
 @dataclass(frozen=True)
@@ -142,6 +155,11 @@ def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
         raise Robo47Error(f"{task_id!r} is no task; expected an id such as 1.4")
     day = find_day(int(number), root)
     return day, day.task(task_id)
+
+
+def all_days(root: Path = ROOT) -> list[Day]:
+    """Return every day of the course, in order."""
+    return [d for p in sorted(root.glob("w*/week.toml")) for d in load_week(p)]
 
 
 def load_week(manifest: Path) -> list[Day]:
