@@ -1,25 +1,52 @@
-"""Text that a stranger wrote, made safe to show: in a terminal, a file, a table."""
+"""Text that somebody else wrote, made fit for a terminal, a file and a table.
 
-import re
+A submission's words (an exception's message, a printed line, a file's name) may hold
+escape sequences, letters that turn the reading direction, line breaks that look like
+lines of ours, or a megabyte. All of it passes through here at the border.
+"""
 
-# Controls (C0, C1), line breaks, what turns the direction of writing, what has no
-# width, and surrogates that stand alone, which no UTF-8 file holds.
-_HIDDEN = re.compile(
-    "[\0-\x1f\x7f-\x9f\xad\u061c\u115f\u180e\u200b\u200e\u200f\u2028-\u202e"
-    "\u2060-\u206f\ufeff\ufff9-\ufffb\ud800-\udfff]+"
-)
+import unicodedata
+
+LENGTH = 500  # characters
+# What a terminal or a page obeys instead of showing it: controls, line and paragraph
+# separators, and format characters, which include those of the reading direction.
+_OBEYED = {"Cc", "Cf", "Zl", "Zp"}
 
 
-def visible(text: object, most: int = 500) -> str:
-    """Return a text on one line that shows all it holds, and no more than it holds.
+def visible(text: object, length: int = LENGTH) -> str:
+    """Return text as one harmless line.
 
     Args:
-        text: anything; `str` of it is taken.
-        most: characters; a longer one ends in three dots.
+        text: anything; what is no string is put into words by `str`.
+        length: characters to keep; "..." stands for the rest.
+
+    Returns:
+        Controls, format characters and line breaks as spaces, unpaired surrogates and
+        unassigned code points as "?", no space at either end.
     """
-    try:
-        whole = str(text)
-    except Exception:  # a stranger's class
-        whole = "(a text that cannot be shown)"
-    line = _HIDDEN.sub(" ", whole[: most + 1]).strip()
-    return line if len(whole) <= most else f"{line[: most - 3].rstrip()}..."
+    whole = text if isinstance(text, str) else str(text)
+    shown = "".join(map(_one, whole[: 2 * length + 2])).strip()
+    if len(shown) <= length and len(whole) <= 2 * length + 2:
+        return shown
+    return shown[:length] + "..."
+
+
+def visible_lines(text: object, lines: int = 40, length: int = 200) -> str:
+    """Return text of several lines as lines that are each harmless.
+
+    Args:
+        text: anything.
+        lines: how many to keep.
+        length: characters to keep of each.
+    """
+    whole = (text if isinstance(text, str) else str(text))[: 2 * lines * length]
+    return "\n".join(visible(line, length) for line in whole.splitlines()[:lines])
+
+
+def _one(character: str) -> str:
+    if character.isascii():
+        return character if character.isprintable() else " "
+    category = unicodedata.category(character)
+    if category in _OBEYED:
+        return " "
+    return "?" if category in ("Cs", "Cn", "Co") else character

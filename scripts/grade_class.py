@@ -26,7 +26,7 @@ from pathlib import Path
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
-from robo47.checker.wall import in_container, wall
+from robo47.checker.wall import wall
 from robo47.errors import Robo47Error
 from robo47.grading import engine, overview
 from robo47.grading.classroom import Classroom, write_all
@@ -95,18 +95,24 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def in_container() -> bool:
+    """Return whether this is a container, which is a wall of its own."""
+    marks = ("/.dockerenv", "/run/.containerenv")
+    return "container" in os.environ or any(Path(mark).exists() for mark in marks)
+
+
 def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
     if options.dask:
         print("wall: each worker's own")
         return
-    stands, ways = wall(), "a container (docs/teaching.md), or --i-know-them"
-    print(f"wall: {stands.name}: {stands.sentence}", flush=True)
+    stands, ways = wall(), "a container (docs/teaching.md), or add --i-know-them"
+    print(f"wall: {stands.says}", flush=True)
     if options.i_know_them or in_container():
         return
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         raise Robo47Error(
-            f"you are root, and this is no container: use an ordinary user, {ways}"
+            f"you are root, and this is no container: be an ordinary user, use {ways}"
         )
     if stands.name == "none":
         raise Robo47Error(f"these submissions would run with your rights: use {ways}")

@@ -169,16 +169,17 @@ def student(tmp_path):
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from robo47.checker import variant
+    from robo47 import panda
     from robo47.checker.model_copy import copy_model, facts
     from robo47.checker.replies import Question
     from robo47.checker.sandbox import Sandbox
 
-    def run(code, *questions):
+    def run(code, *questions, library=None, needs=None):
         with Sandbox() as sandbox:
-            models = [copy_model(model) for model in variant.models()]
+            models = [copy_model(panda.load("panda_nohand"), "panda_nohand")]
             asked = questions or [Question("1.1", "f", ())]
-            return sandbox.run(student(code), asked, models, facts())
+            file = student(code)
+            return sandbox.run(file, asked, models, facts(), library, needs)
 
     return run
 

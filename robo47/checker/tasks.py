@@ -1,12 +1,12 @@
 """From a student's file to one result per task."""
 
+import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from robo47 import diagnose
 from robo47.checker import model_copy, variant
-from robo47.checker.replies import LoadError, Model, Question, Reply
+from robo47.checker.replies import LoadError, Model, Path, Question, Reply
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.verdicts import verdict_of, why_not_loaded
 from robo47.diagnose import Verdict
@@ -35,7 +35,7 @@ class TaskResult:
 
 def check_tasks(
     day: Day,
-    script: Path,
+    script: pathlib.Path,
     sandbox: Sandbox,
     only: str | None = None,
     seed: int | None = None,
@@ -60,10 +60,19 @@ def check_tasks(
     asked = [task for task in day.tasks if task in tasks or task.id in needed]
     questions = {task.id: _questions(task, seed) for task in asked}
     flat = [question for some in questions.values() for question in some]
-    copies = [model_copy.copy_model(model) for model in variant.models()]
-    noted = sorted({name for task in asked for name in task.without})
+    usual, longer = variant.models()
+    copies = [
+        model_copy.copy_model(usual, "panda_nohand"),
+        model_copy.copy_model(longer),
+    ]
     try:
-        replies = sandbox.run(script, flat, copies, model_copy.facts(), noted)
+        replies = sandbox.run(
+            script,
+            flat,
+            copies,
+            model_copy.facts(),
+            needs={task.id: task.needs for task in day.tasks},
+        )
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in tasks]
@@ -106,8 +115,8 @@ def _questions(task: Task, seed: int | None) -> list[Question]:
                 for q in fresh
             ]
             if function == variant.TAKES_A_PATH:
-                args = (Model(0), fresh[0])
-                asked.append(Question(task.id, function, args, variant.TO_LINK4))
+                args = (Model(0), fresh[0], Path(variant.TO_LINK4))
+                asked.append(Question(task.id, function, args))
     return asked
 
 

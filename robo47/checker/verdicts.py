@@ -61,6 +61,10 @@ def _without_judge(task: Task, question: Question, reply: Reply) -> Verdict | No
     function = question.function
     if reply.kind == "stopped":
         return Verdict("wrong", "stopped", f"{function} did not return: {reply.error}.")
+    if reply.kind == "waits":
+        return Verdict(
+            "todo", "waits", f"Waits for {reply.error}, which did not return."
+        )
     if reply.kind == "unsendable":
         return Verdict("wrong", "not-an-array", f"{function}: {reply.error}.")
     if reply.kind == "missing":
@@ -144,13 +148,6 @@ def _second_look(
             "not take every pos from the model that it is given."
         )
         return replace(passed, message=f"{passed.message} {says}".strip())
-    used = [name for _, reply in own for name in reply.used if name in task.without]
-    if used:
-        says = (
-            f"The numbers are right, by way of {used[0]}. The task asks to do without: "
-            "what is special about the columns of R?"
-        )
-        return Verdict("close", "general-inverse", says, passed.measured)
     return passed
 
 
@@ -160,7 +157,11 @@ def _ignores_path(extra: Sequence[Exchange]) -> bool:
     An error does not count: a chain of one's own may take no path at all.
     """
     whole, short = (
-        [r.value for q, r in extra if q.args[0] == Model(0) and bool(q.path) == given]
+        [
+            r.value
+            for q, r in extra
+            if q.args[0] == Model(0) and (len(q.args) > 2) == given
+        ]
         for given in (False, True)
     )
     if not short or not isinstance(short[0], np.ndarray):
@@ -173,7 +174,7 @@ def _fresh_error(extra: Sequence[Exchange], which: int) -> float:
     fresh = [
         (question, reply)
         for question, reply in extra
-        if question.args[0] == Model(which) and not question.path
+        if question.args[0] == Model(which) and len(question.args) == 2
     ]
     if not fresh:
         return 0.0
