@@ -6,7 +6,6 @@ the machine is no result and never written here.
 """
 
 import contextlib
-import errno
 import json
 import os
 from collections.abc import Sequence
@@ -16,7 +15,7 @@ from typing import Any
 from robo47.errors import Robo47Error
 from robo47.grading.package import Package
 from robo47.grading.result import Result, from_json
-from robo47.metrics.lock import try_lock
+from robo47.metrics.lock import NO_LOCKS, try_lock
 from robo47.paths import shown
 from robo47.week import Day
 
@@ -107,9 +106,9 @@ class Journal:
         try:
             free = try_lock(self._file.fileno())
         except OSError as error:
-            if error.errno in (errno.EACCES, errno.EBADF):
+            if error.errno not in NO_LOCKS:
                 raise
-            return  # a file system without locks
+            return
         if not free:
             raise Robo47Error(
                 f"{shown(self.path)}: another make grade is at work there. Wait for it,"

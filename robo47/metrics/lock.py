@@ -1,6 +1,7 @@
 """An advisory lock on an open file, which the system releases if we are killed."""
 
 import errno
+import functools
 import os
 import sys
 import time
@@ -9,11 +10,10 @@ import warnings
 PATIENCE_S = 60.0  # a row takes microseconds: whoever holds it longer is stuck
 PAUSE_S = 0.001
 # What a file system without locks answers (NFS without its lock service, some FUSE).
-_NONE = {
+NO_LOCKS = {
     getattr(errno, name, errno.ENOSYS)
     for name in ("ENOLCK", "ENOTSUP", "EOPNOTSUPP", "ENOSYS")
 }
-_warned = False
 
 if sys.platform == "win32":
     import msvcrt
@@ -50,11 +50,12 @@ else:
         """Nothing to do: closing the file lets go at once."""
 
 
-def lock(fd: int) -> None:
+def lock(fd: int) -> bool:
     """Wait until this process alone holds the file.
 
-    Where the file system has no locks, warn once and go on: one write at a time still
-    arrives whole on a local disk.
+    Returns:
+        Whether it does; False where the file system has no locks. There, appends that
+        come one at a time still arrive whole.
 
     Raises:
         TimeoutError: somebody else has held it for PATIENCE_S seconds.
@@ -68,17 +69,17 @@ def lock(fd: int) -> None:
                 )
             time.sleep(PAUSE_S)
     except OSError as error:
-        if error.errno not in _NONE:
+        if error.errno not in NO_LOCKS:
             raise
-        _warn()
+        return False
+    return True
 
 
-def _warn() -> None:
-    global _warned
-    if not _warned:
-        _warned = True
-        warnings.warn(
-            "this file system has no locks: do not let two programs write the log at"
-            " the same time",
-            stacklevel=2,
-        )
+@functools.cache
+def warn_once() -> None:
+    """Say once that rows are recorded without a lock."""
+    warnings.warn(
+        "this file system has no locks: do not let two programs write the log at the"
+        " same time",
+        stacklevel=2,
+    )

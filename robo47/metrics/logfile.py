@@ -89,13 +89,16 @@ def locked(name: str) -> Iterator[int]:
     try:
         if not stat.S_ISREG(os.fstat(fd).st_mode):
             raise OSError(errno.EINVAL, "not a file")
-        lock.lock(fd)
+        alone = lock.lock(fd)
         try:
             yield fd
         finally:
-            lock.unlock(fd)
+            if alone:
+                lock.unlock(fd)
     finally:
         os.close(fd)
+    if not alone:
+        lock.warn_once()  # afterwards, so that the row is there whatever it does
 
 
 def note_repair(path: StrPath, line: str) -> None:
