@@ -93,7 +93,7 @@ def clone(tmp_path):
         skipped = shutil.ignore_patterns("__pycache__", "work")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     from robo47 import metrics
-    from robo47.week import find_day
+    from robo47.lesson.day import find_day
 
     day = find_day(1, copy)
     (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
@@ -189,7 +189,7 @@ def check(student):
     """Check a student's file; return {task: verdict}."""
     from robo47.checker.sandbox import Sandbox
     from robo47.checker.tasks import check_tasks
-    from robo47.week import find_day
+    from robo47.lesson.day import find_day
 
     def run(code, only=None):
         with Sandbox() as sandbox:

@@ -15,19 +15,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from submissions.catalogue import FOLDER as CATALOGUE
 from test_deliverables import png, worksheet
 
 from robo47 import metrics
 from robo47.checker.deliverables.rows import file_mark
-from robo47.starter import make_starter, put_back
-from robo47.week import find_day
+from robo47.lesson.day import find_day
+from robo47.lesson.starter import make_starter, put_back
 
 DAY = find_day(1)
 WEEK = DAY.folder.name
+CATALOGUE = DAY.own / "submissions"
 SOLVED = DAY.source.read_text("utf-8")
 STARTER = make_starter(SOLVED, "starter", 1)
 DEADLINE = 1_788_537_600  # 2026-09-04 16:00 UTC
+SCRIPT = f"{WEEK}/work/{DAY.script}"
+KIT = DAY.source.with_name("kit.py").read_text("utf-8")
 LOADED = 'if __name__ == "__main__":'
 FORMULA = "=SUM(A1,A9)"
 
@@ -35,8 +37,8 @@ Files = dict[str, bytes | str]
 
 
 def script(text: str | bytes) -> Files:
-    """Return a student's files with this lab script."""
-    return {f"{WEEK}/work/{DAY.script}": text}
+    """Return a student's files with this lab script, and what `make start` adds."""
+    return {SCRIPT: text, f"{WEEK}/work/kit.py": KIT}
 
 
 def wrong(name: str) -> Files:
@@ -58,7 +60,7 @@ def under_way(tasks: int) -> Files:
 
 def all_handed_in(seed: int, own: Files) -> Files:
     """Return everything the day asks for, with the rows that this script logged."""
-    (source,) = own.values()
+    source = own[SCRIPT]
     mark = file_mark(source if isinstance(source, bytes) else source.encode())
     rng = np.random.default_rng(seed)
     picture = png(rng.integers(0, 256, (300, 400, 3), np.uint8))
@@ -92,7 +94,7 @@ def own_kit() -> Files:
     return {
         **under_way(2),
         **{name: passes for name in places if "work/numpy" not in name},
-        f"{WEEK}/week.toml": "number = 1\ntitle = 'Mine'\ndays = []\n",
+        f"{WEEK}/day1/day.toml": "number = 1\ntitle = 'Mine'\n",
         "Makefile": "check:\n\t@echo 8 of 8 PASSED\n",
     }
 

@@ -355,7 +355,7 @@ class TestNamesThatLead:
         ]
         text = "name,folder\n" + "".join(f"M,{name}\n" for name in odd)
         (clones / "roster.csv").write_text(text + "S,student 0001\n")
-        before = {p for p in out.parent.rglob("*")}
+        before = set(out.parent.rglob("*"))
         assert grade(run, clones, out).returncode == 0
         made = {p for p in out.parent.rglob("*") if p.is_file()} - before
         assert {p.parent for p in made} <= {out, out / "feedback"}
@@ -425,7 +425,7 @@ class TestWhoMayGrade:
 
     @pytest.mark.parametrize("wall", ["bubblewrap", "landlock", "none"])
     def test_root_may_not_outside_a_container(self, asked, wall, capsys):
-        with pytest.raises(Robo47Error, match="you are root.*--i-know-them"):
+        with pytest.raises(Robo47Error, match=r"you are root.*--i-know-them"):
             asked(wall, root=True)
         assert capsys.readouterr().out == f"wall: it is {wall}\n"
         asked(wall, root=True, container=True)

@@ -35,7 +35,7 @@ from robo47.grading.pull import OURS, pull_all
 from robo47.grading.result import FaultError, Mark, Result, from_json, ungraded
 from robo47.grading.roster import Student, file_names, find_students
 from robo47.grading.sheet import Graded, plain
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 SCRIPT = f"{WEEK}/work/{DAY.script}"
@@ -479,7 +479,7 @@ class TestSimilarity:
     def test_knows_the_kits_own_solution_however_many_hand_it_in(self):
         kit = similar.runs_of(SOLVED.encode(), STARTER)
         own = similar.runs_of(own_way(ODD_WAY).encode(), STARTER)
-        right = (DAY.folder.parent / "tests/submissions/right").glob("*.py")
+        right = (DAY.own / "submissions" / "right").glob("*.py")
         runs = {p.stem: [similar.runs_of(p.read_bytes(), STARTER)] for p in right}
         assert len(runs) > 9
         assert similar.like_the_kit(runs, kit) == []

@@ -12,13 +12,13 @@ import pytest
 from PIL import Image
 
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Metric
 from robo47.metrics.header import LINE
 from robo47.metrics.rows import encode, normalise
 from robo47.metrics.scan import scan
 from robo47.report import page, plot
 from robo47.report.series import Report, Series, collect
 from robo47.report.thresholds import load
-from robo47.week import Metric
 
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "scripts" / "report_metrics.py"
@@ -227,11 +227,11 @@ def test_the_weeks_manifest_of_this_kit_is_read():
 
 def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
     assert load(tmp_path) == {}
-    (tmp_path / "w1-x").mkdir()
-    manifest = tmp_path / "w1-x" / "week.toml"
-    for text in ("[[days", "[[days]]\nnumber=1\n[[days.metrics]]\nmetric='m'"):
+    manifest = tmp_path / "w1-x" / "day1" / "day.toml"
+    manifest.parent.mkdir(parents=True)
+    for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
-        with pytest.raises(Robo47Error, match=r"week\.toml"):
+        with pytest.raises(Robo47Error, match=r"day\.toml"):
             load(tmp_path)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from robo47.checker import process
 from robo47.checker.replies import LoadError, Model, Question
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 REFERENCE = find_day(1).source.read_text("utf-8")
 

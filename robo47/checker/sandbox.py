@@ -173,7 +173,7 @@ class Sandbox:
 
 
 class _Rounds:
-    """Some questions asked in order, then in reverse order, of one process."""
+    """Some questions asked in order, then in reverse order of the file loaded anew."""
 
     def __init__(
         self, process: Process, questions: Sequence[Question], left: list[int]
@@ -186,7 +186,9 @@ class _Rounds:
         """Fill both rounds; return where it ended early, and why, or None."""
         order = [*self.left, *reversed(self.left)]
         spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
-        self.process.ask(pack(self.questions[i]) for i in order)
+        calls = [pack(self.questions[i]) for i in order]
+        calls[len(self.left)]["anew"] = True  # what the file kept so far is gone
+        self.process.ask(calls)
         for position, i in enumerate(order):
             task = self.questions[i].task
             started = time.monotonic()

@@ -25,8 +25,8 @@ from robo47.checker.tasks import TaskResult, check_tasks
 from robo47.diagnose import Verdict
 from robo47.grading.package import Package, unpack
 from robo47.grading.result import Mark, Result, counted, ungraded
+from robo47.lesson.day import Day, find_day
 from robo47.text import visible
-from robo47.week import Day, find_day
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
 LINES, LINE = 200, 400  # of a text, and characters of one
@@ -107,7 +107,7 @@ def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) ->
         for r in tasks
         if r.task.id in counted(day)
     ]
-    refused = [what for r in tasks for what in getattr(r, "refused", ())]
+    refused = [what for r in tasks for what in r.refused]
     return Result(
         tuple(marks),
         tuple(Mark(item.name, item.status, "", _tidy(item.message)) for item in items),

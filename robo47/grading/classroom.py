@@ -17,10 +17,10 @@ from robo47.grading.pull import pull_all
 from robo47.grading.result import FaultError, Result, ungraded
 from robo47.grading.roster import Student, file_names
 from robo47.grading.sheet import Graded, as_csv, write, write_feedback
+from robo47.lesson.day import Day
+from robo47.lesson.starter import make_starter, read_script
 from robo47.paths import shown
-from robo47.starter import make_starter, read_script
 from robo47.text import visible
-from robo47.week import Day
 
 FAULT = "this machine failed ({}); the same command tries again"
 

@@ -21,8 +21,8 @@ from robo47.checker import resources
 from robo47.errors import Robo47Error
 from robo47.grading.package import Package, fingerprint
 from robo47.grading.result import FaultError, Result, from_json
+from robo47.lesson.day import find_day
 from robo47.paths import ROOT
-from robo47.week import find_day
 
 # For one package. The sandbox stops tasks that hang after 20 s each at most, so only
 # a machine under load, or a file that keeps the checker itself busy, gets here.

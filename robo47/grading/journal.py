@@ -15,9 +15,9 @@ from typing import Any
 from robo47.errors import Robo47Error
 from robo47.grading.package import Package
 from robo47.grading.result import Result, from_json
+from robo47.lesson.day import Day
 from robo47.metrics.lock import NO_LOCKS, try_lock
 from robo47.paths import shown
-from robo47.week import Day
 
 KIND = "robo47 grading"
 _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970

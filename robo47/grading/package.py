@@ -11,14 +11,13 @@ from robo47.checker.deliverables.git import read_history
 from robo47.checker.deliverables.handin import Handin, read_handin
 from robo47.checker.deliverables.item import Item
 from robo47.grading.roster import Student
+from robo47.lesson.day import Day, find_day
 from robo47.paths import ROOT
-from robo47.week import Day, find_day
 
 # What decides a grade: the code, the manifests, the solution, what a definition and a
 # drawing must not be. `work/` is somebody's own.
 _DECIDES = (
     "robo47/**/*.py",
-    "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
     "w*/src/*.py",

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from robo47.checker.deliverables import item_names
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
 STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
@@ -109,7 +109,7 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
 
 def counted(day: Day) -> Sequence[str]:
     """Return the ids of the tasks that a grade counts: none that is optional."""
-    return [task.id for task in day.tasks if not getattr(task, "optional", False)]
+    return [task.id for task in day.tasks if not task.optional]
 
 
 def ungraded(day: Day, why: str) -> Result:

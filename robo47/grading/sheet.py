@@ -12,9 +12,9 @@ from robo47.checker.deliverables import item_names
 from robo47.errors import Robo47Error
 from robo47.grading.result import Result, counted
 from robo47.grading.roster import Student
+from robo47.lesson.day import Day
 from robo47.paths import shown
 from robo47.text import visible
-from robo47.week import Day
 
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")

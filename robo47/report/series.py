@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from robo47.lesson.day import Metric
 from robo47.metrics.rows import Row
 from robo47.metrics.scan import Line
 from robo47.report.thresholds import Key
-from robo47.week import Metric
 
 
 class Series:

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from robo47.lesson.day import Metric, all_days
 from robo47.paths import ROOT
-from robo47.week import Metric, all_days
 
 Key = tuple[int | None, str, str]  # day, check, metric
 

@@ -18,8 +18,8 @@ from robo47.checker.deliverables.handin import Handin, day_files, read_handin
 from robo47.checker.deliverables.item import Item
 from robo47.checker.deliverables.rows import check_rows
 from robo47.checker.deliverables.worksheet import check_worksheet
+from robo47.lesson.day import Day
 from robo47.paths import ROOT
-from robo47.week import Day
 
 __all__ = ["Item", "check_deliverables", "check_files", "item_names"]
 

@@ -3,8 +3,8 @@
 from robo47.checker.deliverables.git import History
 from robo47.checker.deliverables.handin import Handin, day_files
 from robo47.checker.deliverables.item import Item
+from robo47.lesson.day import Day
 from robo47.text import visible
-from robo47.week import Day
 
 
 def wanted_names(day: Day, handin: Handin) -> list[str]:

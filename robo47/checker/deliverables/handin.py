@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 MB = 1_000_000
 LIMITS = {"script": MB, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}  # bytes

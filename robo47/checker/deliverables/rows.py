@@ -8,10 +8,10 @@ import re
 from robo47.checker.deliverables.handin import Handin, day_files
 from robo47.checker.deliverables.item import Item
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, Metric
 from robo47.metrics.rows import Row
 from robo47.metrics.scan import scan_file
 from robo47.text import visible
-from robo47.week import Day, Metric
 
 # The lab ends the notes of each row with the script that wrote it, as it was then.
 _FILE = re.compile(r"\bfile ([0-9a-f]{8})$")

@@ -9,8 +9,8 @@ from robo47.checker.deliverables.handin import (
     picture_path,
 )
 from robo47.checker.deliverables.item import Item
+from robo47.lesson.day import Day
 from robo47.text import visible
-from robo47.week import Day
 
 FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # of a definition
 SHINGLE = 5  # words in a row that count as taken over
