@@ -21,6 +21,7 @@ from make_class import (
     commit,
     own_way,
     renamed,
+    script,
 )
 
 from robo47.checker.deliverables import check_deliverables, git, handin, item_names
@@ -187,7 +188,8 @@ class TestTheGrader:
         import resource
 
         grader, size = closed(Grader()), resource.RLIMIT_FSIZE
-        package = Package(1, "", Handin({SCRIPT: SOLVED.encode()}))
+        files = {name: text.encode() for name, text in script(SOLVED).items()}
+        package = Package(1, "", Handin(files))
         hard = resource.prlimit(grader.process.pid, size)[1]
         resource.prlimit(grader.process.pid, size, (0, hard))  # as on a full disk
         with pytest.raises(FaultError, match=r"temporary dir|File too large"):
