@@ -44,10 +44,10 @@ EXPECTED = {
     "names the time": (3, "1.1 raises", ""),
     "own kit": (2, "", ""),
     "no python": (0, "1.1 does-not-load", "SyntaxError"),
-    "binary": (0, "1.1 does-not-load", "null bytes"),
+    "binary": (0, "1.1 does-not-load", "not in UTF-8"),
     "no git": (ALL, "", ""),
     "corrupt git": (ALL, "", ""),
-    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB; at most 1 MB is looked at"),
+    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB, at most 1 MB is looked at"),
     "link loop": (0, "1.1 does-not-load", "no file" if WINDOWS else "behind a link"),
     "uncommitted": (ALL, "", ""),
     "git with a program": (ALL, "", ""),
@@ -205,9 +205,14 @@ class TestTheClass:
         page = (graded[1] / "class.html").read_text("utf-8")
         alike = page[page.index("Similar submissions") : page.index("Everyone")]
         _, _, kinds, _ = graded
-        assert kinds["copied"] in alike
-        assert kinds["copyist"] in alike
-        assert kinds["wrong inverse"] not in alike
+        kits = [li for li in alike.split("<li>") if "the kit's solution, " in li]
+        pairs = [li for li in alike.split("<li>")[1:] if li not in kits]
+        assert any(kinds["copied"] in li and kinds["copyist"] in li for li in pairs)
+        assert not any(kinds["wrong inverse"] in li for li in pairs)
+        assert any(
+            kinds["right"] in li for li in kits
+        )  # it is the kit's, to the letter
+        assert not any(kinds["not started"] in li for li in kits)
 
     def test_is_told_in_a_few_lines(self, graded):
         lines = graded[3].splitlines()
