@@ -395,7 +395,7 @@ class TestFaultsOfTheMachine:
             [sys.executable, "-c", full],
             capture_output=True,
             encoding="utf-8",
-            timeout=120,
+            timeout=300,
             check=False,
         )
         assert done.returncode == 1, done.stderr
