@@ -11,9 +11,9 @@ each folder is a student. Beside the table: class.html (what to explain again,
 who is stuck), feedback/ (a file per student) and grading.jsonl, in which each
 result is kept as it comes: stop at any time, the same command goes on.
 Commit times are the students' own: whoever commits sets the clock.
-Exit code: 0 everybody has a row, also those who are "ungraded" (the column error
-says why), 1 somebody could not be pulled or this machine failed: run it again,
-2 could not run.
+Exit code: 0 everybody has a row, also those who are "ungraded" (the column
+error says why), 1 somebody could not be pulled or this machine failed: run it
+again, 2 could not run.
 """
 
 import argparse

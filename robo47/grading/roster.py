@@ -83,7 +83,7 @@ def file_names(folders: Iterable[str]) -> dict[str, str]:
             system can have as a file's name is kept; others get a hash.
     """
     safe = {folder: _safe(folder) for folder in folders}
-    alike = Counter(_key(name) for name in safe.values())
+    alike = Counter(_key(name) for folder, name in safe.items() if name == folder)
     return {
         folder: name
         if name == folder and alike[_key(name)] == 1
