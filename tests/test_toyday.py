@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import pytest
+
 from conftest import ROOT, environment_of
 
 pytestmark = pytest.mark.kit
