@@ -9,8 +9,8 @@ A document asks for an output between two comments:
     <!-- run: python src/day1_transforms.py --no-log | step 2 -->
     <!-- end -->
 
-`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for the
-table of a week's days, from their manifests:
+`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
+the table of a week's days, from their manifests:
 
     <!-- days: w1-foundations -->
     <!-- end -->

@@ -19,6 +19,7 @@ from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
+pytestmark = pytest.mark.kit
 LINUX = sys.platform.startswith("linux")
 SITE = os.path.dirname(os.path.dirname(mujoco.__file__))
 # Walks up to the checker's own frame and empties the guard: four lines, no trick.
