@@ -45,7 +45,10 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if not script.is_file():
         remedy = "" if options.file else f"; first: make start DAY={day.number}"
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
-    with Sandbox() as sandbox:  # it warms up while MuJoCo is imported
+    with (
+        cli.busy("checking"),
+        Sandbox() as sandbox,
+    ):  # it warms up while MuJoCo is imported
         from robo47.checker import report
         from robo47.checker.deliverables import check_deliverables
         from robo47.checker.tasks import check_tasks
