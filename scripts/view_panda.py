@@ -1,9 +1,9 @@
 """See the Panda, its frames, and that your kinematics agree with MuJoCo.
 
-    make view                                  what suits this machine
-    python scripts/view_panda.py --web         the SE(3) inspector, in a browser
-    python scripts/view_panda.py --native      MuJoCo's own window
-    python scripts/view_panda.py --screenshot  a picture, with neither
+    make view                                 what suits this machine
+    make view ARGS=--screenshot               a picture, without a window
+    python3 scripts/view_panda.py --web       the SE(3) inspector, in a browser
+    python3 scripts/view_panda.py --native    MuJoCo's own window
 
 In the inspector: drag a joint and watch T_world_ee change twice, from MuJoCo
 and by hand; step through the chain link by link; put T_extra on the left or on
@@ -17,8 +17,10 @@ import sys
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import numpy as np
 
 from robo47 import cli, menagerie, panda, window
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -31,7 +33,7 @@ def web(entry: str, start: str, port: int) -> int:
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
-            "`make view` installs it, or: python scripts/setup_env.py view"
+            "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
     from robo47.inspector.arm import Arm
     from robo47.inspector.serve import serve
@@ -41,7 +43,7 @@ def web(entry: str, start: str, port: int) -> int:
     if menagerie.panda_folder() is None:
         missing = (
             "The robot's meshes are not here: simple shapes stand in, with the same "
-            "frames (python scripts/fetch_menagerie.py fetches them)"
+            "frames (python3 scripts/fetch_menagerie.py fetches them)"
         )
         print(missing)
         about = f"{about}. {missing}"
@@ -52,12 +54,13 @@ def web(entry: str, start: str, port: int) -> int:
 
 def native() -> int:
     """Open MuJoCo's window, or say in one line why not."""
-    if why := window.obstacle():
+    why = window.obstacle()
+    if why:
         raise Robo47Error(f"{why}. The browser needs none of that: --web")
     return window.show()
 
 
-def screenshot(path: Path, entry: str, start: str) -> int:
+def screenshot(path: Path, start: str) -> int:
     """Write a picture of the arm, drawn offscreen; overwrite nothing."""
     if path.exists():
         raise Robo47Error(
@@ -65,20 +68,27 @@ def screenshot(path: Path, entry: str, start: str) -> int:
             "--screenshot other.png"
         )
     try:
-        from robo47.figures import render_panda
+        from robo47.figures.screenshot import screenshot as draw
     except ModuleNotFoundError as missing:
+        if missing.name != "PIL":
+            raise
         raise Robo47Error(
-            f"pictures need {missing.name}, which this Python does not have. "
-            "`make figures` installs it; or take your own from the page: --web"
+            "pictures need Pillow, which is not installed yet: "
+            "make view ARGS=--screenshot (or: python3 scripts/setup_env.py report)"
         ) from None
-    from robo47.inspector.arm import Arm
-
-    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
-    picture = render_panda(arm.named_q[start])
+    picture = draw(configuration(start), start)
     path.parent.mkdir(parents=True, exist_ok=True)
     picture.save(path)
     print(f"wrote {shown(path)}")
     return cli.EXIT_OK
+
+
+def configuration(name: str) -> Array:
+    """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
+    if name == "ready":  # the handout's home_q; `home` is the model's own key
+        return panda.READY_Q
+    model = panda.load("panda_nohand")
+    return panda.home_q(model) if name == "home" else np.zeros(model.nq)
 
 
 def port(text: str) -> int:
@@ -105,13 +115,15 @@ def parse() -> argparse.Namespace:
     )
     parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
     parser.add_argument(
-        "--start", choices=CONFIGURATIONS, default="ready", help="configuration"
+        "--start",
+        choices=CONFIGURATIONS,
+        default="ready",
+        help="ready (the labs' home_q), home (the model's own key) or zero",
     )
     parser.add_argument(
         "--entry",
         choices=("panda_nohand", "panda"),
-        default="panda_nohand",
-        help="which model; panda has the hand",
+        help="which model, for --web; panda has the hand",
     )
     return parser.parse_args()
 
@@ -120,7 +132,9 @@ def main() -> int:
     """Show the Panda in the way that was asked for, or that suits the machine."""
     options = parse()
     if options.screenshot:
-        return screenshot(options.screenshot, options.entry, options.start)
+        if options.entry:
+            raise Robo47Error("--entry is for --web; a picture has the hand on")
+        return screenshot(options.screenshot, options.start)
     if options.native:
         return native()
     if not options.web:
@@ -128,7 +142,7 @@ def main() -> int:
         if why is None:
             return native()
         print(f"no window: {why}.\nSo in the browser:", file=sys.stderr)
-    return web(options.entry, options.start, options.port)
+    return web(options.entry or "panda_nohand", options.start, options.port)
 
 
 if __name__ == "__main__":

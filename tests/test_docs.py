@@ -4,8 +4,8 @@ import re
 import shutil
 
 import pytest
-from conftest import ROOT, kits_worksheet, need
 
+from conftest import ROOT, kits_worksheet, need
 from robo47.lesson.day import find_day
 
 WEEK = ROOT / "w1-foundations"
@@ -20,6 +20,7 @@ DOCUMENTS = [
 ]
 
 
+@pytest.mark.kit
 def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
     need(shutil.which("make") is not None, "make")
     done = run("scripts/build_docs.py", "--check")
