@@ -113,7 +113,7 @@ class Process:
         for thread, stream in zip(
             self._threads, (self.process.stdout, self.process.stdin), strict=True
         ):
-            thread.join(1.0)
+            thread.join(resources.END_SECONDS)
             if stream and not thread.is_alive():  # else something holds the other end
                 with contextlib.suppress(OSError):
                     stream.close()
