@@ -61,7 +61,7 @@ def why_not_loaded(script: Path, reply: Reply) -> str:
         why += (
             ". The checker has NumPy and Python's own modules only: import others in "
         )
-        why += "the function that uses them."
+        why += "in the function that uses them."
     elif reply.kind == "SyntaxError" and _line_of(script, reply).startswith("<<<<<<<"):
         why += ". This is the mark of a merge that git could not finish: keep one side."
     return why
