@@ -107,6 +107,7 @@ def test_with_gravity_forgotten_the_cube_is_still_placed_but_the_arm_is_far_off(
     assert result.line_mm > 50.0  # measured 100
 
 
+@pytest.mark.soak
 def test_a_slippery_cube_is_dropped_as_predicted():
     model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, friction=0.3)
     result = capstone.pick(capstone.library(), model=model)
