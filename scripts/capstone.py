@@ -12,6 +12,7 @@ Each function of yours that `make check` does not pass is replaced by the librar
 
 import argparse
 import sys
+import traceback
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -77,10 +78,8 @@ def pick(fns: Any, *where: Any, **options: Any) -> Result:
     except Robo47Error:
         raise
     except Exception as error:
-        trace, line = error.__traceback__, ""
-        while trace:
-            line = f"{Path(trace.tb_frame.f_code.co_filename).name}, line {trace.tb_lineno}"
-            trace = trace.tb_next
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        line = f"{Path(last.filename).name}, line {last.lineno}"
         raise Robo47Error(
             f"the arm stopped: {type(error).__name__}: {error} ({line}). "
             "To compare: make capstone ARGS=--kit"
