@@ -1,0 +1,225 @@
+"""The student's file behind the page: kept warm in the checker's sandbox, reloaded.
+
+A thread of its own looks at the file five times a second, opens it anew when it was
+saved, and asks it for the newest configuration; what comes back is delivered on the
+server's event loop. Nothing of the student's runs in this process.
+"""
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+
+from robo47.checker.replies import LoadError, Question, Reply
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.inspector.ghost import Ghost, Seen
+
+POLL_SECONDS, ASK_SECONDS = 0.2, 2.0
+FARTHEST = 1e3  # metres; a frame further away is not drawn
+
+
+class Asker(Protocol):
+    """A student's file, loaded: `checker.sandbox.Session`, or a test's fake."""
+
+    @property
+    def alive(self) -> bool:
+        """Whether it still answers."""
+
+    def ask(self, questions: Sequence[Question], seconds: float) -> list[Reply]:
+        """Return one reply per question."""
+
+    def close(self) -> None:
+        """End it."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file, and how it is opened.
+
+    Attributes:
+        script: the student's file; it need not be there.
+        open: opens it in the sandbox; raises LoadError.
+        explain: says in a line why it does not load.
+        describe: says in a line what a reply that is no answer means.
+    """
+
+    script: Path
+    open: Callable[[Path], Asker]
+    explain: Callable[[Path, Reply], str]
+    describe: Callable[[str, Reply], str]
+
+
+class Student(threading.Thread):
+    """Asks the student's function for every configuration, the newest first."""
+
+    def __init__(
+        self,
+        source: Source,
+        ghost: Ghost,
+        model: mujoco.MjModel,
+        deliver: Callable[[Seen | None], None],
+        saved: Callable[[], None],
+    ) -> None:
+        """Prepare; `start` runs it.
+
+        Args:
+            source: the file.
+            ghost: which function to ask, and what.
+            model: the robot.
+            deliver: is given what the function said; None where there is no file.
+            saved: called when the file was opened anew.
+        """
+        super().__init__(daemon=True, name="student")
+        self.source, self.ghost, self.model = source, ghost, model
+        self.deliver, self.saved = deliver, saved
+        self.news = threading.Condition()
+        self.q: Array | None = None
+        self.ended = False
+        self.requests: dict[str, tuple[Question, Callable[[Reply], None]]] = {}
+        self._asker: Asker | None = None
+        self._stamp: tuple[int, ...] | None = ()  # never looked
+        self._problem = ""
+
+    def want(self, q: Array) -> None:
+        """Ask for a configuration, in place of any that waits.
+
+        Args:
+            q: (nq,).
+        """
+        with self.news:
+            self.q = q.copy()
+            self.news.notify()
+
+    def request(self, question: Question, done: Callable[[Reply], None]) -> None:
+        """Ask any function, once; a newer request for it takes its place.
+
+        Args:
+            question: what to call.
+            done: is given the reply, on this thread.
+        """
+        with self.news:
+            self.requests[question.function] = (question, done)
+            self.news.notify()
+
+    def close(self) -> None:
+        """End the thread and the sandbox."""
+        with self.news:
+            self.ended = True
+            self.news.notify()
+
+    def run(self) -> None:
+        """Look, ask, deliver, until it is closed."""
+        done: Array | None = None
+        while not self.ended:
+            if self._look():
+                done = None
+            with self.news:
+                q, requests = self.q, list(self.requests.values())
+                self.requests.clear()
+            if q is not None and q is not done:
+                done = q
+                self.deliver(self._seen(q))
+            for question, then in requests:
+                then(self._one(question))
+            with self.news:
+                if self.q is done and not self.requests and not self.ended:
+                    self.news.wait(POLL_SECONDS)
+        self._shut()
+
+    def _look(self) -> bool:
+        """Open the file anew where it changed; return whether it did."""
+        stamp = stamp_of(self.source.script)
+        if stamp == self._stamp:
+            return False
+        self._stamp = stamp
+        self._shut()
+        self._problem = self._open() if stamp else ""
+        self.saved()
+        return True
+
+    def _open(self) -> str:
+        try:
+            self._asker = self.source.open(self.source.script)
+        except LoadError as error:
+            return self.source.explain(self.source.script, error.reply)
+        except (Robo47Error, OSError) as error:
+            return str(error)
+        return ""
+
+    def _shut(self) -> None:
+        if self._asker is not None:
+            self._asker.close()
+            self._asker = None
+
+    def _seen(self, q: Array) -> Seen | None:
+        """Return the student's poses at a configuration."""
+        if self._stamp is None:
+            return None
+        if self._asker is None:
+            return Seen(q, problem=self._problem)
+        start = time.perf_counter()
+        questions = [
+            Question("ghost", self.ghost.function, tuple(args))
+            for args in self.ghost.questions(self.model, q)
+        ]
+        replies = self._ask(questions)
+        poses, problem = {}, ""
+        for name, reply in zip(self.ghost.frames, replies, strict=True):
+            said = self.source.describe(self.ghost.function, reply)
+            if not said and not (said := no_pose(self.ghost.function, reply.value)):
+                poses[name] = np.array(reply.value, dtype=np.float64)
+            problem = problem or said
+        elapsed = 1000 * (time.perf_counter() - start)
+        return Seen(q, poses, problem, elapsed)
+
+    def _one(self, question: Question) -> Reply:
+        if self._asker is None:
+            return Reply(kind="missing", error=self._problem)
+        return self._ask([question])[0]
+
+    def _ask(self, questions: Sequence[Question]) -> list[Reply]:
+        """Ask; after a loop without an end, not again before the file is saved."""
+        assert self._asker is not None
+        replies = self._asker.ask(questions, seconds=ASK_SECONDS)
+        if not self._asker.alive:
+            last = next((r for r in replies if r.kind == "stopped"), Reply())
+            said = self.source.describe(self.ghost.function, last)
+            self._shut()
+            self._problem = f"{said} Save the file to have it asked again."
+        return replies
+
+
+def stamp_of(script: Path) -> tuple[int, ...] | None:
+    """Return what changes when a file is saved; None where there is no file."""
+    try:
+        found = script.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
+
+
+def no_pose(function: str, value: Any) -> str:
+    """Return why a value cannot be drawn as a pose; "" where it can.
+
+    Args:
+        function: whose value.
+        value: as the sandbox gives it.
+    """
+    if not isinstance(value, np.ndarray):
+        got = "nothing" if value is None else type(value).__name__
+        return f"{function} returned {got}; a pose is an array of shape (4, 4)."
+    if value.dtype.kind not in "fiub":
+        return f"{function} returned {value.dtype}; a pose is made of real numbers."
+    if value.shape != (4, 4):
+        return f"{function} returned shape {value.shape}; a pose has shape (4, 4)."
+    if not np.isfinite(value).all():
+        return f"{function} returned numbers that are not finite."
+    if np.abs(value[:3, 3]).max() > FARTHEST:
+        return f"{function} returned a place over a kilometre away."
+    return ""
