@@ -1,7 +1,6 @@
 # Every target is one line over a script that also runs on its own, so a machine
-# without make loses nothing: python3 scripts/setup_env.py, then the line below.
+# without make loses nothing: README, "No make?".
 PYTHON ?= python3
-DAY ?= 1
 ifeq ($(OS),Windows_NT)
   PY := .venv/Scripts/python.exe
 else
@@ -9,43 +8,53 @@ else
 endif
 # The robot: MENAGERIE_ROOT where set, else mujoco_menagerie/ fetched once.
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
+# Without DAY= a script takes the last day that you began.
+ON_DAY = $(if $(DAY),--day $(DAY))
+# A script's exit code 1 is "not yet", which is no error of make's.
+NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
+# A picture needs less than the page in the browser.
+VIEW := $(if $(findstring --screenshot,$(ARGS)),report,view)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor bench test-matrix setup view grade
-.PHONY: help day1 test soak report lint docs oracle figures notebook
+.PHONY: start check hint run doctor bench test-matrix setup robot view grade
+.PHONY: help test soak report lint docs oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
 	@echo
-	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | awk -F'|' '{printf "%-22s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z0-9%-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | sed 's/%/1/' \
+	  | awk -F'|' '{printf "%-18s %s\n", $$1, $$2}'
 	@echo
-	@echo "Add ARGS='...' to pass options on: make day1 ARGS=--no-log"
+	@echo "DAY=2 names a day; without it: the last one that you began. ARGS='...' passes"
+	@echo "options on: make day1 ARGS=--no-log"
 
-day1: .venv/.ready-core $(ROBOT) ## set up, run the Day 1 lab, verify it, log it
-	@$(PY) w1-foundations/src/day1_transforms.py $(ARGS)
+day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, log it
+	@$(PY) scripts/run_day.py $* --kit $(ARGS)
 
-view: .venv/.ready-view $(ROBOT) ## the arm, its frames and the proof; ARGS=--web: in a browser
+week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one table
+	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
+
+view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --screenshot
 	@$(PY) scripts/view_panda.py $(ARGS)
 
-start: .venv/.ready-core ## write your copy of DAY=1's lab; RESET=1.4 empties a task
+start: .venv/.ready-core ## write your copy of a day's lab; RESET=1.4 empties a task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
 
-check: .venv/.ready-core $(ROBOT) ## check DAY=1, or TASK=1.4 alone; ARGS=--watch
-	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS)
+check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone; ARGS=--watch
+	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
 hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
-	@$(PY) scripts/hint.py $(TASK) --day $(DAY) $(ARGS)
+	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
 
-run: .venv/.ready-core $(ROBOT) ## run your own copy of DAY=1's lab, log its numbers
-	@$(PY) $(or $(wildcard w*/work/day$(DAY)_*.py),$(error no lab of yours \
-	yet; first: make start DAY=$(DAY))) $(ARGS)
+run: .venv/.ready-core $(ROBOT) ## run your own copy of the lab, log its numbers
+	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 doctor: ## what this machine has and lacks; paste it when asking
-	@$(PYTHON) scripts/doctor.py $(ARGS)
+	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
 grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
-	clones? make grade ROOT=../class))" --day $(DAY) $(ARGS)
+	clones? make grade ROOT=../class))" $(ON_DAY) $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(ARGS)
@@ -65,30 +74,37 @@ lint: .venv/.ready-test ## style, format and types
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ARGS)
 
-figures: .venv/.ready-figures $(ROBOT) ## draw the pictures of the lessons
-	@$(PY) scripts/make_figures.py $(ARGS)
+figures: .venv/.ready-figures $(ROBOT) ## draw the pictures of a day's lesson
+	@$(PY) scripts/make_figures.py $(ON_DAY) $(ARGS)
 
-notebook: .venv/.ready-notebook $(ROBOT) ## turn the lab script into a notebook
-	@$(PY) scripts/make_notebook.py $(ARGS)
+notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook
+	@$(PY) scripts/make_notebook.py $(ON_DAY) $(ARGS)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
 
-bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in its own .venv-bench
+bench: .venv-bench/.ready-bench $(ROBOT) ## measure it beside other tools, in .venv-bench
 	@.venv-bench/$(PY:.venv/%=%) scripts/bench.py $(ARGS)
 
 .venv-bench/.ready-bench: pyproject.toml constraints.txt
 	@$(PYTHON) scripts/setup_env.py --venv .venv-bench bench
 
+robot: .venv/.ready-core ## fetch the robot, when there was no network before
+	@$(PY) scripts/fetch_menagerie.py $(ARGS)
+
 setup: ## make .venv anew, when it is broken
 	@$(PYTHON) scripts/setup_env.py --anew
 
-.venv/.ready-%: pyproject.toml constraints.txt $(PY)
+# PYTHON=... on the command line: set-up says so where .venv has another one.
+.venv/.ready-%: pyproject.toml constraints.txt $(PY) $(if $(filter command%,$(origin PYTHON)),said)
 	@$(PYTHON) scripts/setup_env.py $*
+
+.PHONY: said
+said:
 
 # No recipe: a .venv whose Python is gone makes the line above run.
 $(PY):
 
-# A student without a network still gets a lab: the embedded twin stands in.
+# A student without a network still gets a lab: the embedded twin is used.
 mujoco_menagerie/PROVENANCE.json: | .venv/.ready-core
-	@$(PY) scripts/fetch_menagerie.py || true
+	@$(PY) scripts/fetch_menagerie.py --daily || true

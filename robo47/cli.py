@@ -1,16 +1,86 @@
-"""What every command of the kit does the same way: end well."""
+"""What every command of the kit does the same way: help, colour, errors, the end."""
 
+from __future__ import annotations  # the doctor runs on old Pythons too
+
+import argparse
 import errno
+import functools
+import os
+import shutil
 import sys
+import textwrap
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from typing import TextIO
 
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
+WIDTH = 80  # columns that everything the kit prints fits in
 EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
+_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
+_PAINT = {"good": "32", "bad": "31", "note": "33"}  # green, red, yellow
+
+
+def parser(about: str | None) -> argparse.ArgumentParser:
+    """Return the parser of a script whose docstring is its help.
+
+    Args:
+        about: the docstring; its lines are kept as they are.
+    """
+    summary, _, usage = (about or "").partition("\n")
+    return argparse.ArgumentParser(
+        description=summary,
+        epilog=usage.strip("\n"),
+        formatter_class=functools.partial(
+            argparse.RawDescriptionHelpFormatter, width=WIDTH - 1
+        ),
+    )
+
+
+def paint(text: str, mood: str, stream: TextIO | None = None) -> str:
+    """Return text in the colour of its mood, or as it is where no colour is wanted.
+
+    Args:
+        text: a verdict, such as "PASS" or "to do".
+        mood: "good", "bad" or "note".
+        stream: where it will be printed; standard output by default.
+    """
+    if not wants_colour(stream or sys.stdout):
+        return text
+    return f"\x1b[{_PAINT[mood]}m{text}\x1b[0m"
+
+
+def wants_colour(stream: TextIO) -> bool:
+    """Return whether to paint: a terminal, and nobody said NO_COLOR."""
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return stream.isatty() and not plain
+
+
+def wrapped(text: str, indent: str = "") -> str:
+    """Return text in lines that fit; its own line breaks stay.
+
+    Args:
+        text: a sentence or more.
+        indent: put before each line but the first.
+    """
+    columns = min(WIDTH, shutil.get_terminal_size().columns) - 1
+    return "\n".join(
+        textwrap.fill(
+            line,
+            max(columns, 20),
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for line in text.splitlines()
+    )
+
+
+def complain(text: str) -> None:
+    """Print what went wrong: wrapped on a terminal, one line for a program to read."""
+    print(wrapped(text) if sys.stderr.isatty() else text, file=sys.stderr)
 
 
 def run(main: Callable[[], int]) -> None:
@@ -24,10 +94,10 @@ def run(main: Callable[[], int]) -> None:
         code = main()
         sys.stdout.flush()
     except Robo47Error as error:
-        print(f"error: {error}", file=sys.stderr)
+        complain(f"error: {error}")
         code = EXIT_CANNOT_RUN
     except NotImplementedError as gap:  # a task of a starter that is still to do
-        print(f"to do: {gap}", file=sys.stderr)
+        complain(f"to do: {gap}")
         code = EXIT_FAILED
     except BrokenPipeError:  # `... | head` closed early: nobody is left to tell
         sys.stdout = None  # type: ignore[assignment]
@@ -36,7 +106,7 @@ def run(main: Callable[[], int]) -> None:
         if error.errno not in _REFUSALS or not error.filename:
             raise
         where = shown(Path(error.filename).absolute())
-        print(f"error: {where}: {error.strerror}. Mend that.", file=sys.stderr)
+        complain(f"error: {where}: {error.strerror}. Fix that and run this again.")
         code = EXIT_CANNOT_RUN
     except KeyboardInterrupt:
         print("\nstopped", file=sys.stderr)

@@ -57,6 +57,14 @@ if folder:
     found["missing"] = menagerie.missing_files(folder)[:3]
 print(json.dumps(found))
 """
+LESSONS_PROBE = """
+import json
+from robo47 import originals, week
+from robo47.paths import shown
+days = week.all_days()
+others = [shown(day.source) for day in days if not originals.is_kits(day)]
+print(json.dumps({"days": len(days), "others": others}))
+"""
 GL_PROBE = """
 import json
 from robo47.figures import probe_backends
@@ -73,12 +81,19 @@ class Line(NamedTuple):
     remedy: str = ""
 
 
-def probe(python: str, code: str) -> tuple[Any, str]:
-    """Run code that prints one JSON value; return it, or None and the last words."""
+def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
+    """Run code that prints one JSON value; return it, or None and the last words.
+
+    MUJOCO_GL stops MuJoCo's import where it is wrong: only the look at OpenGL gets it.
+    """
+    kept = dict(os.environ)
+    if not gl:
+        kept.pop("MUJOCO_GL", None)
     try:
         done = subprocess.run(
             [python, "-c", code],
             cwd=str(ROOT),
+            env=kept,
             capture_output=True,
             timeout=PROBE_SECONDS,
             check=False,
@@ -111,11 +126,11 @@ def check_python(python: str) -> Line:
             "todo",
             "Python",
             found,
-            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
+            "The kit needs 3.11 or newer: install it, then make setup PYTHON=python3.13",
         )
     if not own:
         broken = VENV_PYTHON.exists()
-        remedy = ".venv does not start: make setup" if broken else "Set up: make day1"
+        remedy = ".venv does not start: make setup" if broken else "Set up: make setup"
         return Line("todo", "Python", found, remedy)
     return Line("good", "Python", found)
 
@@ -135,7 +150,7 @@ def check_mujoco(python: str) -> Line:
         return Line("good", "MuJoCo", version)
     installed = probe(python, VERSIONS_PROBE)[0] or {}
     if "mujoco" not in installed:
-        return Line("todo", "MuJoCo", "not installed", "make day1")
+        return Line("todo", "MuJoCo", "not installed", "make setup")
     found = "{} does not work: {}".format(installed["mujoco"], why)
     if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
@@ -154,30 +169,45 @@ def check_mujoco(python: str) -> Line:
 def check_robot(python: str) -> Line:
     """The Panda: its source, and whether its files are as they were fetched."""
     found, why = probe(python, ROBOT_PROBE)
-    fetch = "python scripts/fetch_menagerie.py"
     if found is None:
         return Line("todo", "robot", why.split("Robo47Error: ")[-1])
     if "files" not in found:
         says = "not fetched; the labs run on the embedded twin"
-        return Line("note", "robot", says, "With a network: " + fetch)
+        return Line("note", "robot", says, "With a network: make robot")
     broken = sorted({*found["missing"], *found["changed"]})
     if broken:
-        remedy = "Delete " + found["folder"] + ", then: " + fetch
+        remedy = "Delete " + found["folder"] + ", then: make robot"
         return Line("todo", "robot", "not as fetched: " + ", ".join(broken), remedy)
     where = found["commit"] or "sha256 " + found["content"]
     hashes = "{} files match".format(found["files"]) if found["files"] else "no hashes"
     return Line("good", "robot", ", ".join([found["source"], where[:15], hashes]))
 
 
+def check_lessons(python: str) -> Line:
+    """The lab scripts of the lessons: the kit's own, or something saved over them."""
+    found, why = probe(python, LESSONS_PROBE)
+    if found is None:
+        return Line("todo", "lessons", why.split("Robo47Error: ")[-1])
+    if found["others"]:
+        says = "not the kit's: " + ", ".join(found["others"])
+        remedy = "To get it back: git checkout -- " + found["others"][0]
+        return Line("todo", "lessons", says, remedy)
+    return Line("good", "lessons", "days: {}".format(found["days"]))
+
+
 def check_gl(python: str) -> Line:
     """Which OpenGL back ends really draw."""
-    found, why = probe(python, GL_PROBE)
+    chosen = os.environ.get("MUJOCO_GL", "")
+    found, why = probe(python, GL_PROBE, gl=True)
     if found is None:
         return Line("note", "pictures", "not tried: " + why)
     draws = [name for name, says in found.items() if says == "renders"]
     if draws:
         return Line("good", "pictures", "drawn with " + ", ".join(draws))
     why = "; ".join(name + ": " + says for name, says in found.items())
+    if chosen:  # the one that was tried
+        says = "MUJOCO_GL=" + chosen + " does not draw here: " + found[chosen.strip()]
+        return Line("todo", "pictures", says, "Unset it: unset MUJOCO_GL")
     if sys.platform.startswith("linux"):
         return Line(
             "todo",
@@ -239,7 +269,7 @@ def examine() -> list[Line]:
     python = kit_python()
     checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
     if check_python(python).status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_gl)
+        inside = (check_mujoco, check_robot, check_lessons, check_gl)
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []

@@ -24,10 +24,10 @@ ENTRIES = ("panda", "panda_nohand", "scene")
 def remedy() -> str:
     """Return what to do about broken files, as a sentence."""
     if os.environ.get("MENAGERIE_ROOT"):
-        return "Mend them there, or unset MENAGERIE_ROOT to use the kit's own copy."
+        return "Fix them there, or unset MENAGERIE_ROOT to use the kit's own copy."
     return (
-        f"Delete {shown(menagerie_root() / PANDA)} and run"
-        " `python scripts/fetch_menagerie.py` to fetch it anew."
+        f"Delete {shown(menagerie_root() / PANDA)} and run `make robot` to fetch it"
+        " anew (without make: python3 scripts/fetch_menagerie.py)."
     )
 
 
@@ -49,21 +49,35 @@ def panda_folder() -> Path | None:
 
 
 def read_provenance() -> dict[str, Any]:
-    """Return PROVENANCE.json, or what can be told of a folder that has none.
+    """Return PROVENANCE.json, or what can be told of a folder that has no readable one.
 
     Returns:
         A dict with at least "source" and "commit" (None where nobody recorded it).
     """
-    record = menagerie_root() / "PROVENANCE.json"
+    root = menagerie_root()
+    return _read_record(root) or describe_copy(root)
+
+
+def is_recorded(root: Path) -> bool:
+    """Return whether a folder holds a PROVENANCE.json that can be used.
+
+    Args:
+        root: the folder that holds the robots.
+    """
+    return bool(_read_record(root))
+
+
+def _read_record(root: Path) -> dict[str, Any]:
+    """Return PROVENANCE.json, or {} where it is missing, torn or something else."""
     try:
-        return json.loads(record.read_text("utf-8"))
-    except FileNotFoundError:
-        return describe_copy(menagerie_root())
-    except (OSError, ValueError) as error:
-        raise Robo47Error(
-            f"{shown(record)} cannot be read ({error}). Delete that file and run "
-            "`python scripts/fetch_menagerie.py` to write it anew."
-        ) from None
+        found = json.loads((root / "PROVENANCE.json").read_text("utf-8"))
+    except (OSError, ValueError):
+        return {}
+    if not isinstance(found, dict) or not isinstance(found.get("source"), str):
+        return {}
+    commit, files = found.setdefault("commit", None), found.get("files", {})
+    right = isinstance(commit, str | None) and isinstance(files, dict)
+    return found if right else {}
 
 
 def describe_copy(root: Path) -> dict[str, Any]:

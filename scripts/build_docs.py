@@ -11,7 +11,6 @@ A document asks for an output between two comments:
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends.
 """
 
-import argparse
 import functools
 import math
 import os
@@ -100,9 +99,7 @@ def rebuilt(document: str) -> tuple[str, list[str]]:
 
 def main() -> int:
     """Rebuild or check every document."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
     drift = 0

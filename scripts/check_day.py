@@ -22,20 +22,15 @@ from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
-from robo47.week import Day, find_day, find_task
+from robo47.lesson.day import Day, find_day, find_task, started_day
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
 
 def parse() -> argparse.Namespace:
     """Read the command line."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("day", type=int, nargs="?", default=1, help="default: 1")
+    parser = cli.parser(__doc__)
+    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
     parser.add_argument("--task", help="check this task alone, such as 1.4")
     parser.add_argument("--file", type=Path, help="instead of the file in work/")
     parser.add_argument("--watch", action="store_true", help="check again at each save")
@@ -83,7 +78,7 @@ def watch(day: Day, options: argparse.Namespace) -> int:
             if check(day, options) == cli.EXIT_OK:
                 return cli.EXIT_OK
         except Robo47Error as error:  # a file may be away while an editor saves it
-            print(f"error: {error}", file=sys.stderr)
+            cli.complain(f"error: {error}")
         print(f"\n{time.strftime('%H:%M:%S')}  watching; Ctrl-C ends it\n", flush=True)
 
 
@@ -105,7 +100,8 @@ def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
 def main() -> int:
     """Check a day, once or at every save."""
     options = parse()
-    day = find_task(options.task)[0] if options.task else find_day(options.day)
+    number = options.day or started_day()
+    day = find_task(options.task)[0] if options.task else find_day(number)
     return watch(day, options) if options.watch else check(day, options)
 
 

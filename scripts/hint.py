@@ -9,11 +9,9 @@ Each call gives one more hint and the section to re-read. What you have had is
 remembered in .robo47/, which git ignores.
 """
 
-import argparse
 import contextlib
 import json
 import os
-import textwrap
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -22,10 +20,8 @@ from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
-from robo47.starter import read_script, solution
-from robo47.week import Day, Task, find_day, find_task
-
-WIDTH = 79
+from robo47.lesson.starter import read_script, solution
+from robo47.lesson.day import Day, Task, find_day, find_task, started_day
 
 
 def seen_file() -> Path:
@@ -83,7 +79,7 @@ def show_deliverable(day: Day, name: str) -> int:
         )
     print(f"{name}\n")
     for line in (items[name].message or "Nothing is left to do for it.").splitlines():
-        print(textwrap.fill(line, WIDTH, break_on_hyphens=False))
+        print(cli.wrapped(line))
     return cli.EXIT_OK
 
 
@@ -93,42 +89,38 @@ def show_hint(task: Task, again: bool) -> None:
     count = min(seen.get(task.id, 0) + (not again), len(task.hints))
     seen[task.id] = count = max(count, 1)
     write_seen(seen)
-    print(f"{task.id}  {task.title}: hint {count} of {len(task.hints)}\n")
-    print(textwrap.fill(task.hints[count - 1], WIDTH))
-    print(f"\nRe-read: {task.read}")
+    print(cli.wrapped(f"{task.id}  {task.title}: hint {count} of {len(task.hints)}"))
+    print(f"\n{cli.wrapped(task.hints[count - 1])}")
+    print(f"\n{cli.wrapped('Re-read: ' + task.read, '    ')}")
     if count == len(task.hints):
         print("That was the last one: next, somebody to think aloud with.")
 
 
 def show_solution(day: Day, task: Task) -> None:
     """Print the kit's own lines, to compare with the student's."""
-    print(f"{task.id}  {task.title}: yours passes. The kit's, to compare:\n")
+    print(f"{task.id}  {task.title}")
+    print("Yours passes. The kit's, to compare:\n")
     print(solution(read_script(day.source), shown(day.source), task.id))
 
 
 def main() -> int:
     """Give the next hint."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument(
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
-    parser.add_argument("--day", type=int, default=1, help="without a task; default: 1")
+    parser.add_argument("--day", type=int, help="default: the last begun")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
-    day, wanted = find_day(options.day), None
+    day, wanted = find_day(options.day or started_day()), None
     if options.task and not options.task[0].isdecimal():
         return show_deliverable(day, options.task)
     if options.task:
         day, wanted = find_task(options.task)
     left, problem = check(day, wanted)
     if problem:
-        print(textwrap.fill(problem, WIDTH, break_on_hyphens=False))
-        print("\nMend that first: until then no task can be judged.")
+        print(cli.wrapped(problem))
+        print("\nFix that first: until then no task can be judged.")
         return cli.EXIT_FAILED
     if left:
         show_hint(left[0], options.again)

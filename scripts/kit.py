@@ -1,34 +1,64 @@
 """Importing this goes on in the kit's own Python, whichever started the script.
 
 `python scripts/check_day.py` then works from a bare system Python too: everything the
-kit needs is in .venv, and that is where the script goes on.
+kit needs is in .venv, and that is where the script goes on. The labs do the same:
+`import kit` finds `w1-foundations/src/kit.py`, which runs this file.
 """
 
-import importlib.util
+# Old Pythons read this first: no f-strings and no annotations.
 import os
-import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
-OWN = ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+OWN = os.path.join(ROOT, ".venv", "bin", "python")
+if os.name == "nt":
+    OWN = os.path.join(ROOT, ".venv", "Scripts", "python.exe")
 
 
-def here() -> bool:
+def here():
     """Return whether this Python can run the kit."""
-    return all(importlib.util.find_spec(name) for name in NEEDED)
+    if sys.version_info < (3, 11):
+        return False
+    from importlib.util import find_spec
+
+    return all(find_spec(name) for name in NEEDED)
 
 
-if not here():
-    if os.environ.get("ROBO47_HANDED_ON") or not OWN.exists():
+def go_on():
+    """Start the script again in the kit's own Python, or say how to get one."""
+    again = os.path.isfile(sys.argv[0])  # not a line typed at a prompt
+    if os.environ.get("ROBO47_HANDED_ON") or not os.path.exists(OWN) or not again:
         sys.exit(
             "error: the kit is not set up"
-            + (" completely" if OWN.exists() else "")
+            + (" completely" if os.path.exists(OWN) else "")
             + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew)."
         )
     os.environ["ROBO47_HANDED_ON"] = "1"  # once: a broken .venv must not go in circles
-    command = [str(OWN), *sys.argv]
+    command = [OWN] + sys.argv
     if os.name == "nt":  # execv there returns to the shell before the script has ended
-        sys.exit(subprocess.run(command, check=False).returncode)
+        import subprocess
+
+        sys.exit(subprocess.call(command))
     os.execv(command[0], command)
+
+
+def explain_gl(kind, error, trace):
+    """Say in one line that MUJOCO_GL is wrong: MuJoCo reads it when it is imported."""
+    chosen, frame = os.environ.get("MUJOCO_GL"), trace
+    while frame and "gl_context" not in frame.tb_frame.f_code.co_filename:
+        frame = frame.tb_next
+    if not chosen or not frame:
+        sys.__excepthook__(kind, error, trace)
+        return
+    sys.stdout.flush()
+    says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL\n"
+    sys.stderr.write(says.format(chosen))
+    sys.stderr.flush()
+    os._exit(2)  # after this hook Python would end with 1
+
+
+if not here():
+    go_on()
+os.environ.pop("ROBO47_HANDED_ON", None)  # programs that we start may hand on too
+sys.excepthook = explain_gl

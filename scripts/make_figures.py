@@ -9,7 +9,6 @@ Works without a display. MuJoCo draws the robot; the frames over it are composed
 by hand, so a wrong one would be seen beside its link.
 """
 
-import argparse
 import importlib
 import sys
 from collections.abc import Callable
@@ -45,9 +44,7 @@ def find_figures() -> dict[str, Callable[[], Any]]:
 
 def main() -> int:
     """Draw what was asked for."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
     parser.add_argument("--out", type=Path, default=FOLDER, help="folder to write to")
     arguments = parser.parse_args()

@@ -8,7 +8,6 @@ The script is the only source: its functions and the steps of its main() become
 cells. What the notebook adds (set-up, pictures, sliders) is in this file.
 """
 
-import argparse
 import ast
 import contextlib
 import re
@@ -198,9 +197,7 @@ def evaluate(heading: ast.expr, names: dict[str, object]) -> str:
 
 def main() -> int:
     """Write the notebook, or check it."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing")
     check, fresh = parser.parse_args().check, build()
     current = NOTEBOOK.read_text("utf-8") if NOTEBOOK.exists() else ""

@@ -4,24 +4,40 @@
     python3 scripts/setup_env.py test       and what `make test` needs
     python3 scripts/setup_env.py view ...   any extra named in pyproject.toml
     python3 scripts/setup_env.py --anew     throw .venv away and make it again
-    python3 scripts/setup_env.py --venv .venv-bench bench    in a folder of its own
+    python3 scripts/setup_env.py --venv .venv-bench bench    in another folder
 
-Runs on a bare Python, so it uses the standard library alone, and no syntax
-that would keep an old Python from reading the message that it is too old.
-Does nothing when nothing changed. Uses `uv` where it is installed.
+Does nothing when nothing changed, and heals what an interrupted run left behind.
+Two at once wait for each other. Uses `uv` where it is installed.
 """
 
+# Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
+# annotations) that would keep Python 2.7 or 3.6 from saying that it is too old.
 import argparse
+import contextlib
+import errno
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
+import time
 
-ROOT = Path(__file__).resolve().parent.parent
-PYTHON_IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PYTHON_IN_VENV = os.path.join("Scripts", "python.exe")
+if os.name != "nt":
+    PYTHON_IN_VENV = os.path.join("bin", "python")
 OLDEST = (3, 11)
+OFFLINE = (
+    "Temporary failure",
+    "Failed to establish",
+    "NewConnectionError",
+    "Network is unreachable",
+    "dns error",
+    "Could not resolve",
+    "getaddrinfo",
+)
+DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
 
 
 def stop(problem, remedy):
@@ -29,112 +45,249 @@ def stop(problem, remedy):
     sys.exit("setup: " + problem + "\n       " + remedy)
 
 
+def say(text):
+    """Print a line at once, also into a pipe."""
+    print("setup: " + text)
+    sys.stdout.flush()
+
+
 def find_python():
     """Return a Python that is new enough, and its version: this one, or on PATH."""
     if sys.version_info[:2] >= OLDEST:
         # Run from inside an environment, the Python that it was made with.
         return getattr(sys, "_base_executable", sys.executable), sys.version_info[:2]
+    which = getattr(shutil, "which", lambda name: None)  # Python 2 has none
     for minor in (13, 12, 11, 14):
-        found = shutil.which(f"python3.{minor}")
+        found = which("python3.{}".format(minor))
         if found and is_version(found, (3, minor)):
             return found, (3, minor)
     return stop(
         "this is Python {}.{}; the kit needs 3.11 or newer.".format(
             *sys.version_info[:2]
         ),
-        "Install one (python.org, or your package manager) and run make again with"
-        " PYTHON=python3.13",
+        "Install one (python.org, or your package manager), then run make again\n"
+        "       with PYTHON=python3.13",
     )
+
+
+def is_version(python, version):
+    """Return whether a Python starts and is that version (a pyenv shim may not)."""
+    return ask(python, "import sys") == tuple(version)
+
+
+def ask(python, imports):
+    """Return the version of a Python that can import something, or None."""
+    code = imports + "; import sys; print('%d %d' % sys.version_info[:2])"
+    try:
+        process = subprocess.Popen(
+            [str(python), "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
+        said = process.communicate()[0].split()
+    except OSError:
+        return None
+    if process.returncode != 0 or len(said) != 2:
+        return None
+    return int(said[0]), int(said[1])
+
+
+def made_with(venv):
+    """Return the version of an environment's Python, or None if it is not whole.
+
+    An environment is whole once it carries a stamp: a run that is killed while pip is
+    being unpacked leaves one that starts and cannot install anything.
+    """
+    stamped = any(name.startswith((".made", ".ready-")) for name in listing(venv))
+    python = os.path.join(venv, PYTHON_IN_VENV)
+    return ask(python, "import pip") if stamped and os.path.exists(python) else None
+
+
+def recorded_version(venv):
+    """Return the version that a broken environment was made with, or ""."""
+    try:
+        with open(os.path.join(venv, "pyvenv.cfg")) as file:
+            found = re.search(r"^version\w* *= *(\d+\.\d+)", file.read(), re.MULTILINE)
+    except (OSError, ValueError):
+        return ""
+    return found.group(1) if found else ""
+
+
+def listing(folder):
+    """Return the names in a folder; none where there is no such folder."""
+    try:
+        return os.listdir(folder)
+    except OSError:
+        return []
 
 
 def fingerprint():
     """Return a hash of everything that decides what an environment holds."""
-    files = [ROOT / name for name in ("pyproject.toml", "constraints.txt")]
-    parts = [str(ROOT)] + [path.read_text("utf-8") for path in files]
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    digest = hashlib.sha256(ROOT.encode("utf-8"))
+    for name in ("pyproject.toml", "constraints.txt"):
+        with open(os.path.join(ROOT, name), "rb") as file:
+            digest.update(file.read().replace(b"\r\n", b"\n"))
+    return digest.hexdigest()
+
+
+def is_stamped(path):
+    """Return whether a stamp is there and says what it must; any bytes may be in it."""
+    try:
+        with open(path, "rb") as file:
+            return file.read() == fingerprint().encode("ascii")
+    except OSError:
+        return False
+
+
+def write_stamp(path):
+    """Write a stamp whole or not at all; rewriting it tells make that it is new."""
+    with open(path + ".part", "wb") as file:
+        file.write(fingerprint().encode("ascii"))
+    os.replace(path + ".part", path)
+
+
+def remove(path):
+    """Delete a file that may not be there."""
+    with contextlib.suppress(OSError):
+        os.remove(path)
+
+
+@contextlib.contextmanager
+def alone(name):
+    """Wait until no other process does this; a killed one lets go by itself."""
+    try:
+        folder = os.path.join(ROOT, ".robo47")
+        if not os.path.isdir(folder):
+            os.makedirs(folder)
+        file = open(os.path.join(folder, name + ".lock"), "a+b")  # noqa: SIM115
+    except OSError:  # a folder that nobody can write to: setting up will say so
+        yield
+        return
+    try:
+        waited = False
+        while not try_lock(file.fileno()):
+            if not waited:
+                say("another run is at it in this folder; waiting ...")
+            waited = True
+            time.sleep(0.2)
+        yield
+    finally:
+        file.close()
+
+
+def try_lock(fd):
+    """Take a lock on an open file; True too where the system has no locks."""
+    try:
+        if os.name == "nt":
+            import msvcrt
+
+            os.lseek(fd, 0, os.SEEK_SET)
+            msvcrt.locking(fd, msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in (errno.EAGAIN, errno.EACCES, errno.EDEADLK)
+    return True
 
 
 def run(command, doing):
-    """Run a quiet command; on failure show the end of what it said."""
-    print("setup: " + doing + " ...", flush=True)
-    done = subprocess.run(
-        [str(part) for part in command],
-        cwd=str(ROOT),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
+    """Run a quiet command; return its exit code and what it said."""
+    say(doing + " ...")
+    process = subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     )
-    return done.returncode, done.stdout
+    try:
+        said = process.communicate()[0]
+    except BaseException:  # Ctrl-C reached it too; its end has to come before ours
+        process.kill()
+        process.wait()
+        raise
+    return process.returncode, said.decode("utf-8", "replace")
 
 
 def make_venv(venv, python, uv):
     """Create the environment, replacing one that does not work."""
+    for name in listing(venv):  # first: without a stamp nobody takes it for whole
+        if name.startswith((".made", ".ready-", ".installing-")):
+            remove(os.path.join(venv, name))
     command = [python, "-m", "venv", "--clear", venv]
     if uv:
         command = [uv, "venv", "--quiet", "--clear", "--seed", "--python", python, venv]
-    code, said = run(command, "making " + venv.name)
+    code, said = run(command, "making " + os.path.basename(venv))
     if code == 0:
+        write_stamp(os.path.join(venv, ".made"))
         return
-    shutil.rmtree(str(venv), ignore_errors=True)
+    shutil.rmtree(venv, ignore_errors=True)
     if "ensurepip" in said:
         version = "{}.{}".format(*sys.version_info[:2])
         stop(
             "this Python cannot make environments (no ensurepip).",
-            "On Debian or Ubuntu: sudo apt install python3-venv (or python"
+            "On Debian or Ubuntu: sudo apt install python3-venv\n       (or python"
             + version
             + "-venv), then run make again.",
         )
-    stop("could not make it:\n" + said[-1500:], "Mend that and run make again.")
+    if "No space left" in said:
+        stop(*DISK_FULL)
+    stop("could not make it:\n" + said[-1500:], "Fix that and run make again.")
 
 
 def install(venv, extra, uv):
     """Install the kit, editable, with one extra, at the pinned versions."""
     what = ".[" + extra + "]" if extra != "core" else "."
-    python = venv / PYTHON_IN_VENV
-    command = [python, "-m", "pip", "install", "--disable-pip-version-check"]
+    command = [os.path.join(venv, PYTHON_IN_VENV), "-m", "pip", "install"]
+    command += ["--disable-pip-version-check"]
     if uv:
-        command = [uv, "pip", "install", "--python", python]
+        command = [uv, "pip", "install", "--python", command[0]]
     command += ["--quiet", "--constraint", "constraints.txt", "--editable", what]
+    begun = os.path.join(venv, ".installing-" + extra)
+    if os.path.exists(begun):  # killed halfway: what looks installed may have gaps
+        command.append("--reinstall" if uv else "--force-reinstall")
+    open(begun, "wb").close()
     code, said = run(command, "installing robo47 (" + extra + "), a minute at most")
     if code == 0:
         return
-    offline = (
-        "Temporary failure",
-        "Failed to establish",
-        "NewConnectionError",
-        "Network is unreachable",
-        "dns error",
-        "Could not resolve",
-        "getaddrinfo",
-    )
-    if any(sign in said for sign in offline):
+    if any(sign in said for sign in OFFLINE):
         stop(
             "the package index cannot be reached.",
             "Check the network (or the proxy: HTTPS_PROXY), then run make again.",
         )
     if "No space left" in said:
-        stop("the disk is full.", "Free about 1 GB, then run make again.")
-    stop("could not install:\n" + said[-1500:], "Mend that and run make again.")
+        stop(*DISK_FULL)
+    stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
 
 
-def is_version(python, version):
-    """Return whether a Python starts and is that version (a pyenv shim may not)."""
-    test = f"import sys; sys.exit(sys.version_info[:2] != {tuple(version)})"
-    done = subprocess.run(
-        [str(python), "-c", test], stderr=subprocess.PIPE, check=False
-    )
-    return done.returncode == 0
+def provide(venv, anew, uv):
+    """Make the environment if it is not whole; say when its Python is another one."""
+    python, version = find_python()
+    has = made_with(venv)
+    wanted, folder = "{}.{}".format(*version), os.path.basename(venv)
+    if has is not None and has >= OLDEST and not anew:
+        if has != version:
+            say("{} keeps its Python {}.{}; to change that:".format(folder, *has))
+            say("make setup PYTHON=" + python)
+        return
+    before = "{}.{}".format(*has) if has else recorded_version(venv)
+    if before and not anew:
+        say("{} (Python {}) is not whole; making it anew".format(folder, before))
+    if before and before != wanted:
+        say("{} had Python {}; it gets {} now".format(folder, before, wanted))
+    make_venv(venv, python, uv)
 
 
-def works(venv, version):
-    """Return whether an environment's Python is the right one and starts."""
-    python = venv / PYTHON_IN_VENV
-    return python.exists() and is_version(python, version)
+def bring(venv, extras, anew):
+    """Bring an environment to what pyproject.toml and constraints.txt say."""
+    uv = getattr(shutil, "which", lambda name: None)("uv")
+    provide(venv, anew, uv)
+    for extra in extras:
+        stamp = os.path.join(venv, ".ready-" + extra)
+        if not is_stamped(stamp):
+            install(venv, extra, uv)
+        write_stamp(stamp)
+        remove(os.path.join(venv, ".installing-" + extra))
 
 
 def main():
-    """Bring `.venv` to what pyproject.toml and constraints.txt say."""
+    """Set up what was asked for."""
     about, usage = __doc__.split("\n", 1)
     parser = argparse.ArgumentParser(
         description=about,
@@ -145,16 +298,16 @@ def main():
     parser.add_argument("--anew", action="store_true", help="make it from nothing")
     parser.add_argument("--venv", default=".venv", help="its folder; default: .venv")
     options = parser.parse_args()
-    venv = ROOT / options.venv
-    python, version = find_python()
-    uv = shutil.which("uv")
-    if options.anew or not works(venv, version):
-        make_venv(venv, python, uv)
-    for extra in options.extras:
-        stamp = venv / (".ready-" + extra)
-        if not (stamp.exists() and stamp.read_text() == fingerprint()):
-            install(venv, extra, uv)
-        stamp.write_text(fingerprint())
+    if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
+        newer = find_python()[0]
+        sys.exit(subprocess.call([newer, os.path.abspath(__file__)] + sys.argv[1:]))
+    try:
+        with alone("setup"):
+            bring(os.path.join(ROOT, options.venv), options.extras, options.anew)
+    except OSError as error:
+        if error.errno != errno.ENOSPC:
+            raise
+        stop(*DISK_FULL)
 
 
 if __name__ == "__main__":

@@ -1,21 +1,22 @@
 """Start a day: write your copy of its lab script, with the tasks left for you to do.
 
-    python scripts/start_day.py 1                 (make start DAY=1)
-    python scripts/start_day.py 1 --reset 1.4     put one task's gap back
+    python3 scripts/start_day.py 1                 (make start DAY=1)
+    python3 scripts/start_day.py 1 --reset 1.4     put one task's gap back
                                                   (make start RESET=1.4)
 
 A file that is there is never overwritten, and a reset keeps your old text beside it.
 """
 
-import argparse
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
+from robo47.errors import Robo47Error
+from robo47.originals import require_kits
 from robo47.paths import shown
-from robo47.starter import make_starter, put_back, read_script
-from robo47.week import Day, find_day, find_task
+from robo47.lesson.starter import make_starter, put_back, read_script
+from robo47.lesson.day import Day, find_day, find_task, started_day
 
 
 def starter_of(day: Day) -> str:
@@ -25,16 +26,19 @@ def starter_of(day: Day) -> str:
 
 def start(day: Day) -> int:
     """Write the starter, unless the student's file is there."""
-    work = day.work
+    work, first = day.work, day.tasks[0]
+    require_kits(day)
+    starter = starter_of(day)
     work.parent.mkdir(parents=True, exist_ok=True)
+    copy_kit(day)
     try:
         with work.open("x", encoding="utf-8") as file:
-            file.write(starter_of(day))
+            file.write(starter)
     except FileExistsError:
         print(f"{shown(work)} is there already and stays as it is.")
-        print("To begin one task anew: make start RESET=1.4 (with its number)")
+        print(f"To begin one task anew: make start RESET={first.id} (with its number);")
+        print(f"all of it: move that file away, then make start DAY={day.number}")
         return cli.EXIT_OK
-    first = day.tasks[0]
     print(f"Day {day.number}: {day.title}, about {day.minutes} minutes.")
     print(f"Your copy of the lab: {shown(work)}")
     print(f"It has {len(day.tasks)} tasks, from {first.id} ({first.functions[0]}) on.")
@@ -42,14 +46,28 @@ def start(day: Day) -> int:
     return cli.EXIT_OK
 
 
+def copy_kit(day: Day) -> None:
+    """Put `kit.py` beside the student's file: it lets any Python run the lab."""
+    original, copy = day.source.with_name("kit.py"), day.work.with_name("kit.py")
+    if original.is_file() and not copy.exists():
+        copy.write_bytes(original.read_bytes())
+
+
 def reset(task_id: str) -> int:
     """Put one task's gaps back; keep what stood there."""
     day, task = find_task(task_id)
     work = day.work
+    require_kits(day)
     text = read_script(work)
+    if not text.strip():
+        raise Robo47Error(
+            f"{shown(work)} is empty. Delete it, then: make start DAY={day.number}"
+        )
+    crlf = b"\r\n" in work.read_bytes()
     kept = free_name(work, task_id)
-    kept.write_text(text, "utf-8")
-    work.write_text(put_back(text, starter_of(day), task.functions), "utf-8")
+    kept.write_bytes(work.read_bytes())
+    text = put_back(text, starter_of(day), task.functions)
+    work.write_text(text, "utf-8", newline="\r\n" if crlf else "\n")
     print(f"task {task_id} is back at its start in {shown(work)}")
     print(f"your file as it was: {shown(kept)}")
     return cli.EXIT_OK
@@ -65,16 +83,13 @@ def free_name(work: Path, task_id: str) -> Path:
 
 def main() -> int:
     """Start a day or reset a task."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("day", type=int, nargs="?", default=1, help="default: 1")
+    parser = cli.parser(__doc__)
+    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
     parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
     options = parser.parse_args()
-    return reset(options.reset) if options.reset else start(find_day(options.day))
+    if options.reset:
+        return reset(options.reset)
+    return start(find_day(options.day or started_day()))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ Each pair gets an environment of its own, .venv-matrix/…, made once. A Python 
 not on this machine's PATH is named and left out.
 """
 
-import argparse
 import os
 import shlex
 import shutil
@@ -73,9 +72,7 @@ def run(command: list[str]) -> None:
 
 def main() -> int:
     """Run every pair and print one line for each."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--python", nargs="+", default=PYTHONS, metavar="X.Y")
     parser.add_argument("--mujoco", nargs="+", default=MUJOCOS, metavar="X.Y.Z")
     parser.add_argument("--pytest", default="", help="options for pytest, in quotes")

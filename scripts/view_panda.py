@@ -91,12 +91,7 @@ def port(text: str) -> int:
 
 def parse() -> argparse.Namespace:
     """Read the command line."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--web", action="store_true", help="the inspector, in a browser")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")

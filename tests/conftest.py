@@ -93,7 +93,7 @@ def clone(tmp_path):
         skipped = shutil.ignore_patterns("__pycache__", "work")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     from robo47 import metrics
-    from robo47.week import find_day
+    from robo47.lesson.day import find_day
 
     day = find_day(1, copy)
     (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
@@ -169,16 +169,17 @@ def student(tmp_path):
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from robo47.checker import variant
+    from robo47 import panda
     from robo47.checker.model_copy import copy_model, facts
     from robo47.checker.replies import Question
     from robo47.checker.sandbox import Sandbox
 
-    def run(code, *questions):
+    def run(code, *questions, library=None, needs=None):
         with Sandbox() as sandbox:
-            models = [copy_model(model) for model in variant.models()]
+            models = [copy_model(panda.load("panda_nohand"), "panda_nohand")]
             asked = questions or [Question("1.1", "f", ())]
-            return sandbox.run(student(code), asked, models, facts())
+            file = student(code)
+            return sandbox.run(file, asked, models, facts(), library, needs)
 
     return run
 
@@ -188,7 +189,7 @@ def check(student):
     """Check a student's file; return {task: verdict}."""
     from robo47.checker.sandbox import Sandbox
     from robo47.checker.tasks import check_tasks
-    from robo47.week import find_day
+    from robo47.lesson.day import find_day
 
     def run(code, only=None):
         with Sandbox() as sandbox:

@@ -10,7 +10,7 @@ from conftest import environment_of
 from test_deliverables import PICTURE, git, png, worksheet
 
 from robo47 import metrics
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
 
@@ -29,7 +29,7 @@ def work(day, run_in):
 
 def solve(day, work, *names):
     """Write the kit's solution of some functions into the student's file."""
-    from robo47.starter import put_back
+    from robo47.lesson.starter import put_back
 
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 

@@ -5,7 +5,7 @@ from submissions.catalogue import submissions
 
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.tasks import check_tasks
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 DAY = find_day(1)
 # Where the checker knows more than the judge, who sees numbers alone.

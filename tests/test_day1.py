@@ -142,7 +142,7 @@ def test_no_log_leaves_the_file_alone(run, tmp_path):
 
 def test_a_failing_check_is_named_recorded_and_exits_1(monkeypatch, tmp_path, capsys):
     failing = load_lab()
-    monkeypatch.setattr("robo47.lab.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", tmp_path / "m.csv")
     monkeypatch.setattr("robo47.metrics.METRICS_CSV", tmp_path / "m.csv")
     monkeypatch.setattr(sys, "argv", ["day1"])
     monkeypatch.setattr(failing, "CONFIGURATIONS", 10)

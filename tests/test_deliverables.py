@@ -12,7 +12,7 @@ from robo47 import metrics
 from robo47.checker.deliverables import check_deliverables
 from robo47.checker.deliverables.figure import FlawError, read_png
 from robo47.checker.deliverables.worksheet import split_sections
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 RNG = np.random.default_rng(47)
 PICTURE = RNG.integers(0, 256, (300, 400, 3), np.uint8)

@@ -22,7 +22,7 @@ from robo47.grading.package import Package
 from robo47.grading.result import ITEMS, Mark, Result, from_json, ungraded
 from robo47.grading.roster import Student
 from robo47.grading.sheet import Graded, plain
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 SCRIPT = f"{WEEK}/work/{DAY.script}"
 links = pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")

@@ -1,22 +1,22 @@
-"""The sandbox's stand-in of MjModel."""
+"""The sandbox's fake of MjModel."""
 
 import numpy as np
 import pytest
 
 from robo47.checker import variant
-from robo47.checker.inside import standins, wire
+from robo47.checker.inside import fake_model, wire
 from robo47.checker.model_copy import copy_model
 from robo47.checker.replies import Model, Question
 
 
-class TestTheStandInOfMjModel:
+class TestTheFakeMjModel:
     """It reads like the real one, whichever way a student goes about it."""
 
     def pairs(self):
         real = variant.models()[0]
         data = copy_model(real)
         arrays = {n: wire.unpack_array(a) for n, a in data["arrays"].items()}
-        return real, standins.MjModel(data, arrays)
+        return real, fake_model.MjModel(data, arrays)
 
     def test_has_every_size_and_array_of_the_real_one(self):
         real, ours = self.pairs()

@@ -5,7 +5,7 @@ import pytest
 
 from robo47.checker import process
 from robo47.checker.replies import LoadError, Model, Question
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 REFERENCE = find_day(1).source.read_text("utf-8")
 
@@ -63,7 +63,7 @@ class TestWhatComesBack:
 
     def test_leaves_what_was_printed_aside(self, ask):
         (reply,) = ask("def f():\n    print('PASSED')\n    return 1.0")
-        assert reply.printed == "PASSED\n"
+        assert reply.printed == "PASSED"
         assert reply.value == 1
 
     def test_gets_fresh_arguments_at_every_call(self, ask):

@@ -3,7 +3,7 @@
 import pytest
 
 from robo47.checker import process, variant
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 REFERENCE = find_day(1).source.read_text("utf-8")
 

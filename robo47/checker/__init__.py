@@ -3,9 +3,11 @@
     sandbox       runs the student's file in processes of its own
     process       one of them, from its start to its end
     replies       what is asked, and what comes back: plain arrays
-    inside/       what runs in there: limits, guard, landlock, stand-ins, the runner
+    inside/       what runs in there: the runner, its answers, imports, fakes and fences
+    wall          which of bubblewrap, Landlock or nothing keeps it from this machine
+    bubblewrap    the command for the first of these
     resources     memory and processes of the sandbox, per platform
-    model_copy    the Panda as plain data, for the sandbox's stand-in of MjModel
+    model_copy    the Panda as plain data, for the sandbox's fake of MjModel
     variant       fresh angles and a longer arm: computed, looked up or typed in?
     tasks         from a student's file to one verdict per task
     deliverables  figure, worksheet, metrics rows, commit

@@ -1,4 +1,4 @@
-"""A compiled model as plain data, for the sandbox's stand-in of MjModel."""
+"""A compiled model as plain data, for the sandbox's fake of MjModel."""
 
 from functools import cache
 from pathlib import Path
@@ -8,20 +8,22 @@ import mujoco
 import numpy as np
 
 from robo47 import panda
-from robo47.checker.inside.standins import KINDS
+from robo47.checker.inside.fake_model import KINDS
 from robo47.checker.inside.wire import pack_array
 
 
-def copy_model(model: mujoco.MjModel) -> dict[str, Any]:
+def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:
     """Return a model's sizes, names and arrays as JSON.
 
     Args:
         model: any compiled model; what it only looks like should be dropped before.
+        entry: of the Panda, which `panda.load(entry)` returns in the sandbox.
     """
     values = {
         name: getattr(model, name) for name in dir(model) if not name.startswith("_")
     }
     return {
+        "entry": entry,
         "sizes": {n: v for n, v in values.items() if isinstance(v, int)},
         "arrays": {
             n: pack_array(v) for n, v in values.items() if isinstance(v, np.ndarray)
@@ -35,7 +37,7 @@ def copy_model(model: mujoco.MjModel) -> dict[str, Any]:
 
 @cache
 def facts() -> dict[str, Any]:
-    """Return what the stand-ins of `mujoco` and `robo47` need to know, as JSON."""
+    """Return what the fakes of `mujoco` and `robo47` need to know, as JSON."""
     kit = Path(panda.__file__).parent
     return {
         "version": mujoco.__version__,
@@ -44,10 +46,11 @@ def facts() -> dict[str, Any]:
             for name in dir(mujoco)
             if name.startswith("mjt") and hasattr(getattr(mujoco, name), "__members__")
         },
-        "constants": {"READY_Q": panda.READY_Q.tolist()},
+        "constants": {"READY_Q": panda.READY_Q.tolist(), "END_FRAME": panda.END_FRAME},
         "modules": sorted(
-            path.stem
-            for path in kit.iterdir()
-            if path.name[0] != "_" and (path.suffix == ".py" or path.is_dir())
+            ".".join(path.relative_to(kit.parent).with_suffix("").parts).removesuffix(
+                ".__init__"
+            )
+            for path in kit.rglob("*.py")
         ),
     }

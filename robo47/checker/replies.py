@@ -1,9 +1,13 @@
 """What is asked of the sandbox, and what comes back."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from robo47.checker.inside import wire
+from robo47.text import visible, visible_lines
+
+MOST = 10  # entries of any list in a reply
 
 
 @dataclass(frozen=True)
@@ -13,38 +17,52 @@ class Question:
     Attributes:
         task: whose it is; a task that hangs is not asked again.
         function: a name in the student's file.
-        args: float64 arrays, floats, or a `Model`.
-        path: pairs of body and joint, handed over as `path=`; () where it is left out.
+        args: floats, ints, float64 arrays, a `Model` or a `Path`.
     """
 
     task: str
     function: str
     args: tuple[Any, ...]
-    path: tuple[tuple[str, str | None], ...] = ()
 
 
 @dataclass(frozen=True)
 class Model:
-    """Stands for a model in a question's arguments: its place in `run`'s list."""
+    """A model in a question's arguments: its place in the list that `run` is given."""
 
     index: int
 
 
 @dataclass(frozen=True)
+class Path:
+    """A path in a question's arguments: pairs of a body and its joint or None.
+
+    The function gets it as a list of tuples.
+    """
+
+    pairs: tuple[tuple[str, str | None], ...]
+
+
+@dataclass(frozen=True)
 class Reply:
-    """What came of one call.
+    """What came of one question, which is asked twice, the second time much later.
+
+    All text in it is harmless: see `robo47.text.visible`.
 
     Attributes:
         value: an array, a tuple of arrays, or None.
         error: "" or what went wrong, in words.
         kind: "" where the function returned; the exception's name where it raised one;
-            "missing", "unsendable", "stopped" (time, memory, ended, channel).
+            "missing", "unsendable", "stopped" (time, memory, ended, channel), or
+            "waits" (not asked: it needs a task that was stopped).
         line: of the student's file, or None.
         callers: the lines of it that led there, the nearest first.
         changed: names of the arguments that are no longer what they were.
-        refused: what the guard refused during the call.
-        used: which of the noted NumPy functions it called.
-        printed: what the function printed.
+        refused: what the guard refused during the calls.
+        printed: what the function printed the first time.
+        again: the value of the second time; None where it was not asked twice.
+        again_error: "" or what went wrong the second time alone.
+        shares: what the answer shares its memory with: "another answer", or the name
+            of an argument.
     """
 
     value: Any = None
@@ -54,8 +72,10 @@ class Reply:
     callers: tuple[int, ...] = ()
     changed: tuple[str, ...] = ()
     refused: tuple[str, ...] = ()
-    used: tuple[str, ...] = ()
     printed: str = ""
+    again: Any = None
+    again_error: str = ""
+    shares: tuple[str, ...] = ()
 
 
 class LoadError(Exception):
@@ -68,31 +88,45 @@ class LoadError(Exception):
 
 
 def read(message: dict[str, Any]) -> Reply:
-    """Return a message as a reply, believing nothing in it."""
-    line = message.get("line")
+    """Return a message as a reply, believing nothing in it.
+
+    Raises:
+        Exception: any, where somebody forged the message.
+    """
     if message.get("missing"):
         return Reply(kind="missing")
     try:
         value = wire.unpack_value(message.get("value"))
     except ValueError as error:
-        return Reply(error=f"it returned {error}", kind="unsendable")
-
-    def texts(name: str) -> tuple[str, ...]:
-        found = message.get(name)
-        return tuple(map(str, found)) if isinstance(found, list) else ()
-
-    callers = message.get("callers")
-    callers = callers if isinstance(callers, list) else []
+        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
+    line, *_ = (*_lines(message, "line"), None)
     return Reply(
         value=value,
-        error=str(message.get("error", "")),
-        kind=str(message.get("kind", "")),
-        line=line if isinstance(line, int) else None,
-        callers=tuple(n for n in callers if isinstance(n, int)),
-        changed=texts("changed"),
-        refused=texts("refused"),
-        used=texts("used"),
-        printed=str(message.get("printed", "")),
+        error=visible(message.get("error", "")),
+        kind=visible(message.get("kind", ""), 80),
+        line=line,
+        callers=_lines(message, "callers"),
+        changed=_texts(message, "changed"),
+        refused=_texts(message, "refused"),
+        printed=visible_lines(message.get("printed", "")),
+        shares=_texts(message, "shares"),
+    )
+
+
+def twice(first: Reply, second: Reply) -> Reply:
+    """Return the first time's reply with what the second time adds to it."""
+    error = ""
+    if second.kind and not first.kind:
+        error = ": ".join(filter(None, (second.kind, second.error)))
+    return Reply(
+        **{
+            **vars(first),
+            "again": second.value,
+            "again_error": error,
+            "changed": _union(first.changed, second.changed),
+            "refused": _union(first.refused, second.refused),
+            "shares": _union(first.shares, second.shares),
+        }
     )
 
 
@@ -103,12 +137,35 @@ def stopped(why: str) -> Reply:
 
 def pack(question: Question) -> dict[str, Any]:
     """Return a question as JSON."""
-    args: list[dict[str, Any]] = []
-    for arg in question.args:
-        if isinstance(arg, Model):
-            args.append({"model": arg.index})
-        elif isinstance(arg, (int, float)):
-            args.append({"number": arg})
-        else:
-            args.append(wire.pack_value(arg))
-    return {"function": question.function, "args": args, "path": question.path}
+    return {
+        "function": question.function,
+        "args": [_pack_argument(arg) for arg in question.args],
+    }
+
+
+def _pack_argument(arg: Any) -> dict[str, Any]:
+    if isinstance(arg, Model):
+        return {"model": arg.index}
+    if isinstance(arg, Path):
+        return {"path": [list(pair) for pair in arg.pairs]}
+    if isinstance(arg, (int, float)):
+        return {"number": arg}
+    packed = wire.pack_value(arg)
+    assert isinstance(packed, dict), arg
+    return packed
+
+
+def _texts(message: dict[str, Any], name: str) -> tuple[str, ...]:
+    found = message.get(name)
+    return tuple(map(visible, found[:MOST])) if isinstance(found, list) else ()
+
+
+def _lines(message: dict[str, Any], name: str) -> tuple[int, ...]:
+    """Return what may be numbers of lines in a file."""
+    found = message.get(name)
+    numbers: Sequence[Any] = found[:MOST] if isinstance(found, list) else [found]
+    return tuple(n for n in numbers if type(n) is int and 0 < n < 10_000_000)
+
+
+def _union(*some: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for names in some for name in names))[:MOST]

@@ -8,7 +8,7 @@ from typing import Any, TextIO
 
 from robo47.checker.deliverables import Item
 from robo47.checker.tasks import TaskResult
-from robo47.week import Day, Task
+from robo47.lesson.day import Day, Task
 
 WIDTH = 80
 _LABEL = {
@@ -37,15 +37,21 @@ class Report:
     items: Sequence[Item] = ()
 
     @property
+    def counted(self) -> list[TaskResult]:
+        """The tasks that count: a side quest does only where it alone was checked."""
+        required = [r for r in self.tasks if not r.task.optional]
+        return required or list(self.tasks)
+
+    @property
     def done(self) -> int:
         """How many tasks and deliverables passed."""
-        tasks = sum(result.passed for result in self.tasks)
+        tasks = sum(result.passed for result in self.counted)
         return tasks + sum(item.passed for item in self.items)
 
     @property
     def total(self) -> int:
         """How many there are."""
-        return len(self.tasks) + len(self.items)
+        return len(self.counted) + len(self.items)
 
     @property
     def passed(self) -> bool:
@@ -61,9 +67,9 @@ class Report:
     def next_step(self) -> str:
         """Return the next thing to do, in one sentence."""
         if self.problem:
-            return "mend that line, then check again."
+            return "fix that line, then check again."
         for result in self.tasks:
-            if not result.passed:
+            if not result.passed and not result.task.optional:
                 task = result.task
                 return f"{_named(task)}. Stuck? make hint TASK={task.id}"
         for item in self.items:
@@ -71,11 +77,7 @@ class Report:
                 return f"the {item.name}."
         if self.items:
             return "nothing is left to do here. Well done."
-        later = self.day.tasks[self.day.tasks.index(self.tasks[-1].task) + 1 :]
-        whole = f"make check DAY={self.day.number}"
-        if later:
-            return f"{_named(later[0])}. The whole day: {whole}"
-        return f"the whole day: {whole}"
+        return f"the whole day: make check DAY={self.day.number}"
 
 
 def _named(task: Task) -> str:
@@ -100,6 +102,7 @@ def as_json(report: Report) -> dict[str, Any]:
             "status": result.verdict.status,
             "mistake": result.verdict.mistake,
             "message": result.verdict.message,
+            "follows": result.verdict.follows,
             "measured": list(result.verdict.measured),
         }
         for result in report.tasks
@@ -141,11 +144,11 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         lines += [*_wrapped(report.problem, 2), ""]
     for result in report.tasks:
         task, verdict = result.task, result.verdict
-        name = ", ".join(task.functions)
+        name = ", ".join(task.functions) + (" (side quest)" if task.optional else "")
         status = "unjudged" if report.problem else verdict.status
         lines.append(_line(f"{task.id}  {name}", status, colour))
         if not report.problem and verdict.mistake != "unwritten":
-            lines += _wrapped(verdict.message, _INDENT)
+            lines += _wrapped(_said(report, result, explain), _INDENT)
         if explain:
             for line in verdict.measured:
                 lines += _wrapped(f"- {line}", _INDENT, hanging=2)
@@ -169,6 +172,19 @@ def wants_colour(stream: TextIO) -> bool:
     """Return whether to paint: a terminal, and nobody said NO_COLOR."""
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return stream.isatty() and not plain
+
+
+def _said(report: Report, result: TaskResult, explain: bool) -> str:
+    """Return what to say of a task: a mistake once, what follows from it in short."""
+    verdict = result.verdict
+    shown = {other.task.id for other in report.tasks if not other.passed}
+    if verdict.follows in shown and not explain:
+        word = "Follows from" if verdict.status == "close" else "Builds on"
+        return f"{word} {verdict.follows}: first that one."
+    if verdict.follows and verdict.status != "todo":
+        also = f"It builds on task {verdict.follows}, which is not right yet either."
+        return f"{verdict.message} {also}"
+    return verdict.message
 
 
 def _line(name: str, status: str, colour: bool) -> str:

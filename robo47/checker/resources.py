@@ -11,6 +11,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+END_SECONDS = 5.0  # for a killed process to be gone
+
 
 def start_options() -> dict[str, object]:
     """Return what makes a child the head of a group that can be ended as one."""
@@ -35,7 +37,8 @@ def end(process: subprocess.Popen[bytes]) -> None:
             os.killpg(process.pid, signal.SIGKILL)
     with contextlib.suppress(OSError):
         process.kill()
-    process.wait()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(END_SECONDS)
 
 
 def resident_bytes(process: subprocess.Popen[bytes]) -> int:
@@ -44,13 +47,19 @@ def resident_bytes(process: subprocess.Popen[bytes]) -> int:
         if sys.platform == "win32":
             return _windows_commit(int(process._handle))  # type: ignore[attr-defined]
         if sys.platform.startswith("linux"):
-            pages = Path(f"/proc/{process.pid}/statm").read_text("ascii").split()[1]
-            return int(pages) * os.sysconf("SC_PAGE_SIZE")
+            return _linux_pages(process.pid) * os.sysconf("SC_PAGE_SIZE")
         ps = ["ps", "-o", "rss=", "-p", str(process.pid)]
         said = subprocess.run(ps, capture_output=True, text=True, check=False)
         return int(said.stdout or 0) * 1024
     except (OSError, ValueError, IndexError):
         return 0
+
+
+def _linux_pages(pid: int) -> int:
+    """Return the memory of a process and its children; bubblewrap's is a child."""
+    pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()
+    return pages + sum(map(_linux_pages, map(int, children)))
 
 
 class _Counters(ctypes.Structure):

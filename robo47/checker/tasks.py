@@ -1,16 +1,24 @@
 """From a student's file to one result per task."""
 
+import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from robo47 import diagnose
-from robo47.checker import model_copy, variant
-from robo47.checker.replies import LoadError, Model, Question, Reply
+from robo47.checker import model_copy
+from robo47.checker.library import library_of
+from robo47.checker.replies import LoadError, Model, Question
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.verdicts import verdict_of, why_not_loaded
-from robo47.diagnose import Verdict
-from robo47.week import Day, Task
+from robo47.diagnose.ask import Ask, Robot
+from robo47.diagnose.mistake import Verdict
+from robo47.diagnose.rounds import Round, make_round, robots
+from robo47.errors import Robo47Error
+from robo47.lesson import folder
+from robo47.lesson.day import Day, Task
+
+PANDA = Robot()  # what a file that loads the robot at its top is given
 
 
 @dataclass(frozen=True)
@@ -21,11 +29,13 @@ class TaskResult:
         task: as in the manifest.
         verdict: what the answers show.
         printed: what its functions printed, for --explain.
+        refused: what the sandbox refused, also where the code went on without.
     """
 
     task: Task
     verdict: Verdict
     printed: str = ""
+    refused: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -47,83 +57,86 @@ def check_tasks(
         script: the student's file.
         sandbox: where to run it.
         only: one task's id; what it needs is run too, since it may call it.
-        seed: of the fresh joint angles, see `variant.fresh_configurations`.
+        seed: of the fresh inputs, for a grade that can be repeated; it must not be known
+            to the student.
 
     Returns:
         One result per task, in the manifest's order.
 
     Raises:
-        Robo47Error: there is no such file or task.
+        Robo47Error: there is no such file or task, or the day's questions are not right.
     """
-    tasks = [day.task(only)] if only else list(day.tasks)
-    needed = {need for task in tasks for need in _all_needs(task, day)}
-    asked = [task for task in day.tasks if task in tasks or task.id in needed]
-    questions = {task.id: _questions(task, seed) for task in asked}
-    flat = [question for some in questions.values() for question in some]
-    copies = [model_copy.copy_model(model) for model in variant.models()]
-    noted = sorted({name for task in asked for name in task.without})
+    wanted = [day.task(only)] if only else list(day.tasks)
+    needed = {need for task in wanted for need in day.needs(task.id)}
+    asked = [task for task in day.tasks if task in wanted or task.id in needed]
+    rounds = rounds_of(day, asked, secrets.randbits(32) if seed is None else seed)
+    models = [PANDA, *robots(one for some in rounds.values() for one in some)]
+    questions = {
+        task.id: [_sent(q, models) for one in rounds[task.id] for q in one.questions]
+        for task in asked
+    }
     try:
-        replies = sandbox.run(script, flat, copies, model_copy.facts(), noted)
+        replies = sandbox.run(
+            script,
+            [question for some in questions.values() for question in some],
+            [_copied(robot) for robot in models],
+            model_copy.facts(),
+            library_of(day),
+            {task.id: set(day.needs(task.id)) for task in asked},
+        )
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
-        return [TaskResult(task, verdict, error.reply.printed) for task in tasks]
+        return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
+    source = script.read_text("utf-8", errors="replace")
     results: dict[str, TaskResult] = {}
     for task in asked:
-        own = list(zip(questions[task.id], replies, strict=False))
+        own = replies[: len(questions[task.id])]
         replies = replies[len(own) :]
-        results[task.id] = _result(task, own, day, results)
-    return [results[task.id] for task in tasks]
-
-
-def _all_needs(task: Task, day: Day) -> list[str]:
-    """Return the ids of the tasks that a task builds on, however indirectly."""
-    found: set[str] = set()
-    waiting = list(task.needs)
-    while waiting:
-        need = waiting.pop()
-        if need not in found:
-            found.add(need)
-            waiting += day.task(need).needs
-    return [other.id for other in day.tasks if other.id in found]
-
-
-def _questions(task: Task, seed: int | None) -> list[Question]:
-    """Return the judge's calls, then a chain's: fresh angles, both Pandas, a path."""
-    asked = [
-        Question(
-            task.id,
-            call.function,
-            tuple(Model(0) if isinstance(a, str) else a for a in call.args),
+        verdict = verdict_of(task, rounds[task.id], own, source)
+        printed = next((reply.printed for reply in own if reply.printed), "")
+        refused = tuple(dict.fromkeys(what for r in own for what in r.refused))
+        results[task.id] = TaskResult(
+            task, _following(task, day, verdict, results), printed, refused
         )
-        for call in diagnose.calls(task.id)
-    ]
-    for function in task.functions:
-        if function in variant.FRAMES:
-            fresh = variant.fresh_configurations(seed)
-            asked += [
-                Question(task.id, function, (Model(which), q))
-                for which in range(len(variant.models()))
-                for q in fresh
-            ]
-            if function == variant.TAKES_A_PATH:
-                args = (Model(0), fresh[0])
-                asked.append(Question(task.id, function, args, variant.TO_LINK4))
-    return asked
+    return [results[task.id] for task in wanted]
 
 
-def _result(
-    task: Task,
-    own: Sequence[tuple[Question, Reply]],
-    day: Day,
-    results: dict[str, TaskResult],
-) -> TaskResult:
-    """Return a task's result; a wrong one points to the first wrong one below it."""
-    verdict = verdict_of(task, own)
-    printed = next((reply.printed for _, reply in own if reply.printed), "")
-    if verdict.status == "wrong":
-        for need in _all_needs(task, day):
-            if not results[need].passed:
-                also = f"Task {need}, which it may build on, is not right yet either."
-                verdict = replace(verdict, message=f"{verdict.message} {also}")
-                break
-    return TaskResult(task, verdict, printed)
+def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Round]]:
+    """Return the questions to every function of some tasks, by task.
+
+    Raises:
+        Robo47Error: the day's questions.py lacks a function of the manifest.
+    """
+    rows: dict[str, Ask] = folder.load(day, "questions").QUESTIONS
+    if missing := [f for task in day.tasks for f in task.functions if f not in rows]:
+        raise Robo47Error(f"day {day.number}'s questions.py has no row {missing[0]}")
+    return {
+        task.id: [make_round(task.id, f, rows[f], seed) for f in task.functions]
+        for task in tasks
+    }
+
+
+def _copied(robot: Robot) -> dict[str, Any]:
+    """Return a robot as it travels; only an unchanged one is what `load` returns."""
+    return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
+
+
+def _sent(question: Question, models: Sequence[Robot]) -> Question:
+    """Return a question as it travels: a robot as its place among the models."""
+    args = tuple(
+        Model(models.index(arg)) if isinstance(arg, Robot) else arg
+        for arg in question.args
+    )
+    return Question(question.task, question.function, args)
+
+
+def _following(
+    task: Task, day: Day, verdict: Verdict, results: dict[str, TaskResult]
+) -> Verdict:
+    """Return a verdict with the first task below it that has to be right first."""
+    if verdict.status in ("passed", "todo") or verdict.mistake == "missing":
+        return verdict
+    for need in day.needs(task.id):
+        if not results[need].passed:
+            return replace(verdict, follows=need)
+    return verdict

@@ -1,39 +1,42 @@
-"""What a task's replies show, before and after the judge's own word."""
+"""From a task's replies to its verdict: what never was an answer, then the judge."""
 
 import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from robo47 import diagnose
-from robo47.checker import variant
-from robo47.checker.replies import Model, Question, Reply
-from robo47.diagnose import Answer, Verdict
+from robo47.checker.replies import Reply
+from robo47.checker.slips import unfinished
+from robo47.diagnose.judging import judge
+from robo47.diagnose.mistake import Verdict
+from robo47.diagnose.rounds import Round
+from robo47.lesson.day import Task
 from robo47.paths import ROOT
-from robo47.week import Task
 
-Exchange = tuple[Question, Reply]
+IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
 
 
-def verdict_of(task: Task, own: Sequence[Exchange]) -> Verdict:
-    """Return the verdict on a task.
+def verdict_of(
+    task: Task, asked: Sequence[Round], replies: Sequence[Reply], source: str
+) -> Verdict:
+    """Return the verdict on a task; of several functions that of the first wrong one.
 
     Args:
         task: as in the manifest.
-        own: its questions and replies: the judge's first, then `variant`'s.
+        asked: the questions to each of its functions.
+        replies: to all of them, in order.
+        source: the student's file.
     """
-    for question, reply in own:
-        if early := _without_judge(task, question, reply):
-            return early
-    count = len(diagnose.calls(task.id))
-    verdict = diagnose.judge(task.id, [_answer(reply) for _, reply in own[:count]])
-    if verdict.status == "passed":
-        verdict = _second_look(task, own, own[count:], verdict)
-    elif refused := [what for _, reply in own for what in reply.refused]:
-        return _refusal(refused[0], None)
-    return _side_effects(own, verdict)
+    verdict, at = Verdict("passed"), 0
+    for one in asked:
+        own = replies[at : at + len(one.questions)]
+        at += len(own)
+        verdict = _of_function(task, one, own, source)
+        if len(asked) > 1 and verdict.message and not verdict.follows:
+            verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
+        if verdict.status != "passed":
+            break
+    return verdict
 
 
 def why_not_loaded(script: Path, reply: Reply) -> str:
@@ -45,20 +48,36 @@ def why_not_loaded(script: Path, reply: Reply) -> str:
     """
     where = f"{script.name}, line {reply.line}" if reply.line else script.name
     if reply.kind == "SystemExit":
-        return (
-            f"{where}: it ends Python while being loaded. Keep sys.exit below "
-            '`if __name__ == "__main__":`.'
-        )
+        return f"{where}: it ends Python while being loaded. {IN_MAIN}"
     if reply.kind == "RefusedError" and reply.refused:
-        return f"{where}: while being loaded it wants to {reply.refused[0]}."
+        return f"{where}: while being loaded it wants to {reply.refused[0]}. {IN_MAIN}"
+    if reply.kind == "EOFError":
+        return f"{where}: while being loaded it asks for input. {IN_MAIN}"
     if reply.kind == "stopped":
-        return f"{where}: while being loaded, {reply.error}."
-    return f"{where}: {reply.kind}: {reply.error}"
+        return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
+    if "null bytes" in reply.error or "utf-8" in reply.error.lower():
+        return f"{where}: the file is not in UTF-8. Save it as UTF-8 in your editor."
+    return f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
 
 
-def _without_judge(task: Task, question: Question, reply: Reply) -> Verdict | None:
+def _of_function(
+    task: Task, asked: Round, replies: Sequence[Reply], source: str
+) -> Verdict:
+    for reply in replies[: len(asked.main) + len(asked.fresh)]:
+        if early := _early(task, asked.function, reply, source):
+            return early
+    verdict = judge(asked, replies, source)
+    if verdict.mistake == "nothing-returned":
+        verdict = _nothing_returned(asked.function, replies, source, verdict)
+    if verdict.status != "passed":
+        refused = [what for reply in replies for what in reply.refused]
+        if refused:
+            return _refusal(refused[0], None)
+    return _changed_arguments(asked.function, replies, verdict)
+
+
+def _early(task: Task, function: str, reply: Reply, source: str) -> Verdict | None:
     """Return the verdict on a reply that never was an answer."""
-    function = question.function
     if reply.kind == "stopped":
         return Verdict("wrong", "stopped", f"{function} did not return: {reply.error}.")
     if reply.kind == "unsendable":
@@ -66,27 +85,39 @@ def _without_judge(task: Task, question: Question, reply: Reply) -> Verdict | No
     if reply.kind == "missing":
         says = (
             f"The file has no function {function}. To put its gap back: "
-            f"make start RESET={task.id}"
+            f"make start RESET={task.id}."
         )
         return Verdict("wrong", "missing", says)
+    if reply.kind == "waits":
+        stopped = reply.error.removeprefix("task ")
+        says = f"Not asked: it builds on task {stopped}, which did not return."
+        return Verdict("todo", "waits", says, follows=stopped)
+    if reply.kind == "BdbQuit":
+        says = f"It stops in the debugger (line {reply.line}): take breakpoint() out."
+        return Verdict("wrong", "breakpoint", says)
     if reply.kind == "RefusedError":
         return _refusal(reply.refused[0] if reply.refused else "", reply.line)
     if reply.kind == "NotImplementedError":
         named = re.search(r"task (\d+\.\d+)", reply.error)
         if named and named[1] != task.id:
             says = f"Waits for task {named[1]}, which it calls and which is to do."
-            return Verdict("todo", "waits", says)
+            return Verdict("todo", "waits", says, follows=named[1])
+        if slip := unfinished(source, function):
+            return Verdict("todo", "raise-left-in", slip)
+        says = f"Not written yet: {reply.error or 'the task is still to do.'}"
+        return Verdict("todo", "unwritten", says)
     return None
 
 
-def _answer(reply: Reply) -> Answer:
-    if not reply.kind:
-        return Answer(reply.value)
-    where = f" (line {reply.line}" if reply.line else ""
-    if callers := [f"line {line}" for line in reply.callers]:
-        where += f", called from {', from '.join(callers)}"
-    where += ")" if where else ""
-    return Answer(None, f"{reply.kind}: {reply.error}{where}")
+def _nothing_returned(
+    function: str, replies: Sequence[Reply], source: str, verdict: Verdict
+) -> Verdict:
+    if slip := unfinished(source, function):
+        return replace(verdict, message=slip)
+    if any(reply.printed for reply in replies):
+        says = f"{verdict.message} Does it print the result instead of returning it?"
+        return replace(verdict, message=says)
+    return verdict
 
 
 def _refusal(what: str, line: int | None) -> Verdict:
@@ -104,79 +135,17 @@ def _refusal(what: str, line: int | None) -> Verdict:
     return Verdict("wrong", "refused", says)
 
 
-def _side_effects(own: Sequence[Exchange], verdict: Verdict) -> Verdict:
-    """Return the verdict with what the functions did beside returning something."""
-    if verdict.mistake == "nothing-returned" and any(reply.printed for _, reply in own):
-        says = f"{verdict.message} Does it print the result instead of returning it?"
-        return replace(verdict, message=says)
-    changed = [(asked.function, name) for asked, r in own for name in r.changed]
+def _changed_arguments(
+    function: str, replies: Sequence[Reply], verdict: Verdict
+) -> Verdict:
+    """Return the verdict with the arguments that the function left changed."""
+    changed = [name for reply in replies for name in reply.changed]
     if not changed or verdict.status == "todo":
         return verdict
-    function, name = changed[0]
+    name = changed[0]
     says = f"{function} changed its argument {name}, which its caller still needs"
     says += f"; work on a copy: {name} = {name}.copy()" if name.isidentifier() else ""
     if verdict.status != "passed":
         return replace(verdict, message=f"{verdict.message} Besides, {says}.")
     says = f"The numbers are right, but {says}."
     return Verdict("wrong", "argument-changed", says, verdict.measured)
-
-
-def _second_look(
-    task: Task, own: Sequence[Exchange], extra: Sequence[Exchange], passed: Verdict
-) -> Verdict:
-    """Return the verdict on right answers: how did they come about?"""
-    known, longer = (_fresh_error(extra, which) for which in (0, 1))
-    if known > variant.AGREES:
-        says = (
-            "Right at the angles that are always asked, but off by "
-            f"{known:.3g} at fresh ones: the answers are not computed from q."
-        )
-        return Verdict("wrong", "looked-up", says, passed.measured)
-    if _ignores_path(extra):
-        says = (
-            "Right for the whole arm, but it does not look at path: asked for the path "
-            "to link4, it goes on to the end effector all the same."
-        )
-        return Verdict("wrong", "path-ignored", says, passed.measured)
-    if longer > variant.AGREES:
-        says = (
-            "Right for this Panda. On one with longer links it would not be: it does "
-            "not take every pos from the model that it is given."
-        )
-        return replace(passed, message=f"{passed.message} {says}".strip())
-    used = [name for _, reply in own for name in reply.used if name in task.without]
-    if used:
-        says = (
-            f"The numbers are right, by way of {used[0]}. The task asks to do without: "
-            "what is special about the columns of R?"
-        )
-        return Verdict("close", "general-inverse", says, passed.measured)
-    return passed
-
-
-def _ignores_path(extra: Sequence[Exchange]) -> bool:
-    """Return whether a shorter path gave the very pose that the whole one gives.
-
-    An error does not count: a chain of one's own may take no path at all.
-    """
-    whole, short = (
-        [r.value for q, r in extra if q.args[0] == Model(0) and bool(q.path) == given]
-        for given in (False, True)
-    )
-    if not short or not isinstance(short[0], np.ndarray):
-        return False
-    return short[0].shape == (4, 4) and np.allclose(short[0], whole[0], atol=1e-9)
-
-
-def _fresh_error(extra: Sequence[Exchange], which: int) -> float:
-    """Return how far a chain is off at fresh angles on one Panda; 0 if never asked."""
-    fresh = [
-        (question, reply)
-        for question, reply in extra
-        if question.args[0] == Model(which) and not question.path
-    ]
-    if not fresh:
-        return 0.0
-    q = np.array([question.args[1] for question, _ in fresh])
-    values = [reply.value for _, reply in fresh]
-    return variant.worst_error(which, fresh[0][0].function, q, values)

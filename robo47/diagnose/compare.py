@@ -1,13 +1,13 @@
 """How far apart two sets of answers are, as a number and in words."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.matrices import split, transposed
+from robo47.diagnose.matrices import transposed
 
-PASSED = 1e-8  # the lab's own line: the same to 8 decimals
-CLOSE = 1e-4  # no mistake is this small; rounding is: pi/2 for 1.57079 gives 9.8e-5
 MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
 
@@ -21,10 +21,18 @@ def difference(a: Array, b: Array) -> Array:
     )
 
 
-def matches(a: Array, b: Array) -> bool:
-    """Return whether a is b at every case, within rounding of b's largest entry."""
+def matches(a: Array, b: Array, scale: float = 1.0) -> bool:
+    """Return whether a is b at every case, within rounding of b's largest entry.
+
+    Args:
+        a: (n, ...).
+        b: the same.
+        scale: what an entry is like, where b's are all small.
+    """
+    if a.shape != b.shape:
+        return False
     finite = np.abs(b[np.isfinite(b)])
-    return bool(difference(a, b).max() <= MATCHES * max(1.0, finite.max(initial=0.0)))
+    return bool(difference(a, b).max() <= MATCHES * max(scale, finite.max(initial=0.0)))
 
 
 def rigid(M: Array) -> bool:
@@ -50,28 +58,6 @@ def degrees(R_a: Array, R_b: Array) -> Array:
     return np.rad2deg(np.arctan2(sine, cosine))
 
 
-def apart(a: Array, b: Array) -> str:
-    """Return how far a is from b at worst, as people say it: "629 mm and 63.0 deg".
-
-    Args:
-        a: rotations (n, 3, 3), poses (n, 4, 4) or points (n, 2, 3).
-        b: the same.
-    """
-    if a.shape[-1] == a.shape[-2] and rigid(a) and rigid(b):
-        if a.shape[-1] == 3:
-            return say_degrees(degrees(a, b).max())
-        (R_a, t_a), (R_b, t_b) = split(a), split(b)
-        parts = (
-            say_mm(millimetres(t_a, t_b).max()),
-            say_degrees(degrees(R_a, R_b).max()),
-        )
-        return " and ".join(p for p in parts if p != "0") or "0"
-    if a.shape[-2:] == (2, 3) and np.isfinite(a).all():
-        return say_mm(millimetres(a, b).max())
-    worst = difference(a, b).max()
-    return "0" if worst < MATCHES else f"{worst:.3g} in one entry"
-
-
 def say_mm(mm: float) -> str:
     """Return a length in words; "0" for what rounding leaves."""
     return _say(mm, "mm", 1e-2)
@@ -92,3 +78,32 @@ def _say(value: float, unit: str, least: float) -> str:
 
 def _digits(value: float) -> int:
     return 1 if value >= 10 else 2
+
+
+def say_value(value: float, unit: str, scale: float, entry: str) -> str:
+    """Return a number with its unit; "0" for what rounding leaves.
+
+    Args:
+        value: not negative.
+        unit: "" for none.
+        scale: what such a number is like.
+        entry: what to add where it is one entry of many.
+    """
+    if value < MATCHES * scale:
+        return "0"
+    return f"{value:.3g}{f' {unit}' if unit else ''}{entry}"
+
+
+def say_factor(factor: float) -> str:
+    """Return a factor as people write it: "1000", "-1", "pi / 180"."""
+    named = {np.pi / 180: "pi / 180", 180 / np.pi: "180 / pi", 2 * np.pi: "2 pi"}
+    for value, name in named.items():
+        if np.isclose(factor, value, rtol=1e-6):
+            return name
+    return f"{factor:.4g}"
+
+
+def say_range(values: Array, say: Callable[[float], str]) -> str:
+    """Return the least and the largest of values in words, once if they are alike."""
+    least, most = say(float(values.min())), say(float(values.max()))
+    return most if least == most else f"{least} to {most}"

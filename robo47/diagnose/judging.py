@@ -1,143 +1,161 @@
-"""The judge: from answers to a verdict, one look after another."""
+"""The judge: from the replies to one function's questions to a verdict."""
 
-from dataclasses import replace
-from functools import cache
-from types import ModuleType
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from robo47.checker.replies import Reply
 from robo47.checks import Array
-from robo47.diagnose import cases, close, form, parts, truth
-from robo47.diagnose.compare import CLOSE, PASSED, apart, difference, matches
-from robo47.diagnose.form import Finding
-from robo47.diagnose.mistakes import OF_FUNCTION, Mistake
-from robo47.diagnose.verdict import TASK_FUNCTIONS, Answer, Verdict
+from robo47.diagnose import answers, near_miss
+from robo47.diagnose.ask import Ask, Case, HeldOut
+from robo47.diagnose.mistake import Finding, Verdict
+from robo47.diagnose.naming import diagnose, gaps, off_by, redone, worst_part
+from robo47.diagnose.rounds import (
+    Round,
+    held_out_answers,
+    in_words,
+    parts,
+    right_answers,
+    stacked,
+)
 
-ON_THE_ARM = ("compose_fk", "link4_to_world")
+Parts = tuple[Array, ...]
 
 
-def judge(task: str, answers: list[Answer]) -> Verdict:
-    """Return what the answers to `calls(task)` show.
+def judge(asked: Round, replies: Sequence[Reply], source: str = "") -> Verdict:
+    """Return what the replies to a function's questions show.
 
     Args:
-        task: "1.1" to "1.8".
-        answers: one per call, in order.
-
-    Returns:
-        The verdict; of a task with two functions that of the first which is not passed.
+        asked: the questions.
+        replies: one per question, in order.
+        source: the student's file, for slips that show in it.
 
     Raises:
-        ValueError: not one answer per call.
-        KeyError: no such task.
+        ValueError: not one reply per question.
     """
-    names = TASK_FUNCTIONS[task]
-    counts = [len(cases.arguments(name)) for name in names]
-    if len(answers) != sum(counts):
-        raise ValueError(
-            f"{len(answers)} answers to {sum(counts)} calls of task {task}"
-        )
-    if error := form.unwritten(answers):
-        return Verdict("todo", "unwritten", f"Not written yet: {_without_type(error)}")
-    verdict = Verdict("passed", "", "")
-    for name, count in zip(names, counts, strict=True):
-        with np.errstate(all="ignore"):  # whatever the student's numbers lead to
-            verdict = _judge(name, answers[:count])
-        answers = answers[count:]
-        if verdict.status != "passed":
-            break
-    if len(names) > 1 and verdict.message:
-        return replace(verdict, message=f"{name}: {verdict.message}")
-    return verdict
-
-
-def _judge(function: str, answers: list[Answer]) -> Verdict:
-    T = truth.right_answers(function)
-    S = form.look(answers, T.shape[1:])
+    if len(replies) != len(asked.questions):
+        raise ValueError(f"{len(replies)} replies to {len(asked.questions)} questions")
+    count = len(asked.main)
+    S = answers.read(replies[:count], asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *S)
-    measured, off = _measured(function, S, T), difference(S, T).max()
-    if off <= PASSED:
-        return Verdict("passed", "", "", measured)
-    if off <= close.SINGLE and form.single_precision(answers, S):
-        says = f"Right, in float32: off by {off:.0e}. The labs use float64."
-        return Verdict("passed", "", says, measured)
-    if off <= CLOSE:
-        return Verdict("close", *close.explain(function, S, T), measured)
-    return Verdict("wrong", *_diagnose(function, S, T), measured)
+    if state := answers.kept_state(replies[: count + len(asked.fresh)]):
+        return Verdict("wrong", *state)
+    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
+        if asked.ask.accept:
+            return _judge_accepted(asked, replies, S)
+        return _judge_values(asked, replies, S)
 
 
-def _measured(function: str, S: Array, T: Array) -> tuple[str, ...]:
-    lines = parts.measured(S, T)
-    return (*lines, _arm().measured(S, T)) if function in ON_THE_ARM else lines
+def _judge_values(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict:
+    ask, count = asked.ask, len(asked.main)
+    T = right_answers(ask, asked.main)
+    case = _case(asked, replies, S, T)
+    measured = _measured(case, S, T)
+    off = off_by(ask, S, T)
+    if off > ask.near:
+        return Verdict("wrong", *diagnose(case, S, T), measured)
+    note = ""
+    if off > ask.tolerance:
+        if not (
+            off <= near_miss.SINGLE and answers.single_precision(replies[:count], S)
+        ):
+            found = ask.near_miss(case) if ask.near_miss else None
+            i = worst_part(ask, S, T)
+            return Verdict("close", *(found or near_miss.explain(S[i], T[i])), measured)
+        note = f"Right, in float32: off by {off:.0e}. The labs use float64."
+    return _second_look(asked, replies, note, measured)
 
 
-def _diagnose(function: str, S: Array, T: Array) -> Finding:
-    """Return the first of: a named mistake, one place in the arm, what is wrong."""
-    arguments = truth.stacked_arguments(function)
-    given = [in_words(args) for args in cases.arguments(function)]
-    found = (
-        parts.nothing_there(S)
-        or redone(mistakes_of(function), arguments, S, T)
-        or parts.not_finite(S, given)
-        or parts.all_the_same(S, T)
-        or close.rounded(S, T)
-    )
-    if found:
-        return found
-    if function in ON_THE_ARM:
-        return _arm().diagnose(function, S, T, arguments[0], given)
-    return parts.what_is_wrong(S, T, given)
-
-
-@cache
-def mistakes_of(function: str) -> list[Mistake]:
-    """Return the named mistakes of a function, the more general first."""
-    return (
-        _arm().mistakes(function) if function in ON_THE_ARM else OF_FUNCTION[function]
-    )
-
-
-def _arm() -> ModuleType:
-    """Return what needs the robot; MuJoCo's import is a student's 0.1 s, so late."""
-    from robo47.diagnose import on_the_arm
-
-    return on_the_arm
-
-
-def redone(
-    mistakes: list[Mistake], arguments: tuple[Array, ...], S: Array, T: Array
-) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers.
-
-    Args:
-        mistakes: the candidates.
-        arguments: all calls' arguments stacked.
-        S: the student's answers, (n, ...).
-        T: the right ones.
-    """
-    for mistake in mistakes:
-        again = mistake.redo(*arguments)
-        if matches(S, again):
-            says = mistake.says[0].upper() + mistake.says[1:]
-            return Finding(
-                mistake.slug,
-                f"{says}. (Differs from the right answer by up to {apart(S, T)}, from "
-                f"{mistake.redone} by {apart(S, again)}.)",
+def _second_look(
+    asked: Round, replies: Sequence[Reply], note: str, measured: tuple[str, ...]
+) -> Verdict:
+    """Return the verdict on right answers: how did they come about?"""
+    ask, at = asked.ask, len(asked.main)
+    if shared := answers.shared_memory(replies[: at + len(asked.fresh)]):
+        return Verdict("wrong", *shared, measured)
+    if asked.fresh:
+        S = answers.read(replies[at : at + len(asked.fresh)], ask, "")
+        off = np.inf
+        if not isinstance(S, Finding):
+            off = off_by(ask, S, right_answers(ask, asked.fresh))
+        if off > ask.near:
+            says = (
+                "Right for the inputs that are always asked, but off by "
+                f"{off:.3g} for fresh ones: the answers are not computed from the input."
             )
-    return None
+            return Verdict("wrong", "looked-up", says, measured)
+    at += len(asked.fresh)
+    for held, questions in zip(ask.held_out, asked.held_out, strict=True):
+        some = replies[at : at + len(questions)]
+        at += len(questions)
+        if _found(held, ask, questions, some):
+            if held.status != "passed":
+                return Verdict(held.status, held.slug, held.says, measured)
+            note = f"{note} {held.says}".strip()
+    return Verdict("passed", "", note, measured)
 
 
-def in_words(args: tuple[Any, ...]) -> str:
-    """Return a call's input as a student can type it: angles and short vectors."""
-    words = []
-    for arg in args:
-        if isinstance(arg, float):
-            words.append(f"{arg:.3g}")
-        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            words.append("(" + ", ".join(f"{x:.3g}" for x in arg) + ")")
-    return " and ".join(words)
+def _found(held: HeldOut, ask: Ask, questions: Any, replies: Sequence[Reply]) -> bool:
+    """Return whether answers to held-out questions give the mistake away."""
+    S = answers.read(replies, ask, "")
+    if isinstance(S, Finding):
+        return held.mistaken is None  # no answer is no sign of one certain mistake
+    off = off_by(ask, S, held_out_answers(held, ask, questions))
+    return off <= ask.near if held.mistaken else off > ask.near
 
 
-def _without_type(error: str) -> str:
-    return error.partition(":")[2].strip() or "the task is still to do."
+def _judge_accepted(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict:
+    """Return the verdict of a function to which many answers are right."""
+    ask = asked.ask
+    assert ask.accept is not None
+    fresh = answers.read(
+        replies[len(asked.main) : len(asked.main) + len(asked.fresh)], ask, ""
+    )
+    if isinstance(fresh, Finding):
+        return Verdict("wrong", *fresh)
+    questions = [*asked.main, *asked.fresh]
+    rows = list(zip(*(np.concatenate(pair) for pair in zip(S, fresh, strict=True))))
+    wrong: list[tuple[int, Finding]] = []
+    for i, (question, row) in enumerate(zip(questions, rows, strict=True)):
+        answer = row[0] if len(row) == 1 else row
+        args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
+        if why := ask.accept(*args, answer):
+            found = why if isinstance(why, Finding) else Finding("not-accepted", why)
+            wrong.append((i, found))
+    if not wrong:
+        return _second_look(asked, replies, "", ())
+    if named := redone(ask, stacked(asked.main), S, None):
+        return Verdict("wrong", *named)
+    i, found = wrong[0]
+    given = in_words(questions[i])
+    where = f" (For {len(wrong)} of {len(questions)} inputs"
+    where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
+    return Verdict("wrong", found.slug, found.message + where)
+
+
+def _case(asked: Round, replies: Sequence[Reply], S: Parts, T: Parts) -> Case:
+    def plain(some: Parts) -> Any:
+        return some[0] if len(some) == 1 else some
+
+    probed = replies[len(replies) - len(asked.probes) :] if asked.probes else []
+    probes = [
+        (question.args, None if reply.kind else reply.value)
+        for question, reply in zip(asked.probes, probed, strict=True)
+    ]
+    given = [in_words(question) for question in asked.main]
+    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+
+
+def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
+    ask = case.ask
+    gap = gaps(ask, S, T)
+    lines = [
+        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)}",
+    ]
+    for kind, s, t in zip(ask.kinds, S, T, strict=True):
+        lines += kind.measured(s, t)
+    return (*lines, *(ask.measured(case) if ask.measured else ()))

@@ -13,7 +13,7 @@ import sys
 
 from robo47.grading.grade import grade
 from robo47.grading.result import ungraded
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 
 def main() -> None:

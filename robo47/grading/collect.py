@@ -22,7 +22,7 @@ from robo47.grading import kit
 from robo47.grading.history import History, read_history
 from robo47.grading.package import Package
 from robo47.grading.roster import Student
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 MB = 1_000_000
 SCRIPT, FIGURE, WORKSHEET, METRICS = 1 * MB, 8 * MB, 2 * MB, 4 * MB  # bytes

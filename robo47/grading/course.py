@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from robo47.grading.sheet import Graded
 from robo47.grading.similar import Group
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 
 @dataclass(frozen=True)

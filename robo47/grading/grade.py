@@ -18,7 +18,7 @@ from robo47.checker.tasks import TaskResult, check_tasks
 from robo47.diagnose import Verdict
 from robo47.grading.package import Package
 from robo47.grading.result import Mark, Result, ungraded
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 # What is another at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")

@@ -21,7 +21,7 @@ from robo47.grading import kit
 from robo47.grading.package import Package
 from robo47.grading.result import Result, from_json, ungraded
 from robo47.paths import ROOT
-from robo47.week import find_day
+from robo47.lesson.day import find_day
 
 # For one package. The sandbox stops eight tasks that hang after 20 s each at most, so
 # only a file that keeps the checker itself busy gets here.

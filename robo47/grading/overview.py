@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from robo47.grading.result import Mark
 from robo47.grading.sheet import Graded
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 ITEMS = ("figure", "definitions", "drawings", "checklist", "metrics", "commit")
 # Names of what is only not there yet: nothing to explain again.

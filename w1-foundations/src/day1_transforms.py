@@ -14,7 +14,7 @@ try:
     import numpy as np
 
     from robo47 import cli, panda, verify
-    from robo47.lab import Lab
+    from robo47.lesson.lab import Lab
 except ModuleNotFoundError as missing:
     sys.exit(f"{missing.name} is not in this Python: run `make day1`, or `make setup`")
 

@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 from robo47.checker.deliverables.item import Item
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 SECONDS = 10
 # The clone may be a stranger's: run nothing that its configuration names.

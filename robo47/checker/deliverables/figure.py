@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robo47.checker.deliverables.item import Item, from_root
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 SMALLEST, LARGEST = (320, 240), 50_000_000  # pixels: width and height; in all
 DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one

@@ -7,7 +7,7 @@ from pathlib import Path
 from robo47 import metrics
 from robo47.checker.deliverables.item import Item
 from robo47.errors import Robo47Error
-from robo47.week import Day, Metric
+from robo47.lesson.day import Day, Metric
 
 
 def check_rows(day: Day, root: Path, tasks_pass: bool = True) -> Item:

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from robo47.checker.deliverables.item import Item, from_root
-from robo47.week import Day
+from robo47.lesson.day import Day
 
 FEWEST_WORDS = 8  # of a definition
 SHINGLE = 5  # words in a row that count as taken over

@@ -1,160 +1,135 @@
 """Run the student's functions on what the checker asks, and send back plain numbers.
 
-Started by `robo47.checker.sandbox` with an interpreter that has no site-packages; the
-arguments are the folders where NumPy is. One request comes in on standard input; the
-replies go out line by line on what was standard output, each behind the request's
-secret. What student code prints goes elsewhere.
+Started by `robo47.checker.process` with an interpreter that has no site-packages. The
+arguments are the wall's name and the folder where NumPy is. Standard input brings one
+line with the request, then one line per question; one line per answer goes out on what
+was standard output, each behind the request's secret. What student code prints goes
+elsewhere.
 """
 
-import io
+import base64
 import json
 import os
 import sys
 import types
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 HERE = sys.path.pop(0)
-LIBRARIES = [path for path in sys.path if path]
-sys.path += sys.argv[1:]
-KEPT_OUTPUT = 2_000  # characters of what a task printed
+PYTHON = [path for path in sys.path if path]  # the standard library
+OURS = [
+    "answers",
+    "fake_model",
+    "fakes",
+    "guard",
+    "imports",
+    "landlock",
+    "limits",
+    "wire",
+]
 
 
 def main() -> None:
-    """Answer one request."""
-    channel = os.fdopen(os.dup(1), "wb")
-    sys.path.insert(0, HERE)
+    """Answer until standard input ends."""
+    wall, libraries = sys.argv[1:]
+    asked, channel = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    sys.path[:] = [HERE, *PYTHON, libraries]
     import limits
 
-    limits.leave_network()  # before NumPy: a process with threads may not
+    fences = wall != "none"
+    if fences:
+        limits.die_with_parent()
+        limits.leave_network()  # before NumPy: a process with threads may not
+    import answers
+    import fake_model
+    import fakes
     import guard
+    import imports
     import landlock
-    import standins
     import wire
 
-    sys.path.remove(HERE)
-    for name in ("limits", "guard", "landlock", "standins", "wire"):
-        del sys.modules[name]  # names that a student may want for a file of their own
-    request = json.loads(sys.stdin.buffer.read())
-    null = os.open(os.devnull, os.O_RDWR)
-    for stream in (0, 1, 2):
-        os.dup2(null, stream)
+    sys.path[:] = PYTHON  # NumPy finds its own parts without
+    request = json.loads(asked.readline())
+    _silence()
 
     def send(**reply: Any) -> None:
         line = request["secret"] + json.dumps(reply) + "\n"
         channel.write(line.encode("ascii"))
         channel.flush()
 
-    watch = guard.Guard(request["folder"], LIBRARIES + sys.argv[1:], request["closed"])
-    models = [_model_maker(standins, wire, data) for data in request["models"]]
-    sys.modules.update(standins.make_modules(watch.refuse, models[0], request["facts"]))
-    used = standins.note_use(request["noted"])
-    limits.tighten()
+    readable = [*PYTHON, *_numpy_folders()]
+    watch = guard.Guard(readable)
+    makers = [_maker(fake_model, wire, data) for data in request["models"]]
+    entries = [data["entry"] for data in request["models"]]
+    named = dict(zip(entries, makers, strict=True))
+    fake = fakes.Fakes(watch.refuse, named, request["facts"])
+    beside = {name: base64.b64decode(code) for name, code in request["beside"].items()}
+    imports.Finder(request["library"], beside, fake).install()
+    for name in OURS:
+        sys.modules.pop(name, None)  # names that a student may want for their own files
+    limits.tighten(request["cpu_seconds"])
     shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
-    landlock.fence(request["folder"], [*LIBRARIES, *sys.argv[1:], shared])
+    held = fences and landlock.fence([*readable, shared])
     watch.arm()
-    _answer(request, send, watch.refused, used, wire, models)
+    send(ready=True, landlock=held)
+    module = _load(request, send, watch.refused, answers.describe)
+    if module:
+        answering = answers.Answers(module, makers, request["keep"])
+        for at, line in enumerate(asked):
+            watch.refused.clear()
+            call = json.loads(line)
+            if call.get("anew"):
+                answering.module = _anew(request, module)
+            reply = answering.ask(call)
+            send(at=at, refused=watch.refused[:3], **reply)
     os._exit(0)  # no atexit of the student's, no thread to wait for
 
 
-def _model_maker(standins: Any, wire: Any, data: Any) -> Callable[[], Any]:
+def _anew(request: Any, module: types.ModuleType) -> types.ModuleType:
+    """Return the student's file loaded once more: what it kept so far is gone."""
+    for name in request["beside"]:
+        sys.modules.pop(name, None)
+    again = _load(request, lambda **_: None, [], lambda *_: {})
+    return again or module
+
+
+def _silence() -> None:
+    """Lead standard input and output nowhere."""
+    null = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(null, stream)
+
+
+def _numpy_folders() -> list[str]:
+    """Return where NumPy's files are."""
+    folder = os.path.dirname(os.path.abspath(sys.modules["numpy"].__file__ or ""))
+    return [folder, folder + ".libs"]
+
+
+def _maker(fake_model: Any, wire: Any, data: Any) -> Callable[[], Any]:
     arrays = {name: wire.unpack_array(a) for name, a in data["arrays"].items()}
-    return lambda: standins.MjModel(data, arrays)
+    return lambda: fake_model.MjModel(data, arrays)
 
 
-def _answer(
+def _load(
     request: Any,
     send: Callable[..., None],
     refused: list[str],
-    used: list[str],
-    wire: Any,
-    models: Any,
-) -> None:
-    """Load the student's file, then make the calls one by one."""
-    path = Path(request["file"])
-    sys.path.insert(0, request["folder"])
-    os.chdir(request["folder"])
-    module = types.ModuleType(path.stem)
-    module.__file__ = str(path)
-    sys.modules[path.stem] = module
-    send(at="load")
+    describe: Callable[[BaseException, str], dict[str, Any]],
+) -> types.ModuleType | None:
+    """Return the student's file as a module, or say why it does not load."""
+    file = request["file"]
+    module = types.ModuleType(file.removesuffix(".py"))
+    module.__file__ = file
+    sys.modules[module.__name__] = module
     try:
-        exec(compile(path.read_bytes(), str(path), "exec"), vars(module))
+        code = compile(base64.b64decode(request["code"]), file, "exec")
+        exec(code, vars(module))
     except BaseException as error:
-        send(loaded=False, refused=refused[:3], **_describe(error, path))
-        return
+        send(loaded=False, refused=refused[:3], **describe(error, file))
+        return None
     send(loaded=True)
-    for index, call in enumerate(request["calls"]):
-        send(at=index)
-        refused.clear()
-        used.clear()
-        sys.stdout = sys.stderr = printed = _Kept()
-        try:
-            function = getattr(module, call["function"], None)
-            if not callable(function):
-                send(at=index, missing=True)
-                continue
-            args = [_argument(packed, wire, models) for packed in call["args"]]
-            named = {"path": list(map(tuple, call["path"]))} if call["path"] else {}
-            reply = {"value": wire.pack_value(function(*args, **named))}
-            reply["changed"] = _changed(function, call["args"], args, wire)
-        except wire.UnsendableError as error:
-            reply = {"error": f"it returned {error}", "kind": "unsendable"}
-        except BaseException as error:
-            reply = _describe(error, path)
-        notes = {"refused": refused[:3], "used": used[:3]}
-        send(at=index, printed=printed.getvalue(), **notes, **reply)
-
-
-def _argument(packed: Any, wire: Any, models: Any) -> Any:
-    if "model" in packed:
-        return models[packed["model"]]()
-    return packed["number"] if "number" in packed else wire.unpack_value(packed)
-
-
-def _changed(function: Any, packed: Any, args: list[Any], wire: Any) -> list[str]:
-    """Return the names of the arrays that a call left other than it got them."""
-    code = getattr(function, "__code__", None)
-    names = code.co_varnames[: code.co_argcount] if code else ()
-    found = []
-    for index, (before, arg) in enumerate(zip(packed, args, strict=True)):
-        if "array" not in before:
-            continue
-        try:
-            same = wire.pack_value(arg) == before
-        except wire.UnsendableError:
-            same = False
-        if not same:
-            found.append(names[index] if index < len(names) else f"{index + 1}")
-    return found
-
-
-def _describe(error: BaseException, path: Path) -> dict[str, Any]:
-    """Return an exception as text and the lines of the student's file that led to it.
-
-    "line" is where it happened, "callers" the calls before it, the nearest first.
-    """
-    lines, trace = [], error.__traceback__
-    while trace:
-        if trace.tb_frame.f_code.co_filename == str(path):
-            lines.append(trace.tb_lineno)
-        trace = trace.tb_next
-    text = str(error)
-    line, callers = (lines[-1] if lines else None), lines[-2::-1]
-    if isinstance(error, SyntaxError):
-        line, callers, text = error.lineno, [], error.msg or text
-    kind = type(error).__name__
-    return {"error": text[:500], "kind": kind, "line": line, "callers": callers[:3]}
-
-
-class _Kept(io.StringIO):
-    """What a task prints, up to a point."""
-
-    def write(self, text: str) -> int:
-        if self.tell() < KEPT_OUTPUT:
-            super().write(text[:KEPT_OUTPUT])
-        return len(text)
+    return module
 
 
 if __name__ == "__main__":

@@ -1,19 +1,16 @@
-"""What student code may not do, watched through Python's audit hooks.
+"""A signpost: says in words what a task has no use for, before it happens.
 
-A hook cannot be removed again. It keeps a task to its arguments: no file outside its
-own folder but Python's own libraries, no process, no network, no foreign library, no
-second look at MuJoCo. It is there against accidents and short cuts. It is no wall
-against an expert: that is `landlock`, where the system has it; and what protects the
-grade is that the answers themselves are judged elsewhere.
+An audit hook of Python, which student code runs beside and can switch off. So it keeps
+nobody out: that is the wall's part (`robo47.checker.wall`). It is there for the honest:
+"It wants to write to notes.txt. A task needs nothing but its arguments."
 """
 
 import os
-import stat
 import sys
 from typing import Any
 
 # Events that a task has no use for, by the start of their names.
-_FORBIDDEN = {
+_REFUSED = {
     "os.system": "start another program",
     "os.exec": "start another program",
     "os.spawn": "start another program",
@@ -25,26 +22,9 @@ _FORBIDDEN = {
     "socket.": "use the network",
     "ctypes.": "call into a foreign library",
     "gc.get_": "search the interpreter's memory",
-    "resource.setrlimit": "change the checker's limits",
-    "resource.prlimit": "change the checker's limits",
-    "winreg.": "use the registry",
-    "os.symlink": "make a link",
-    "os.link": "make a link",
 }
-# Events that change a file, and which of their arguments are paths and folder handles.
-_CHANGES = {
-    "os.remove": ((0,), (1,)),
-    "os.rename": ((0, 1), (2, 3)),
-    "os.mkdir": ((0,), (2,)),
-    "os.rmdir": ((0,), (1,)),
-    "os.chmod": ((0,), (2,)),
-    "os.chown": ((0,), (3,)),
-    "os.truncate": ((0,), ()),
-    "os.utime": ((0,), (3,)),
-    "os.chdir": ((0,), ()),
-    "os.setxattr": ((0,), ()),
-    "os.removexattr": ((0,), ()),
-}
+_CHANGES = {"os.remove", "os.rename", "os.mkdir", "os.rmdir", "os.chmod", "os.chown"}
+_CHANGES |= {"os.truncate", "os.utime", "os.symlink", "os.link"}
 _WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
@@ -55,17 +35,9 @@ class RefusedError(PermissionError):
 class Guard:
     """The rules, and a record of what they refused."""
 
-    def __init__(self, folder: str, readable: list[str], closed: list[str]) -> None:
-        """Note which folders are open.
-
-        Args:
-            folder: the task's own, the only one it may write to.
-            readable: folders of Python and its libraries.
-            closed: folders below those that stay closed all the same.
-        """
-        self.folder = _below(folder)
-        self.readable = tuple(_below(path) for path in readable)
-        self.closed = tuple(_below(path) for path in closed)
+    def __init__(self, readable: list[str]) -> None:
+        """Note which folders may be read: Python's and NumPy's."""
+        self.readable = tuple(map(_below, readable))
         self.refused: list[str] = []
 
     def refuse(self, what: str) -> RefusedError:
@@ -79,48 +51,26 @@ class Guard:
 
     def _check(self, event: str, args: tuple[Any, ...]) -> None:
         if event == "open":
-            path, mode, flags = args
-            writes = bool(flags & _WRITES) if isinstance(flags, int) else False
-            self._check_path(path, writes, handle=mode is None)
+            path, _, flags = args
+            self._check_path(path, isinstance(flags, int) and bool(flags & _WRITES))
         elif event in _CHANGES:
-            paths, handles = _CHANGES[event]
-            for index in handles:
-                if index < len(args) and args[index] not in (-1, None):
-                    raise self.refuse(f"{event} through a folder's handle")
-            for index in paths:
-                self._check_path(args[index], True, handle=False)
-        elif event == "import":
-            if len(args) > 1 and isinstance(args[1], str):  # a compiled module's file
-                self._check_path(args[1], False, handle=False)
+            self._check_path(args[0], True)
         else:
-            for start, what in _FORBIDDEN.items():
-                if _starts(event, start):
+            for start, what in _REFUSED.items():
+                if event.startswith(start):
                     raise self.refuse(what)
 
-    def _check_path(self, path: Any, writes: bool, handle: bool) -> None:
+    def _check_path(self, path: Any, writes: bool) -> None:
         if isinstance(path, int):  # a file that is open already
             return
-        full = _below(os.fsdecode(path))
-        if _starts(full, self.folder) or full == _below(os.devnull):
+        name = os.fsdecode(path)
+        full = _below(name)
+        known = any(full.startswith(start) for start in self.readable)
+        if full == _below(os.devnull) or (known and not writes):
             return
-        known = any(_starts(full, start) for start in self.readable)
-        closed = any(_starts(full, start) for start in self.closed)
-        if not writes and known and not closed and not (handle and _is_folder(path)):
-            return
-        raise self.refuse(f"{'write to' if writes else 'read'} {os.fsdecode(path)}")
+        raise self.refuse(f"{'write to' if writes else 'read'} {name}")
 
 
 def _below(path: str) -> str:
     """Return the real path of a folder with a separator at its end."""
     return os.path.join(os.path.normcase(os.path.realpath(path)), "")
-
-
-def _starts(text: str, start: str) -> bool:
-    return text[: len(start)] == start
-
-
-def _is_folder(path: Any) -> bool:
-    try:
-        return stat.S_ISDIR(os.stat(path).st_mode)
-    except OSError:
-        return False

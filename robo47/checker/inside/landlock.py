@@ -1,9 +1,9 @@
-"""Linux's own fence around a process: which folders it may read, and which write.
+"""Linux's own fence around a process: what it may read, and that it reaches no other.
 
 The kernel enforces it, whatever a program does in Python or below; nothing that the
 process starts escapes it, and nothing may be started at all. Source: <linux/landlock.h>
-and landlock(7). Where the kernel has no Landlock (before 5.13, or switched off), the
-audit hooks of `guard` stand alone.
+and landlock(7). Signals and abstract sockets are closed since version 6 (Linux 6.12),
+TCP since 4 (6.7); sockets that have a path in the file system are not.
 """
 
 import ctypes
@@ -12,15 +12,22 @@ import sys
 
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446  # on every architecture
 _PATH_BENEATH, _GET_VERSION, _NO_NEW_PRIVS = 1, 1, 38
-_READ_FILE, _READ_DIR, _EXECUTE = 1 << 2, 1 << 3, 1 << 0
-_FIRST_RIGHTS = (1 << 13) - 1  # those that the first version of Landlock knows
-_TRUNCATE, _TRUNCATE_SINCE = 1 << 14, 3
+_READ_FILE, _READ_DIR = 1 << 2, 1 << 3
+_FILES = (1 << 13) - 1  # the rights that the first version of Landlock knows
+_SINCE = {2: 1 << 13, 3: 1 << 14, 5: 1 << 15}  # refer, truncate, ioctl on devices
+_TCP, _TCP_SINCE = 0b11, 4  # bind and connect
+_SCOPES, _SCOPES_SINCE = 0b11, 6  # abstract unix sockets and signals
 # The C library loads what a late import needs from here.
-_SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")
+_SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64")
+_PACKAGES = ("site-packages", "dist-packages", "python")  # not the libraries of others
 
 
 class _Ruleset(ctypes.Structure):
-    _fields_ = [("handled", ctypes.c_uint64)]
+    _fields_ = [
+        ("files", ctypes.c_uint64),
+        ("network", ctypes.c_uint64),
+        ("scopes", ctypes.c_uint64),
+    ]
 
 
 class _Beneath(ctypes.Structure):
@@ -29,40 +36,61 @@ class _Beneath(ctypes.Structure):
     _fields_ = [("allowed", ctypes.c_uint64), ("folder", ctypes.c_int32)]
 
 
-def fence(folder: str, readable: list[str]) -> bool:
+def version() -> int:
+    """Return which version of Landlock the kernel has; 0 where it has none."""
+    if not sys.platform.startswith("linux"):
+        return 0
+    try:
+        libc = ctypes.CDLL(None, use_errno=True)
+        return max(0, libc.syscall(_CREATE_RULESET, None, 0, _GET_VERSION))
+    except (OSError, AttributeError):
+        return 0
+
+
+def fence(readable: list[str]) -> bool:
     """Keep this process to some folders for the rest of its life.
 
     Args:
-        folder: where it may do anything but start a program.
-        readable: where it may read, besides the system's libraries.
+        readable: where it may read, besides the system's libraries; not what is in a
+            folder of other packages there.
 
     Returns:
         Whether the kernel did it.
     """
-    if not sys.platform.startswith("linux"):
+    known = version()
+    if known < 1:
         return False
-    try:
-        libc = ctypes.CDLL(None, use_errno=True)
-        version = libc.syscall(_CREATE_RULESET, None, 0, _GET_VERSION)
-    except (OSError, AttributeError):
-        return False
-    if version < 1:
-        return False
-    rights = _FIRST_RIGHTS | (_TRUNCATE if version >= _TRUNCATE_SINCE else 0)
-    rights &= ~_READ_DIR  # listing harms nobody, and imports list a lot
-    attributes = _Ruleset(rights)
-    size = ctypes.c_size_t(ctypes.sizeof(attributes))
-    rules = libc.syscall(_CREATE_RULESET, ctypes.byref(attributes), size, 0)
+    libc = ctypes.CDLL(None, use_errno=True)
+    rights = _FILES | sum(right for since, right in _SINCE.items() if known >= since)
+    attributes = _Ruleset(
+        rights,
+        _TCP if known >= _TCP_SINCE else 0,
+        _SCOPES if known >= _SCOPES_SINCE else 0,
+    )
+    size = 8 if known < _TCP_SINCE else 16 if known < _SCOPES_SINCE else 24
+    rules = libc.syscall(
+        _CREATE_RULESET, ctypes.byref(attributes), ctypes.c_size_t(size), 0
+    )
     if rules < 0:
         return False
-    _allow(libc, rules, folder, rights & ~_EXECUTE)
-    _allow(libc, rules, os.devnull, rights & 0b110)  # read and write
-    for path in (*readable, *_SYSTEM):
-        _allow(libc, rules, path, _READ_FILE)
+    _allow(libc, rules, os.devnull, _READ_FILE | 1 << 1)
+    for folder in {os.path.realpath(path) for path in (*readable, *_SYSTEM)}:
+        _allow(libc, rules, folder, _READ_DIR)
+        for path in _inside(folder):
+            _allow(libc, rules, path, _READ_FILE | _READ_DIR)
+    _allow(libc, rules, "/etc/ld.so.cache", _READ_FILE)
     libc.prctl(_NO_NEW_PRIVS, 1, 0, 0, 0)
     done = libc.syscall(_RESTRICT_SELF, rules, 0) == 0
     os.close(rules)
     return bool(done)
+
+
+def _inside(folder: str) -> list[str]:
+    try:
+        names = os.listdir(folder)
+    except OSError:
+        return []
+    return [os.path.join(folder, n) for n in names if not n.startswith(_PACKAGES)]
 
 
 def _allow(libc: ctypes.CDLL, rules: int, path: str, rights: int) -> None:
@@ -71,6 +99,8 @@ def _allow(libc: ctypes.CDLL, rules: int, path: str, rights: int) -> None:
         handle = os.open(path, os.O_PATH | os.O_CLOEXEC)
     except OSError:
         return
+    if not os.path.isdir(path):
+        rights &= ~_READ_DIR  # the kernel refuses it for a file
     rule = _Beneath(rights, handle)
     libc.syscall(_ADD_RULE, rules, _PATH_BENEATH, ctypes.byref(rule), 0)
     os.close(handle)

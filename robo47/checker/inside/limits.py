@@ -6,6 +6,7 @@ stands behind them everywhere. A limit that is set cannot be raised again.
 
 import contextlib
 import ctypes
+import signal
 import sys
 
 try:
@@ -14,9 +15,15 @@ except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
 MEMORY = 2 * 1024**3  # bytes of address space; NumPy itself takes some 0.2 GB of it
-CPU_SECONDS = 120
-FILE_BYTES = 10_000_000
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000  # <linux/sched.h>: CLONE_NEW...
+_PDEATHSIG = 1  # <linux/prctl.h>
+
+
+def die_with_parent() -> None:
+    """Have the kernel end this process with the one that started it, where it can."""
+    if sys.platform.startswith("linux"):
+        with contextlib.suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
 
 
 def leave_network() -> bool:
@@ -33,17 +40,21 @@ def leave_network() -> bool:
         return False
 
 
-def tighten() -> None:
-    """Bound memory, processor time, file size, and forbid new processes and threads.
+def tighten(cpu_seconds: int) -> None:
+    """Bound memory, processor time and open files; forbid files, processes, threads.
 
     Call it once the imports are done: NumPy may start threads of its own.
+
+    Args:
+        cpu_seconds: of processor time, for the whole life of the process.
     """
     if resource is None:
         return
     wanted = {
         "RLIMIT_AS": MEMORY,
-        "RLIMIT_CPU": CPU_SECONDS,
-        "RLIMIT_FSIZE": FILE_BYTES,
+        "RLIMIT_CPU": cpu_seconds,
+        "RLIMIT_FSIZE": 0,  # files in memory (memfd) too
+        "RLIMIT_NOFILE": 64,
         "RLIMIT_CORE": 0,
         "RLIMIT_NPROC": 0,
     }

@@ -1,0 +1,159 @@
+"""One question in, one answer out: call a function of the student's, say what came.
+
+An answer says besides which arguments it changed, and what it shares its memory with:
+an array that is handed out twice, or that is an argument, changes under its owner.
+"""
+
+import io
+import sys
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import wire
+
+KEPT_OUTPUT = 2_000  # characters of what a task printed
+KEPT_TEXT = 2_000  # characters of an exception's text
+EFFORT = 10_000  # for telling whether two arrays really overlap
+# As they are before student code.
+_exactly: Any = np.shares_memory
+_roughly: Any = np.may_share_memory
+
+
+class Answers:
+    """The student's module and the answers that it gave so far."""
+
+    def __init__(self, module: ModuleType, models: list[Any], keep: bool) -> None:
+        """Begin.
+
+        Args:
+            module: loaded from the student's file.
+            models: what makes a fresh copy of each model.
+            keep: hold on to every answer, to tell which share their memory.
+        """
+        self.module, self.models, self.keep = module, models, keep
+        self.kept: list[Any] = []
+        self.arrays: list[np.ndarray] = []
+
+    def ask(self, call: dict[str, Any]) -> dict[str, Any]:
+        """Return what came of one call, as JSON."""
+        sys.stdout = sys.stderr = printed = _Kept()  # type: ignore[assignment]
+        try:
+            reply = self._call(call)
+        except wire.UnsendableError as error:
+            reply = {"error": f"it returned {error}", "kind": "unsendable"}
+        except BaseException as error:
+            reply = describe(error, str(self.module.__file__))
+        return {**reply, "printed": printed.getvalue()}
+
+    def _call(self, call: dict[str, Any]) -> dict[str, Any]:
+        function = getattr(self.module, call["function"], None)
+        if not callable(function):
+            return {"missing": True}
+        args = [self._argument(packed) for packed in call["args"]]
+        value = function(*args)
+        reply = {"value": wire.pack_value(value)}
+        names = _names(function, len(args))
+        trio = zip(call["args"], args, names, strict=True)
+        reply["changed"] = [name for was, arg, name in trio if _differs(arg, was)]
+        reply["shares"] = self._shares(value, args, names)
+        return reply
+
+    def _argument(self, packed: Any) -> Any:
+        if "model" in packed:
+            return self.models[packed["model"]]()
+        if "path" in packed:
+            return [tuple(pair) for pair in packed["path"]]
+        return packed["number"] if "number" in packed else wire.unpack_value(packed)
+
+    def _shares(self, value: Any, args: list[Any], names: list[str]) -> list[str]:
+        """Return what an answer shares its memory with."""
+        own = _arrays_of(value)
+        found = [
+            name
+            for name, arg in zip(names, args, strict=True)
+            if _overlap(own, _arrays_of(arg))
+        ]
+        if self.keep:
+            same = isinstance(value, list) and any(value is old for old in self.kept)
+            if same or _overlap(own, self.arrays):
+                found.append("another answer")
+            self.kept.append(value)
+            self.arrays += own
+        return found
+
+
+def describe(error: BaseException, file: str) -> dict[str, Any]:
+    """Return an exception as text and the lines of the student's file that led to it.
+
+    "line" is where it happened, "callers" the calls before it, the nearest first.
+    """
+    lines, trace = [], error.__traceback__
+    while trace:
+        if trace.tb_frame.f_code.co_filename == file:
+            lines.append(trace.tb_lineno)
+        trace = trace.tb_next
+    line, callers = (lines[-1] if lines else None), lines[-2::-1]
+    try:
+        text = str(error)
+    except BaseException:  # its __str__ is student code too
+        text = ""
+    if isinstance(error, SyntaxError):
+        text = error.msg or text
+        if error.filename == file:
+            line, callers = error.lineno, []
+        else:
+            text = f"{text} ({error.filename}, line {error.lineno})"
+    kind = type(error).__name__[:80]
+    callers = callers[:3]
+    return {"error": text[:KEPT_TEXT], "kind": kind, "line": line, "callers": callers}
+
+
+def _names(function: Any, count: int) -> list[str]:
+    """Return the names of a function's arguments, or their numbers."""
+    code = getattr(function, "__code__", None)
+    known = code.co_varnames[: code.co_argcount] if code else ()
+    return [known[i] if i < len(known) else f"{i + 1}" for i in range(count)]
+
+
+def _differs(arg: Any, packed: dict[str, Any]) -> bool:
+    """Return whether an argument is no longer what was packed."""
+    if "path" in packed:
+        return arg != [tuple(pair) for pair in packed["path"]]
+    if "array" not in packed and "tuple" not in packed:
+        return False
+    try:
+        return bool(wire.pack_value(arg) != packed)
+    except wire.UnsendableError:
+        return True
+
+
+def _arrays_of(value: Any) -> list[np.ndarray]:
+    """Return the arrays that a value is made of."""
+    if isinstance(value, np.ndarray):
+        return [value]
+    if isinstance(value, (tuple, list)):
+        return [item for item in value if isinstance(item, np.ndarray)]
+    parts = getattr(value, "__dict__", {}).values()  # a model's
+    return [item for item in parts if isinstance(item, np.ndarray)]
+
+
+def _overlap(some: list[np.ndarray], others: list[np.ndarray]) -> bool:
+    for a in some:
+        for b in others:
+            if _roughly(a, b):
+                try:
+                    if _exactly(a, b, max_work=EFFORT):
+                        return True
+                except Exception:  # too hard to tell: then they are entangled
+                    return True
+    return False
+
+
+class _Kept(io.StringIO):
+    """What a task prints, up to a point."""
+
+    def write(self, text: str) -> int:
+        if self.tell() < KEPT_OUTPUT:
+            super().write(text[:KEPT_OUTPUT])
+        return len(text)

@@ -1,0 +1,59 @@
+"""What student code may import besides Python's own modules and NumPy.
+
+All of it comes as text with the request: the student's other files, and the kit's
+library of the days before. No file of theirs is to be seen from here. Everything else
+of `robo47` and `mujoco` is a fake.
+"""
+
+import sys
+from importlib.machinery import ModuleSpec, PathFinder
+from types import ModuleType
+from typing import Any
+
+
+class Finder:
+    """Finds and loads modules from texts, and makes the fakes."""
+
+    def __init__(self, library: dict[str, str], beside: dict[str, bytes], fakes: Any):
+        """Take what there is.
+
+        Args:
+            library: source by dotted name, {"robo47.se3": "..."}.
+            beside: source of the student's other files, {"helpers": b"..."}.
+            fakes: see `fakes.Fakes`.
+        """
+        self._sources = {
+            **{name: (text.encode(), f"<{name}>") for name, text in library.items()},
+            **{name: (text, f"{name}.py") for name, text in beside.items()},
+        }
+        self._fakes = fakes
+        fakes.known |= {*library, *_packages(library)}
+
+    def install(self) -> None:
+        """Look here right before looking into folders, as beside a script."""
+        sys.meta_path.insert(sys.meta_path.index(PathFinder), self)  # type: ignore
+
+    def find_spec(self, name: str, path: Any = None, target: Any = None) -> Any:
+        """Return how to make a module, or None where it is not from here."""
+        if name in self._sources:
+            return ModuleSpec(name, self, origin=self._sources[name][1])  # type: ignore
+        if name in self._fakes.known or name.startswith("mujoco."):
+            return ModuleSpec(name, self, is_package=True)  # type: ignore
+        return None
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType | None:
+        """Return a fake, or None: Python makes the module of a text."""
+        return None if spec.name in self._sources else self._fakes.make(spec.name)
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Run a text as a module."""
+        if module.__name__ in self._sources:
+            source, file = self._sources[module.__name__]
+            module.__file__ = file
+            exec(compile(source, file, "exec"), vars(module))
+
+
+def _packages(library: dict[str, str]) -> set[str]:
+    """Return the packages around modules: robo47.a.b is in robo47.a."""
+    parts = [name.split(".") for name in library]
+    return {".".join(p[:n]) for p in parts for n in range(1, len(p))}

@@ -1,0 +1,102 @@
+"""A mistake that has a name: what to say, and the same mistake made on purpose."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from robo47.checks import Array
+
+
+class Finding(NamedTuple):
+    """What was found: its name, and what to say."""
+
+    slug: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the answers to a task's questions show.
+
+    Attributes:
+        status: "passed"; "close": the method is right, the digits are not; "wrong";
+            or "todo": not written yet.
+        mistake: its name ("joint-before-link"), "" when passed.
+        message: one or two sentences for the student, with the telling number; "" when
+            passed and there is nothing to add.
+        measured: lines for --explain.
+        follows: the id of the task that has to be right first, "" where none.
+    """
+
+    status: str
+    mistake: str = ""
+    message: str = ""
+    measured: tuple[str, ...] = ()
+    follows: str = ""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One way to be wrong. It is claimed only where redoing it gives the answer.
+
+    Attributes:
+        slug: its name, "chain-reversed".
+        says: for the student: a clause without capital and full stop, so that it can
+            follow "In the links' factors, ".
+        redo: the function with the mistake in it. It takes all questions' arguments
+            stacked, one array (n, ...) per argument (a `Robot` as its model), and
+            returns (n, ...), or a tuple of such where the function returns several.
+        redone: what to call that answer, as in "0 from its transpose".
+    """
+
+    slug: str
+    says: str
+    redo: Callable[..., Any]
+    redone: str = "the answer with this mistake"
+
+
+def each(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of one question's arguments as one of all, stacked.
+
+    Args:
+        function: of one configuration, as a student writes it.
+    """
+
+    def all_at_once(*columns: Any) -> Any:
+        answers = [function(*args) for args in zip(*columns, strict=True)]
+        if isinstance(answers[0], tuple):
+            return tuple(map(np.array, zip(*answers, strict=True)))
+        return np.array(answers)
+
+    return all_at_once
+
+
+def lifted(
+    mistakes: Iterable[Mistake],
+    where: str,
+    into: Callable[[Callable[..., Array]], Callable[..., Array]],
+) -> list[Mistake]:
+    """Return the mistakes of a small function as mistakes of one that uses it.
+
+    Args:
+        mistakes: of the small function.
+        where: what to say first, such as "in the links' factors, ".
+        into: takes the mistaken small function, returns the larger one made with it.
+    """
+    return [replace(m, says=f"{where}{m.says}", redo=into(m.redo)) for m in mistakes]
+
+
+def applied(mistakes: Iterable[Mistake], right: Callable[..., Array]) -> list[Mistake]:
+    """Return mistakes made with a finished answer as those of the function itself.
+
+    Args:
+        mistakes: whose `redo` takes the right answer.
+        right: the function, from its arguments to the right answer.
+    """
+
+    def after(redo: Callable[..., Array]) -> Callable[..., Any]:
+        return lambda *args: redo(right(*args))
+
+    return [replace(m, redo=after(m.redo)) for m in mistakes]
