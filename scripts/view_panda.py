@@ -1,32 +1,33 @@
-"""See the Panda, its frames, and that your kinematics agree with MuJoCo.
+"""See the arm, its frames, and your own code move it, beside MuJoCo's answer.
 
-    make view                                  what suits this machine
-    python scripts/view_panda.py --web         the SE(3) inspector, in a browser
-    python scripts/view_panda.py --native      MuJoCo's own window
-    python scripts/view_panda.py --screenshot  a picture, with neither
+    make view                          in your browser; make view DAY=2: that day's tabs
+    python3 scripts/view_panda.py 2    the same, without make
+    python3 scripts/view_panda.py --native           MuJoCo's own window
+    python3 scripts/view_panda.py --screenshot       a picture, with neither
+    python3 scripts/view_panda.py --clip arm.gif     a short clip, with neither
 
-In the inspector: drag a joint and watch T_world_ee change twice, from MuJoCo
-and by hand; step through the chain link by link; put T_extra on the left or on
-the right. It listens on this machine alone and prints the ssh line to use from
-another.
+In the browser: drag a joint. Your own function draws a red arm wherever it
+differs from MuJoCo's, and is asked again at every save; it runs in the checker's
+sandbox. The page listens on this machine alone, at an address nobody else knows.
 """
 
 import argparse
+import functools
 import importlib.util
-import sys
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli, menagerie, panda, window
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import ROOT, shown
 
 PICTURE = ROOT / "w1-foundations" / "figures" / "day1_panda_viewer.png"
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(entry: str, start: str, port: int) -> int:
+def web(day: Day, entry: str, start: str, port: int) -> int:
     """Serve the inspector until Ctrl-C."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
@@ -34,26 +35,27 @@ def web(entry: str, start: str, port: int) -> int:
             "`make view` installs it, or: python scripts/setup_env.py view"
         )
     from robo47.inspector.arm import Arm
-    from robo47.inspector.serve import serve
+    from robo47.inspector.serve import Show, serve
 
     about = panda.describe(entry)
     print(about, flush=True)
     if menagerie.panda_folder() is None:
         missing = (
-            "The robot's meshes are not here: simple shapes stand in, with the same "
+            "The robot's meshes are not here: simple shapes are drawn, with the same "
             "frames (python scripts/fetch_menagerie.py fetches them)"
         )
         print(missing)
         about = f"{about}. {missing}"
-    arm = Arm(panda.load(entry, meshes=True), panda.END_FRAME[entry])
+    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
     arm.move(arm.named_q[start])
-    return serve(arm, about, port)
+    dressed = functools.partial(panda.load, entry, meshes=True)
+    return serve(Show(day, arm, about, dressed), port)
 
 
 def native() -> int:
     """Open MuJoCo's window, or say in one line why not."""
     if why := window.obstacle():
-        raise Robo47Error(f"{why}. The browser needs none of that: --web")
+        raise Robo47Error(f"{why}. The browser needs none of that: make view")
     return window.show()
 
 
@@ -92,8 +94,11 @@ def port(text: str) -> int:
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
+    parser.add_argument(
+        "day", type=int, nargs="?", help="whose tabs and file; the last you started"
+    )
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("--web", action="store_true", help="the inspector, in a browser")
+    how.add_argument("--web", action="store_true", help="in a browser; the default")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")
     how.add_argument(
         "--screenshot",
@@ -102,6 +107,9 @@ def parse() -> argparse.Namespace:
         type=Path,
         const=PICTURE,
         help=f"write a picture (to {shown(PICTURE)})",
+    )
+    how.add_argument(
+        "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
     parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
     parser.add_argument(
@@ -117,18 +125,16 @@ def parse() -> argparse.Namespace:
 
 
 def main() -> int:
-    """Show the Panda in the way that was asked for, or that suits the machine."""
+    """Show the Panda in the way that was asked for."""
     options = parse()
     if options.screenshot:
         return screenshot(options.screenshot, options.entry, options.start)
     if options.native:
         return native()
-    if not options.web:
-        why = window.obstacle()
-        if why is None:
-            return native()
-        print(f"no window: {why}.\nSo in the browser:", file=sys.stderr)
-    return web(options.entry, options.start, options.port)
+    day = find_day(options.day or started_day())
+    if options.clip:
+        return clip(options.clip, day)
+    return web(day, options.entry, options.start, options.port)
 
 
 if __name__ == "__main__":

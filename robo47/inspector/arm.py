@@ -86,6 +86,17 @@ class Arm:
         """
         return self.by_mujoco[self.names[name]]
 
+    def poses_at(self, q: Array) -> dict[str, Array]:
+        """Return MuJoCo's pose of every frame at a configuration, by short name.
+
+        Args:
+            q: (nq,); the arm stays where it is.
+        """
+        if np.array_equal(q, self.q):
+            return {name: self.pose(name) for name in self.names}
+        poses = mujoco_poses(self.model, np.asarray(q)[None])
+        return {name: poses[full][0] for name, full in self.names.items()}
+
     def body_pose(self, body: str) -> Array:
         """Return MuJoCo's pose of any body, (4, 4), whether it has a triad or not."""
         return self.by_mujoco[f"body:{body}"]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from robo47.checks import Array
 from robo47.inspector.arm import AGREES, Arm, Step
+from robo47.inspector.ghost import Seen
 
 COLUMNS = "xyzp"
 
@@ -79,7 +80,7 @@ def verdict(difference: float, whose: str = "the library") -> str:
     return line(f"✗ {text} (limit {AGREES:.0e})", "difference", "bad")
 
 
-def proof(arm: Arm, name: str, yours: Array | None, function: str) -> str:
+def proof(arm: Arm, name: str, seen: Seen | None) -> str:
     """Return one frame's pose from MuJoCo and from the student's file.
 
     Where there is no pose of the student's, the library's stands there, by its name.
@@ -87,19 +88,18 @@ def proof(arm: Arm, name: str, yours: Array | None, function: str) -> str:
     Args:
         arm: in its present configuration.
         name: short name of the frame.
-        yours: the student's T_world_NAME, (4, 4), or None.
-        function: the student's.
+        seen: what the student's function said, with a pose of this frame; or None.
     """
-    T = arm.pose(name)
-    parts = [matrix(f"T_world_{name}, MuJoCo", T, "mujoco")]
-    if yours is None:
+    parts = [matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")]
+    if seen is None:
         library = arm.by_library[arm.names[name]]
         parts.append(matrix(f"T_world_{name}, robo47.kinematics", library, "library"))
         parts.append(verdict(arm.difference(name)))
-    else:
-        off = ~(np.abs(yours - T) < AGREES)
-        parts.append(matrix(f"T_world_{name}, YOUR {function}", yours, "yours", off))
-        parts.append(verdict(arm.difference(name, yours), "yours"))
+        return "".join(parts)
+    yours, truth = seen.poses[name], arm.poses_at(seen.q)[name]
+    off = ~(np.abs(yours - truth) < AGREES)
+    parts.append(matrix(f"T_world_{name}, YOURS", yours, "yours", off))
+    parts.append(verdict(float(np.abs(yours - truth).max()), "yours"))
     return "".join(parts)
 
 
