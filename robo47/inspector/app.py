@@ -184,7 +184,7 @@ class Inspector:
     def make_solid(self, value: str) -> None:
         """Make the arm solid ("true") or see-through."""
         self.controls.values["solid"] = "true" if value == "true" else "false"
-        self.scene.solid(value == "true")
+        self.scene.look(opaque=value == "true")
         self.schedule()
 
     def point(self, text: str) -> None:
@@ -248,9 +248,11 @@ class Inspector:
             end = self.day.ghost.frames[-1]
             with self.server.atomic():
                 self.scene.show_ghost(self.apart.drawn, end)
+                self.scene.look(agrees=self.apart.good)
                 self.show()
         else:
             self.scene.show_ghost({}, END)
+            self.scene.look(agrees=False)
             self.schedule()
 
     def judge(self, standing: Standing) -> None:

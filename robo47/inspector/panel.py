@@ -9,6 +9,7 @@ from robo47.inspector.controls import Controls
 from robo47.inspector.ghost import Difference, Seen
 
 TITLE = "robo47 inspector"
+LAST = 1e15  # below whatever a tab adds
 
 
 class Panel:
@@ -38,7 +39,8 @@ class Panel:
         )
         self.proof, self.limits = gui.add_html(""), gui.add_html("")
         self.tabs = gui.add_html("")
-        self.about = words.line(f"{about}; ee is {arm.chain.frame}", "about", "quiet")
+        last = words.line(f"{about}; ee is {arm.chain.frame}", "about", "quiet")
+        gui.add_html(last, order=LAST)
         self.fixed = set(self._children())
 
     def _children(self) -> dict[str, viser.GuiHtmlHandle]:

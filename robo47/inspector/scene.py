@@ -19,8 +19,11 @@ from robo47.inspector.triad import Anchor, Triad, place
 CAMERA, LOOK_AT, FOV = (1.75, -1.45, 0.95), (0.42, 0.24, 0.4), 0.72
 BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
-ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "center-right", "top-right")
-SEE_THROUGH, SHADE = 0.5, 0.62  # opacity; white links would vanish before the backdrop
+ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
+SEE_THROUGH = 0.5  # opacity
+# What a see-through arm's colours are multiplied by: white would vanish before the
+# backdrop; it turns green where the student's own code puts every link.
+GREY, GREEN = (0.6, 0.6, 0.63), (0.42, 0.72, 0.6)
 HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.5
 Colour = tuple[int, int, int]
@@ -77,15 +80,18 @@ class Skin:
             if T is not None:
                 place(body, T)
 
-    def look(self, opacity: float | None, shade: float = 1.0) -> None:
+    def look(
+        self, opacity: float | None, shade: tuple[float, float, float] = (1, 1, 1)
+    ) -> None:
         """Make it see-through, and darker.
 
         Args:
             opacity: 0 to 1; None for solid.
-            shade: its colours are multiplied by it.
+            shade: its colours (r, g, b) are multiplied by it.
         """
         for mesh, shape in self.meshes:
-            r, g, b = (int(255 * shade * c) for c in shape.rgba[:3])
+            rgb = zip(shape.rgba[:3], shade, strict=True)
+            r, g, b = (int(255 * c * s) for c, s in rgb)
             mesh.color, mesh.opacity = (r, g, b), opacity
 
     def remove(self) -> None:
@@ -117,7 +123,7 @@ class ArmScene:
         self.yours.show(visible=False, chosen=True)
         self.way = _lines(server, "/way", HIGHLIGHT)
         self.gap = _lines(server, "/gap", GHOST_COLOUR)
-        self.opaque = False
+        self.opaque, self.agrees = False, False
         self.coarse: list[Shape] = []
         self.update()
 
@@ -129,7 +135,7 @@ class ArmScene:
             ghosts: draw the ghost with them, too.
         """
         self.skin.put_on(shapes)
-        self.solid(self.opaque)
+        self.paint()
         if ghosts:
             self.coarse = shapes
             self.ghost.put_on(shapes, GHOST_COLOUR)
@@ -177,13 +183,25 @@ class ArmScene:
         if self.way.visible:
             self.way.points = np.stack([joined[:-1], joined[1:]], axis=1)
 
-    def solid(self, on: bool) -> None:
-        """Make the arm's meshes solid, or see-through again."""
-        self.opaque = on
-        if on:
+    def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
+        """Make the arm solid or see-through, and green or not.
+
+        Args:
+            opaque: None leaves it as it is.
+            agrees: whether the student's code puts every link here.
+        """
+        before = self.opaque, self.agrees
+        self.opaque = self.opaque if opaque is None else opaque
+        self.agrees = self.agrees if agrees is None else agrees
+        if before != (self.opaque, self.agrees):
+            self.paint()
+
+    def paint(self) -> None:
+        """Give the meshes their colours."""
+        if self.opaque:
             self.skin.look(None)
         else:
-            self.skin.look(SEE_THROUGH, SHADE)
+            self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
 
 
 def _set_stage(server: viser.ViserServer) -> None:
