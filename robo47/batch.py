@@ -85,7 +85,7 @@ class Cursor:
     def fixed(self, T: Array) -> None:
         """Add a fixed pose, (4, 4)."""
         self.shift(T[:3, 3])
-        self.R = _rounded(self.R @ T[:3, :3])
+        self.R = rounded(self.R @ T[:3, :3])
 
     def shift(self, vector: Array) -> None:
         """Add a fixed translation, metres, (3,)."""
@@ -93,10 +93,10 @@ class Cursor:
 
     def turn(self, axis: Array, adr: int, ref: float) -> None:
         """Add a hinge about a unit axis, (3,)."""
-        axis = _rounded(self.R @ axis)
+        axis = rounded(self.R @ axis)
         k = int(np.argmax(np.abs(axis)))
-        if abs(axis[k]) != 1.0:  # none of the moving frame's own axes: make it z
-            self._rotate(_frame_with_z(axis))
+        if np.count_nonzero(axis) > 1:  # none of the moving frame's own: make it z
+            self._rotate(frame_with_z(axis))
             k, axis = 2, np.array([0.0, 0.0, 1.0])
         # A shift along the axis commutes with the turn, so it can wait.
         self._flush_shift(keep=k)
@@ -106,7 +106,7 @@ class Cursor:
     def slide(self, axis: Array, adr: int, ref: float) -> None:
         """Add a slide along a unit axis, (3,); it commutes with fixed shifts."""
         self.plan.ref[adr] = ref
-        self._step(Slide(_rounded(self.R @ axis), adr))
+        self._step(Slide(rounded(self.R @ axis), adr))
 
     def ball(self, name: str, adr: int) -> None:
         """Add a ball joint."""
@@ -123,7 +123,7 @@ class Cursor:
     def _rotate(self, R: Array) -> None:
         """Really turn the moving frame by R."""
         self._step(Rotate(R))
-        self.R, self.t = _rounded(R.T @ self.R), R.T @ self.t
+        self.R, self.t = rounded(R.T @ self.R), R.T @ self.t
 
     def _flush_shift(self, keep: int | None = None) -> None:
         now, later = self.t.copy(), np.zeros(3)
@@ -159,7 +159,7 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         if not np.isfinite(q).all():
             bad = start + int(np.argmin(np.isfinite(q).all(axis=0)))
             raise ValueError(f"configuration {bad} holds NaN or infinity: {flat[bad]}")
-        chunk = _chunk(q)
+        chunk = chunk_of(q)
         nodes = [WORLD]
         for source, step in plan.steps:
             nodes.append(step(nodes[source], chunk))
@@ -168,7 +168,7 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     return {name: T.reshape(*qpos.shape[:-1], 4, 4) for name, T in poses.items()}
 
 
-def _chunk(q: Array) -> Chunk:
+def chunk_of(q: Array) -> Chunk:
     """Return q, (nq, n), with its cosine and sine.
 
     Both from one tangent, t = tan(q / 2): cos = (1 - t^2) / (1 + t^2) and
@@ -191,13 +191,13 @@ def _write(T: Array, at: Columns, frame: Frame) -> None:
     T[:, 3, 3] = 1.0
 
 
-def _rounded(R: Array) -> Array:
+def rounded(R: Array) -> Array:
     """Return R with entries that rounding keeps from -1, 0 and 1 put right."""
     nearest = np.round(R)
     return np.where(np.abs(R - nearest) < ROUNDING, nearest, R)
 
 
-def _frame_with_z(axis: Array) -> Array:
+def frame_with_z(axis: Array) -> Array:
     """Return some rotation whose third column is the unit axis, (3, 3)."""
     x = np.cross(np.eye(3)[np.argmin(np.abs(axis))], axis)
     x /= np.linalg.norm(x)

@@ -6,8 +6,9 @@ Entries, as the MuJoCo Menagerie names its files:
     panda          the arm with `hand` and two fingers (9 numbers)
     scene          `panda` on a floor, with lights: what a viewer opens
 
-Where no Menagerie is to be had, the kit's own mesh-free twin stands in. Units: metres,
-radians.
+Where no Menagerie is to be had, the kit's own mesh-free twin takes its place. Each
+entry has the Menagerie's servos (position drives), or seven motors that take torques.
+Units: metres, radians, newton metres.
 """
 
 import xml.etree.ElementTree as ET
@@ -22,7 +23,20 @@ from robo47 import menagerie
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
+from robo47.panda_reading import (  # read there, named here
+    ARM_JOINTS,
+    arm,
+    hand_inertia,
+    home_pose,
+    inertias,
+    screws,
+)
 from robo47.paths import TWIN_XML, menagerie_root, shown
+
+__all__ = [
+    "DRIVES", "END_FRAME", "READY_Q", "arm", "describe", "hand_inertia", "home_pose",
+    "home_q", "inertias", "load", "provenance", "screws",
+]  # fmt: skip
 
 # The handout's `home_q`: the arm at the ready, every joint within its limits.
 READY_Q = np.array([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785])
@@ -34,7 +48,9 @@ END_FRAME = {
     "panda_nohand": "site:attachment_site",
     "scene": "body:hand",
 }
+Edit = Callable[[mujoco.MjSpec], None]
 _SHAPES = {"geom", "mesh", "material", "texture"}
+DRIVES = ("servo", "torque")
 # The twin has both ends; each entry keeps its own.
 _TWIN_LEAVES_OUT = {
     "panda": "attachment",
@@ -47,33 +63,42 @@ def load(
     entry: str = "panda_nohand",
     *,
     meshes: bool = False,
-    edit: Callable[[mujoco.MjSpec], None] | None = None,
+    drive: str = "servo",
+    edit: Edit | None = None,
 ) -> mujoco.MjModel:
     """Return the Panda as a compiled model.
 
     Args:
         entry: "panda", "panda_nohand" or "scene".
-        meshes: False drops shapes, materials and textures before compiling. The
-            kinematics are the same and it takes a hundredth of the time.
+        meshes: False drops shapes, materials and textures before compiling. Masses
+            and motion are the same and it takes a hundredth of the time; without
+            shapes nothing touches anything.
+        drive: "servo" keeps the Menagerie's position servos, ctrl in rad; "torque"
+            makes motors of the arm's seven, ctrl in N m, up to the same 87 and 12
+            N m. The hand's own servo stays.
         edit: is given the model to add to before it is compiled.
 
     Returns:
         The model; a new one at every call.
 
     Raises:
-        ValueError: no such entry.
+        ValueError: no such entry, or no such drive.
         Robo47Error: the robot's files are broken, or MENAGERIE_ROOT leads nowhere.
     """
     if entry not in menagerie.ENTRIES:
         raise ValueError(
             f"no entry {entry!r}; the Panda has {', '.join(menagerie.ENTRIES)}"
         )
+    if drive not in DRIVES:
+        raise ValueError(f"no drive {drive!r}; the Panda has {' and '.join(DRIVES)}")
+    edits: list[Edit] = [_make_motors] if drive == "torque" else []
+    edits += [edit] if edit else []
     folder = menagerie.panda_folder()
     if folder is None:
-        return _build(_twin_xml(entry), {}, edit)
+        return _build(_twin_xml(entry), {}, edits)
     try:
         files = _read(folder, entry, meshes)
-        model = _build(files[f"{entry}.xml"].decode(), files, edit)
+        model = _build(files[f"{entry}.xml"].decode(), files, edits)
     except KeyError:
         problem = "is not there"
     except (ValueError, OSError) as error:
@@ -146,16 +171,26 @@ def describe(entry: str = "panda_nohand") -> str:
     return f"robot: {p['robot']} ({entry}), {p['source']}, {version}"
 
 
-def _build(
-    xml: str,
-    files: dict[str, bytes],
-    edit: Callable[[mujoco.MjSpec], None] | None,
-) -> mujoco.MjModel:
+def _make_motors(spec: mujoco.MjSpec) -> None:
+    """Turn the servos of the seven joints into motors: force = ctrl."""
+    for actuator in spec.actuators:
+        if actuator.target in ARM_JOINTS:
+            actuator.gainprm[0] = 1.0
+            actuator.biastype = mujoco.mjtBias.mjBIAS_NONE
+            actuator.biasprm[:] = 0.0
+            actuator.ctrlrange = actuator.forcerange
+    for key in spec.keys:  # its ctrl are angles, which motors would take for torques
+        hand = list(key.ctrl)[len(ARM_JOINTS) :]
+        key.ctrl = [0.0] * len(ARM_JOINTS) + hand
+
+
+def _build(xml: str, files: dict[str, bytes], edits: list[Edit]) -> mujoco.MjModel:
     """Compile from memory: MuJoCo on Windows opens no file in a folder like Größe."""
-    if edit is None:  # the faster way
+    if not edits:  # the faster way
         return mujoco.MjModel.from_xml_string(xml, files)
     spec = mujoco.MjSpec.from_string(xml, include=files, assets=files)
-    edit(spec)
+    for edit in edits:
+        edit(spec)
     return spec.compile()
 
 
@@ -191,10 +226,22 @@ def _twin_xml(entry: str) -> str:
     for parent in root.iter():
         for child in parent.findall(f"body[@name='{_TWIN_LEAVES_OUT[entry]}']"):
             parent.remove(child)
-    if entry == "panda_nohand":  # no fingers, so two numbers less in its home key
-        for key in root.iter("key"):
-            key.set("qpos", " ".join(key.get("qpos", "").split()[: len(READY_Q)]))
+    if entry == "panda_nohand":
+        _without_fingers(root)
+    else:
+        root.find("option").set("impratio", "1")  # type: ignore[union-attr]
     return ET.tostring(root, encoding="unicode")
+
+
+def _without_fingers(root: ET.Element) -> None:
+    """Remove from the twin what drives, couples or counts the fingers."""
+    for tag in ("tendon", "equality"):
+        root.remove(root.find(tag))  # type: ignore[arg-type]
+    for actuators in root.iter("actuator"):
+        actuators.remove(actuators[len(READY_Q)])
+    for key in root.iter("key"):
+        for name in ("qpos", "ctrl"):
+            key.set(name, " ".join(key.get(name, "").split()[: len(READY_Q)]))
 
 
 def _content(path: Path) -> str:

@@ -1,7 +1,10 @@
-"""Ask Pinocchio for the Panda's poses and keep its answers for the tests.
+"""Ask Pinocchio for the Panda's poses and forces and keep its answers for the tests.
 
-    python scripts/make_oracle.py            write tests/data/pinocchio_panda.json
-    python scripts/make_oracle.py --check    compute anew and compare with that file
+    python scripts/make_oracle.py            write the two files in tests/data/
+    python scripts/make_oracle.py --check    compute anew and compare with them
+
+pinocchio_panda.json holds poses of every frame; dynamics_oracle.json what crba and rnea
+say: both with the armature, which Pinocchio reads from the file, without damping.
 
 Pinocchio (pin) reads the same MJCF files but shares no code with MuJoCo or with us.
 It is 480 MB installed and has no Windows wheel, so it gets an environment of its own,
@@ -23,6 +26,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 ORACLE = ROOT / "tests" / "data" / "pinocchio_panda.json"
+DYNAMICS = ROOT / "tests" / "data" / "dynamics_oracle.json"
 ENVIRONMENT = ROOT / ".venv-oracle"
 PIN = "pin==4.1.0"
 CONFIGURATIONS, SEED = 15, 47
@@ -47,6 +51,23 @@ for entry, (xml, qs) in json.load(sys.stdin).items():
 json.dump({"pinocchio": pin.__version__, "entries": answers}, sys.stdout)
 """
 
+# The same for motions of one entry: mass matrix, torque of a motion, torque at rest.
+ASK_FOR_FORCES = """
+import json, sys
+import numpy as np, pinocchio as pin
+xml, q, qd, qdd = json.load(sys.stdin)
+model = pin.buildModelFromMJCF(xml)
+data = model.createData()
+crba, rnea, bias = [], [], []
+for row in zip(np.array(q), np.array(qd), np.array(qdd)):
+    M = np.triu(pin.crba(model, data, row[0]))
+    crba.append((M + np.triu(M, 1).T).tolist())
+    rnea.append(pin.rnea(model, data, *row).tolist())
+    bias.append(pin.nonLinearEffects(model, data, *row[:2]).tolist())
+answer = {"q": q, "qd": qd, "qdd": qdd, "crba": crba, "rnea": rnea, "bias": bias}
+json.dump({"pinocchio": pin.__version__, "panda_nohand": answer}, sys.stdout)
+"""
+
 
 def oracle_python() -> Path:
     """Return the Python that has Pinocchio, installing it on first use."""
@@ -66,15 +87,34 @@ def oracle_python() -> Path:
 
 def ask() -> dict:
     """Return Pinocchio's poses of both entries at seeded configurations."""
-    folder = menagerie.panda_folder()
-    if folder is None:
-        raise Robo47Error("no Panda here; run python scripts/fetch_menagerie.py first")
     question = {}
     for entry in ("panda", "panda_nohand"):
         q = verify.random_q(panda.load(entry), CONFIGURATIONS, SEED)
-        question[entry] = (str(folder / f"{entry}.xml"), np.round(q, 6).tolist())
+        question[entry] = (xml_of(entry), np.round(q, 6).tolist())
+    return answer_to(ASK_PINOCCHIO, question)
+
+
+def ask_for_forces() -> dict:
+    """Return Pinocchio's dynamics of panda_nohand at seeded motions."""
+    q = verify.random_q(panda.load("panda_nohand"), CONFIGURATIONS, SEED)
+    rng = np.random.default_rng(SEED)
+    motion = (q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
+    rounded = [np.round(part, 6).tolist() for part in motion]
+    return answer_to(ASK_FOR_FORCES, [xml_of("panda_nohand"), *rounded])
+
+
+def xml_of(entry: str) -> str:
+    """Return the path of the real Panda's file, the one that Pinocchio reads."""
+    folder = menagerie.panda_folder()
+    if folder is None:
+        raise Robo47Error("no Panda here; run python scripts/fetch_menagerie.py first")
+    return str(folder / f"{entry}.xml")
+
+
+def answer_to(script: str, question: object) -> dict:
+    """Run a script where Pinocchio is, and return what it prints."""
     done = subprocess.run(
-        [str(oracle_python()), "-c", ASK_PINOCCHIO],
+        [str(oracle_python()), "-c", script],
         input=json.dumps(question),
         capture_output=True,
         text=True,
@@ -98,22 +138,42 @@ def largest_difference(ours: dict, theirs: dict) -> float:
     return worst
 
 
+def largest_force_difference(ours: dict, theirs: dict) -> float:
+    """Return the same for the answers about forces."""
+    mine, other = ours["panda_nohand"], theirs["panda_nohand"]
+    if any(mine[name] != other[name] for name in ("q", "qd", "qdd")):
+        return np.inf
+    return max(
+        float(np.abs(np.array(mine[name]) - np.array(other[name])).max())
+        for name in ("crba", "rnea", "bias")
+    )
+
+
+ORACLES = {
+    ORACLE: (ask, largest_difference),
+    DYNAMICS: (ask_for_forces, largest_force_difference),
+}
+
+
 def main() -> int:
-    """Write the oracle file, or check it."""
+    """Write the oracle files, or check them."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
-    fresh = ask()
-    if options.check:
-        worst = largest_difference(fresh, json.loads(ORACLE.read_text("utf-8")))
-        ok = worst < SAME
-        print(f"{'PASS' if ok else 'FAIL'}  {shown(ORACLE)} differs by {worst:.1e}")
-        return cli.EXIT_OK if ok else cli.EXIT_FAILED
-    ORACLE.write_text(json.dumps(fresh).replace("}, ", "},\n") + "\n", "utf-8")
-    print(f"wrote {shown(ORACLE)}: Pinocchio {fresh['pinocchio']}")
-    return cli.EXIT_OK
+    all_same = True
+    for path, (ask_anew, difference) in ORACLES.items():
+        fresh = ask_anew()
+        if options.check:
+            worst = difference(fresh, json.loads(path.read_text("utf-8")))
+            same = worst < SAME
+            print(f"{'PASS' if same else 'FAIL'}  {shown(path)} differs by {worst:.1e}")
+            all_same &= same
+        else:
+            path.write_text(json.dumps(fresh).replace("}, ", "},\n") + "\n", "utf-8")
+            print(f"wrote {shown(path)}: Pinocchio {fresh['pinocchio']}")
+    return cli.EXIT_OK if all_same else cli.EXIT_FAILED
 
 
 if __name__ == "__main__":

@@ -107,6 +107,16 @@ def test_pinocchio_reads_the_same_poses_from_the_same_file(real_panda, entry):
         assert_same(T[:, :3].reshape(-1, 12), rows, 2e-14)
 
 
+def test_an_axis_that_is_nearly_one_of_the_frames_own_is_not_taken_for_it():
+    # (1, 3e-8, 3e-8) is a unit vector whose first entry is 1 to the last bit.
+    model = mujoco.MjModel.from_xml_string("""
+      <mujoco><worldbody><body name="link"><joint axis="1 3e-8 3e-8"/>
+      <geom size="1"/></body></worldbody></mujoco>""")
+    q = [[1.0]]
+    T = kinematics.fk(kinematics.chain_to(model, "link"), q)
+    assert_same(T, verify.mujoco_poses(model, q)["body:link"], 1e-14)
+
+
 def test_textbook_example_of_forward_kinematics():
     # Modern Robotics' code library, the example of FKinSpace: a hinge about z through
     # (0, 4, 0), a slide along y, a screw of pitch 0.1 about -z through (0, 6, 0).

@@ -6,6 +6,7 @@ import pytest
 from compare import assert_same
 
 from robo47 import panda, verify
+from robo47.errors import Robo47Error
 
 
 def test_the_poses_are_those_of_mj_forward(twin):
@@ -69,3 +70,68 @@ def test_nan_is_the_worst_difference_there_is():
 def test_sets_of_different_frames_are_not_compared():
     with pytest.raises(ValueError, match="body:b"):
         verify.worst_difference({"body:a": np.eye(4)}, {"body:b": np.eye(4)}, np.eye(1))
+
+
+def pendulum():
+    """One hinge about y: 2 kg at 0.5 m along x, armature 0.3, damping 0.7."""
+    return mujoco.MjModel.from_xml_string("""
+      <mujoco><worldbody><body>
+        <joint name="hinge" axis="0 1 0" armature="0.3" damping="0.7"/>
+        <inertial mass="2" pos="0.5 0 0" diaginertia="1e-9 1e-9 1e-9"/>
+        <site name="tip" pos="1 0 0"/>
+      </body></worldbody><actuator><motor joint="hinge"/></actuator></mujoco>""")
+
+
+def test_mujocos_answers_for_a_pendulum_are_those_on_paper():
+    model, q, qd = pendulum(), [0.4], [1.5]
+    inertia, weight = 2.0 * 0.25 + 0.3, -2.0 * 9.81 * 0.5 * np.cos(0.4)
+    assert_same(verify.mujoco_mass_matrix(model, q), [[inertia]], 1e-8)
+    assert_same(verify.mujoco_bias(model, q, qd), [weight], 1e-12)
+    torque = inertia * 4.0 + weight + 0.7 * 1.5
+    inverse = verify.mujoco_inverse_dynamics(model, q, qd, [4.0])
+    assert_same(inverse, [torque], 1e-7)
+    assert_same(verify.mujoco_acceleration(model, q, qd, [torque]), [4.0], 1e-7)
+    # Euler's step takes the damping at its end.
+    h = model.opt.timestep
+    after = 1.5 + h * (torque - weight - 0.7 * 1.5) / (inertia + h * 0.7)
+    assert_same(verify.mujoco_step(model, q, qd, [torque]), [after], 1e-9)
+
+
+def test_mujocos_site_jacobian_comes_as_omega_then_v():
+    J = verify.mujoco_site_jacobian(pendulum(), [0.4], "tip")
+    s, c = np.sin(0.4), np.cos(0.4)
+    assert_same(J[:, 0], [0.0, 1.0, 0.0, -s, 0.0, -c], 1e-15)
+
+
+def test_the_site_jacobian_is_the_slope_of_mujocos_poses(either_panda):
+    q, h = verify.random_q(either_panda, 5, seed=3), 1e-6
+    J = verify.mujoco_site_jacobian(either_panda, q)
+    for j, step in enumerate(h * np.eye(7)):
+        ahead, behind = (
+            verify.mujoco_poses(either_panda, q + side)["site:attachment_site"]
+            for side in (step, -step)
+        )
+        slope = (ahead - behind) / (2 * h)
+        assert_same(J[:, 3:, j], slope[:, :3, 3], 1e-8)
+        W = slope[:, :3, :3] @ np.swapaxes(ahead[:, :3, :3], -1, -2)
+        assert_same(J[:, :3, j], W[:, [2, 0, 1], [1, 2, 0]], 1e-5)
+
+
+def test_many_states_are_asked_in_the_callers_own_shape(either_panda):
+    q = verify.random_q(either_panda, 6, seed=3)
+    M = verify.mujoco_mass_matrix(either_panda, q.reshape(2, 3, 7))
+    assert_same(M[1, 2], verify.mujoco_mass_matrix(either_panda, q[5]), 0.0)
+    bias = verify.mujoco_bias(either_panda, q, np.zeros(7))
+    assert_same(bias[4], verify.mujoco_bias(either_panda, q[4], np.zeros(7)), 0.0)
+
+
+def test_one_state_leaves_nothing_behind_for_the_next():
+    """Both start anew: time, warm start and forces of the first are forgotten."""
+    model = pendulum()
+    twice = verify.mujoco_step(model, [[0.4], [0.4]], [1.5], [3.0])
+    assert_same(twice[0], twice[1], 0.0)
+
+
+def test_a_site_that_is_not_there_is_named():
+    with pytest.raises(Robo47Error, match="no site 'attachment_site'; load panda_no"):
+        verify.mujoco_site_jacobian(pendulum(), [0.0])

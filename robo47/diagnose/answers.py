@@ -128,6 +128,8 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Array, ...] | Finding:
         part = _array(value, kinds[0])
         return part if isinstance(part, Finding) else (part,)
     expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+    if isinstance(value, np.ndarray) and value.ndim:  # numbers, that travel as one
+        value = tuple(value)
     if not isinstance(value, tuple) or len(value) != len(kinds):
         got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
         return Finding("parts", f"It returns {got}; expected are {expected}.")

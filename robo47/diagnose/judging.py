@@ -75,7 +75,7 @@ def _second_look(
     ask, at = asked.ask, len(asked.main)
     if shared := answers.shared_memory(replies[: at + len(asked.fresh)]):
         return Verdict("wrong", *shared, measured)
-    if asked.fresh:
+    if asked.fresh and ask.truth:
         S = answers.read(replies[at : at + len(asked.fresh)], ask, "")
         off = np.inf
         if not isinstance(S, Finding):

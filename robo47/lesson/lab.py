@@ -1,36 +1,51 @@
-"""What every day's lab script does the same way: say, check, record, conclude."""
+"""What every day's lab script does the same way: say, check, record, conclude.
 
-import argparse
+    lab = Lab(__file__, __doc__)
+    lab.step("2. The same by hand")
+    lab.check("largest |by hand - MuJoCo|", error)
+    lab.record("fk_by_hand", errors, seed=47)
+    return lab.finish()
+
+What a number must reach stands in the day's day.toml and nowhere else.
+"""
+
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import cli, metrics
-from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, Metric, find_day
+from robo47.menagerie import hash_file
 from robo47.metrics.words import count
 from robo47.paths import METRICS_CSV, shown
+
+STAMP = 8  # hex digits of the script's hash in a row's notes: which file wrote it
 
 
 class Lab:
     """One run of a day's lab, from its first line to its exit code."""
 
-    def __init__(self, day: int, run_id: str, about: str) -> None:
-        """Read the command line.
+    def __init__(self, file: str, about: str | None) -> None:
+        """Read the command line and the day's manifest.
 
         Args:
-            day: number of the day.
-            run_id: name of the script, first field of its metrics rows.
+            file: the script's own, `__file__`; its name says which day it is.
             about: the script's docstring, shown by --help.
+
+        Raises:
+            Robo47Error: the name is no lab's, or its day is not there.
         """
-        parser = argparse.ArgumentParser(
-            description=about, formatter_class=argparse.RawDescriptionHelpFormatter
-        )
+        parser = cli.parser(about)
         parser.add_argument(
             "--no-log", action="store_true", help="leave metrics/metrics.csv alone"
         )
-        self.day, self.run_id = day, run_id
         self.log = not parser.parse_args().no_log
+        self.script = Path(file)
+        self.day = day_of(self.script)
         self.failed: list[str] = []
         self.rows: list[dict[str, Any]] = []
 
@@ -38,67 +53,130 @@ class Lab:
         """Print the heading of a step."""
         print(f"\n{title}")
 
-    def show(self, title: str, matrix: Array) -> None:
+    def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
         """Print a matrix or a vector with aligned columns.
 
         Args:
             title: what it is.
             matrix: (m, n) or (n,).
+            decimals: to print.
         """
         print(f"  {title}")
-        for row in np.atleast_2d(np.round(matrix, 6) + 0.0):  # + 0.0: no "-0.0"
-            print("    " + " ".join(f"{entry:10.6f}" for entry in row))
+        values = np.atleast_2d(np.round(np.asarray(matrix, dtype=float), decimals))
+        for row in values + 0.0:  # + 0.0: no "-0.0"
+            print("    " + " ".join(f"{x:{decimals + 4}.{decimals}f}" for x in row))
 
-    def check(self, name: str, error: ArrayLike, limit: float) -> None:
+    def check(self, name: str, error: ArrayLike, limit: float | None = None) -> None:
         """Print whether an error is small enough, and remember if it is not.
 
         Args:
             name: what was compared.
-            error: a number, or an array whose largest entry counts; NaN fails.
-            limit: it must be below this.
+            error: a number, or an array whose largest |entry| counts; NaN fails.
+            limit: it must be under this; by default the day's own limit.
         """
-        worst = float(np.max(error))
-        verdict = "PASS" if worst < limit else "FAIL"
-        print(f"  {verdict}  {name}: {worst:.1e} (limit {limit:.0e})")
-        if verdict == "FAIL":
-            self.failed.append(f"{name} is {worst:.1e}; it must be under {limit:.0e}")
+        limit = self.day.limit if limit is None else limit
+        self._judge(name, Metric("", name, max=limit), _largest(error), limit)
 
     def record(
-        self, check: str, metric: str, error: ArrayLike, limit: float, **fields: Any
+        self,
+        check: str,
+        error: ArrayLike,
+        *,
+        metric: str = "",
+        label: str = "",
+        **fields: Any,
     ) -> None:
-        """Keep a metrics row for the end of the run.
+        """Check a number against its limit in day.toml, and keep its metrics row.
 
         Args:
-            check: what was checked, as in the handout's row.
-            metric: name of the number.
-            error: a number, or an array whose largest entry counts.
-            limit: the row counts as a failure unless the error is below this.
-            fields: other columns, see metrics/README.md.
+            check: what was checked, as day.toml names it.
+            error: a number, or one per trial: the largest |entry| counts (where the
+                manifest says `min`, the smallest).
+            metric: which of the check's numbers, where day.toml has several.
+            label: what to print; by default the name of the check.
+            fields: other columns of the row, see metrics/README.md.
+
+        Raises:
+            Robo47Error: day.toml has no such row.
         """
-        worst = float(np.max(error))
-        defaults = {
-            "run_id": self.run_id,
-            "day": self.day,
+        wanted = self.day.metric(check, metric)
+        trials = np.atleast_1d(np.asarray(error, dtype=np.float64)).ravel()
+        value = _largest(trials) if wanted.min is None else float(np.min(trials))
+        bound = wanted.max if wanted.min is None else wanted.min
+        assert bound is not None
+        self._judge(label or check.replace("_", " "), wanted, value, bound)
+        row = {
+            "run_id": self.script.stem,
+            "day": self.day.number,
+            "check": check,
             "seed": 0,
             "method": "manual",
-            "n_trials": 1,
-            "n_failures": int(not worst < limit),
-            "notes": f"limit {limit:.0e}",
+            "n_trials": trials.size,
+            "n_failures": int(sum(not wanted.passes(abs(x)) for x in trials)),
+            "metric": wanted.metric,
+            "value": value,
+            "notes": f"limit {bound:g}; file {stamp(self.script)}",
         }
-        row = {"check": check, "metric": metric, "value": worst}
-        self.rows.append({**defaults, **row, **fields})
+        self.rows.append({**row, **fields})
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
         if self.log:
-            # A failed check is recorded too: NaN is its value.
-            metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
-            print(f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}")
+            try:
+                # A failed check is recorded too: NaN is its value.
+                metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
+                print(
+                    f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}"
+                )
+            except (
+                Robo47Error
+            ) as error:  # how the lab went is worth saying all the same
+                print()
+                cli.complain(f"error: {error}")
+                self.failed.append("the rows are not in the log; see above")
         else:
             print("\nnothing logged (--no-log)")
         for failure in self.failed:
-            print(f"FAILED: {failure}")
+            print(cli.wrapped(f"FAILED: {failure}", "  "))
         if self.failed:
             return cli.EXIT_FAILED
-        print("All checks PASSED.")
+        print(cli.paint("All checks PASSED.", "good"))
         return cli.EXIT_OK
+
+    def _judge(self, name: str, wanted: Metric, value: float, bound: float) -> None:
+        strict = value < bound if wanted.min is None else value > bound
+        side = "limit" if wanted.min is None else "at least"
+        verdict = cli.paint("PASS", "good") if strict else cli.paint("FAIL", "bad")
+        number, limit = number_of(value), f"{bound:g}"
+        print(f"  {verdict}  {name}: {number} ({side} {limit})")
+        if not strict:
+            must = "under" if wanted.min is None else "over"
+            self.failed.append(f"{name} is {number}; it must be {must} {limit}")
+
+
+def day_of(script: Path) -> Day:
+    """Return the day whose lab a script is, by its name.
+
+    Raises:
+        Robo47Error: the name is not like day1_transforms.py.
+    """
+    found = re.match(r"day(\d+)_", script.name)
+    if not found:
+        raise Robo47Error(f"{script.name} is no lab; expected a name like day1_*.py")
+    return find_day(int(found[1]))
+
+
+def stamp(script: Path) -> str:
+    """Return the first digits of a script's hash: which file wrote a row."""
+    return hash_file(script)[:STAMP]
+
+
+def number_of(value: float) -> str:
+    """Return a number as a lab prints it: rounding errors short, others readable."""
+    if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
+        return f"{value:.1e}" if value else "0"
+    return f"{value:.4g}"
+
+
+def _largest(error: ArrayLike) -> float:
+    return float(np.max(np.abs(np.asarray(error, dtype=np.float64))))

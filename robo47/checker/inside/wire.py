@@ -73,8 +73,10 @@ def pack_value(value: Any) -> Any:
     if isinstance(value, (np.ndarray, np.generic, float, int)):
         return {"array": pack_array(np.asarray(value))}
     if isinstance(value, (tuple, list)) and value:
-        if all(isinstance(item, np.ndarray) for item in value):
-            return {"tuple": [pack_array(item) for item in value[:100]]}
+        plain = (np.ndarray, np.generic, float, int)
+        arrays = any(isinstance(item, np.ndarray) for item in value)
+        if arrays and all(isinstance(item, plain) for item in value):
+            return {"tuple": [pack_array(np.asarray(item)) for item in value[:100]]}
         try:
             return {"array": pack_array(np.array(value))}
         except ValueError:  # rows of different lengths

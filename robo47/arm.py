@@ -1,0 +1,119 @@
+"""One arm, one configuration: all that a control loop asks for, computed together.
+
+`robo47.dynamics` has the same formulas for reading and for many configurations at
+once; a loop needs them for one configuration, a thousand times in a row, and fast:
+
+    now = arm.at(q)
+    tau = now.M @ qdd + now.bias(qd) + arm.damping * qd
+
+Conventions as in
+`robo47.dynamics`: (omega; v), world axes about the world's origin, SI units; M holds
+the armature. Pure NumPy; `robo47.panda.arm(model)` makes one of a model.
+"""
+
+import dataclasses
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks
+from robo47.arm_state import ArmState, Constants, from_pseudo_inertia, pseudo_inertias
+from robo47.checks import Array
+
+GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """A chain of n links, as it stands at q = 0.
+
+    Attributes:
+        screws: of the joints at q = 0, (omega; v) in the world, (n, 6).
+        M_home: `T_world_ee` at q = 0, (4, 4); `tool` moves it.
+        T_zero: `T_world_link` of each link at q = 0, (n, 4, 4).
+        masses: of the links, kg, (n,).
+        coms: centres of mass in the links' own frames, metres, (n, 3).
+        inertias: about the centres of mass in the links' axes, kg m^2, (n, 3, 3).
+        armature: of the joints, kg m^2, (n,).
+        damping: of the joints, N m s/rad, (n,).
+        gravity: m/s^2, (3,).
+    """
+
+    screws: Array
+    M_home: Array
+    T_zero: Array
+    masses: Array
+    coms: Array
+    inertias: Array
+    armature: Array
+    damping: Array
+    gravity: Array = dataclasses.field(default_factory=lambda: np.array(GRAVITY))
+
+    def __post_init__(self) -> None:
+        """Check the shapes, and work out what does not depend on q."""
+        n = len(self.screws)
+        for name, shape in {
+            "screws": (n, 6), "M_home": (4, 4), "T_zero": (n, 4, 4), "masses": (n,),
+            "coms": (n, 3), "inertias": (n, 3, 3), "gravity": (3,),
+        }.items():  # fmt: skip
+            object.__setattr__(
+                self, name, checks.array(getattr(self, name), name, shape)
+            )
+        for name in ("armature", "damping"):
+            value = checks.array(getattr(self, name), name, ())
+            object.__setattr__(self, name, np.broadcast_to(value, (n,)))
+        checks.screws(self.screws, "screws")
+
+    @cached_property
+    def constants(self) -> Constants:
+        """What does not depend on q, worked out once."""
+        return Constants(self)
+
+    def at(self, q: ArrayLike) -> ArmState:
+        """Return the arm at a configuration; its quantities are computed when asked.
+
+        Args:
+            q: configuration, rad, (n,).
+
+        Raises:
+            ValueError: wrong shape or a non-finite number.
+        """
+        q = np.asarray(q, dtype=np.float64)
+        if q.shape != self.masses.shape or not np.isfinite(q).all():
+            checks.array(q, "q", self.masses.shape)
+            raise ValueError(f"q has shape {q.shape}; expected {self.masses.shape}")
+        return ArmState(self, q)
+
+    def tool(self, T_ee_tool: ArrayLike) -> "Arm":
+        """Return the same arm with another point at its end.
+
+        Args:
+            T_ee_tool: the new end seen from the present one, (4, 4).
+        """
+        M_home = self.M_home @ checks.pose(T_ee_tool, "T_ee_tool")
+        return dataclasses.replace(self, M_home=M_home)
+
+    def carrying(self, mass: float, com: ArrayLike, inertia: ArrayLike) -> "Arm":
+        """Return the same arm with a body fixed to its last link: a hand, a load.
+
+        Args:
+            mass: kg.
+            com: centre of mass in the last link's frame, metres, (3,).
+            inertia: about that centre in the last link's axes, kg m^2, (3, 3).
+        """
+        pairs = (
+            np.stack([own[-1], checks.array(value, name, own.shape[1:])])
+            for own, value, name in (
+                (self.masses, mass, "mass"),
+                (self.coms, com, "com"),
+                (self.inertias, inertia, "inertia"),
+            )
+        )
+        both = from_pseudo_inertia(pseudo_inertias(*pairs).sum(axis=0))
+        heavier = {
+            name: np.concatenate([getattr(self, name)[:-1], [value]])
+            for name, value in zip(("masses", "coms", "inertias"), both, strict=True)
+        }
+        return dataclasses.replace(self, **heavier)

@@ -1,0 +1,236 @@
+"""What `robo47.arm` computes at one configuration, in as few NumPy calls as it takes.
+
+All links go through each call together. Two habits make the calls few:
+
+- What is linear in something, as [p] is in p, is one product with a constant matrix.
+- A link's mass, centre of mass and inertia travel as its pseudo-inertia, the integral
+  of r r^T over its mass with r = (x, y, z, 1). A pose T takes it to T P T^T (Wensing,
+  Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
+  parameter identification", 2018).
+
+Conventions as in `robo47.dynamics`.
+"""
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import screws
+from robo47.checks import Array
+
+if TYPE_CHECKING:
+    from robo47.arm import Arm
+
+# Linear maps, for rows of numbers: p @ SKEW is [p], V @ AD is ad(V), row by row.
+SKEW = np.array([screws.skew(e).ravel() for e in np.eye(3)])
+AD = np.array([screws.ad(e).ravel() for e in np.eye(6)])
+
+
+def pseudo_inertias(masses: Array, coms: Array, inertias: Array) -> Array:
+    """Return the integral of r r^T, r = (x, y, z, 1), over the mass of each body.
+
+    Args:
+        masses: kg, (n,).
+        coms: centres of mass, metres, (n, 3).
+        inertias: about the centres of mass, kg m^2, (n, 3, 3).
+
+    Returns:
+        Pseudo-inertias about the frames' origins, (n, 4, 4).
+    """
+    P = np.zeros((len(masses), 4, 4))
+    half = 0.5 * np.trace(inertias, axis1=1, axis2=2)[:, None, None] * np.eye(3)
+    spread = masses[:, None, None] * coms[:, :, None] * coms[:, None, :]
+    P[:, :3, :3] = half - inertias + spread
+    P[:, :3, 3] = P[:, 3, :3] = masses[:, None] * coms
+    P[:, 3, 3] = masses
+    return P
+
+
+def from_pseudo_inertia(P: Array) -> tuple[float, Array, Array]:
+    """Return (mass, centre of mass (3,), inertia about it (3, 3)) of one body."""
+    mass = float(P[3, 3])
+    com = P[:3, 3] / mass
+    spread = P[:3, :3] - mass * np.outer(com, com)
+    return mass, com, np.trace(spread) * np.eye(3) - spread
+
+
+def _spatial_map() -> Array:
+    """Return the map from pseudo-inertia, (16,), to 6x6 inertia, (36,)."""
+    rows = []
+    for P in np.eye(16).reshape(16, 4, 4):
+        G = np.zeros((6, 6))
+        G[:3, :3] = np.trace(P[:3, :3]) * np.eye(3) - P[:3, :3]
+        G[:3, 3:] = screws.skew(P[:3, 3])
+        G[3:, :3] = G[:3, 3:].T
+        G[3:, 3:] = P[3, 3] * np.eye(3)
+        rows.append(G.ravel())
+    return np.array(rows)
+
+
+SPATIAL = _spatial_map()
+
+
+class Constants:
+    """What does not depend on q.
+
+    Attributes:
+        powers: 1, [S], [S]^2 and [S]^3 of each joint, (n, 4, 16), in e^[S]q = 1 +
+            [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
+        pairs: omega and v of each joint as two columns, (n, 3, 2).
+        pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
+        before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
+        after: 1 on and above it: after @ x sums x inwards, from the tip.
+        lower: true on and below the diagonal, (n, n).
+        armature: on a diagonal, (n, n).
+        A_base: acceleration of a base that feels like gravity, (6,).
+    """
+
+    def __init__(self, arm: "Arm") -> None:
+        """Work them out, once for each arm."""
+        n = len(arm.masses)
+        S = np.zeros((n, 4, 4))
+        S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
+        ones = np.broadcast_to(np.eye(4), S.shape)
+        self.powers = np.stack([ones, S, S @ S, S @ S @ S], axis=1).reshape(n, 4, 16)
+        self.pairs = arm.screws.reshape(n, 2, 3).swapaxes(1, 2).copy()
+        P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
+        self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
+        self.before = np.tri(n)
+        self.after = self.before.T.copy()
+        self.lower = self.before.astype(bool)
+        self.armature = np.diag(arm.armature)
+        self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
+
+
+class ArmState:
+    """An arm at one configuration. Each quantity is computed when first asked for.
+
+    Attributes:
+        arm: whose configuration it is.
+        q: the configuration, rad, (n,).
+    """
+
+    def __init__(self, arm: "Arm", q: Array) -> None:
+        """Compute the links' poses; use `Arm.at`, which checks q."""
+        self.arm, self.q, self._c = arm, q, arm.constants
+        n = len(q)
+        numbers = np.empty((n, 1, 4))
+        numbers[:, 0, 0], numbers[:, 0, 1] = 1.0, q
+        numbers[:, 0, 2], numbers[:, 0, 3] = 1.0 - np.cos(q), q - np.sin(q)
+        moved = (numbers @ self._c.powers).reshape(n, 4, 4)
+        step = 1  # products of two neighbours, then of four, then of eight
+        while step < n:
+            moved[step:] = moved[:-step] @ moved[step:]
+            step *= 2
+        self._moved = moved  # e^[S1]q1 ... e^[Si]qi of each link i
+
+    @cached_property
+    def T_links(self) -> Array:
+        """`T_world_link` of each link, (n, 4, 4)."""
+        return self._moved @ self.arm.T_zero
+
+    @cached_property
+    def T_world_ee(self) -> Array:
+        """Pose of the arm's end, (4, 4)."""
+        return self._moved[-1] @ self.arm.M_home
+
+    @cached_property
+    def coms_world(self) -> Array:
+        """Centres of mass in the world, metres, (n, 3)."""
+        T = self.T_links
+        return (T[:, :3, :3] @ self.arm.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
+
+    @cached_property
+    def _S(self) -> Array:
+        """The joints' screws where they are now, (n, 6): the rows of J_space^T."""
+        n = len(self.q)
+        R, p = self._moved[:, :3, :3], self._moved[:, :3, 3]
+        S = (R @ self._c.pairs).swapaxes(1, 2).reshape(n, 6)
+        S[:, 3:] += ((p @ SKEW).reshape(n, 3, 3) @ S[:, :3, None])[:, :, 0]
+        return S
+
+    @cached_property
+    def J_space(self) -> Array:
+        """Space Jacobian, (6, n)."""
+        return self._S.T
+
+    @cached_property
+    def J_site(self) -> Array:
+        """Jacobian of the arm's end: (omega; v of its origin) in world axes, (6, n)."""
+        S = self._S.copy()
+        S[:, 3:] += S[:, :3] @ (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
+        return S.T
+
+    @cached_property
+    def G(self) -> Array:
+        """Inertias of the links about the world's origin, (n, 6, 6)."""
+        n = len(self.q)
+        P = self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
+        return (P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
+
+    @cached_property
+    def _momenta(self) -> Array:
+        """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
+        n = len(self.q)
+        carried = (self._c.after @ self.G.reshape(n, 36)).reshape(n, 6, 6)
+        return (carried @ self._S[:, :, None])[:, :, 0]
+
+    @cached_property
+    def M(self) -> Array:
+        """Mass matrix with the armature, kg m^2, (n, n)."""
+        half = self._momenta @ self._S.T
+        return np.where(self._c.lower, half, half.T) + self._c.armature
+
+    @cached_property
+    def gravity_torque(self) -> Array:
+        """Torque that holds the arm still, N m, (n,)."""
+        return self._momenta @ self._c.A_base
+
+    def bias(self, qd: ArrayLike) -> Array:
+        """Return the torque of Coriolis, centrifugal and gravity forces.
+
+        Recursive Newton-Euler, as `robo47.dynamics.inverse_dynamics` with qdd = 0.
+
+        Args:
+            qd: joint velocities, rad/s, (n,).
+
+        Returns:
+            Torque, N m, (n,).
+        """
+        ad_V, V, A = self._motion(qd)
+        F = self.G @ (A + self._c.A_base)[:, :, None]
+        F -= ad_V.swapaxes(1, 2) @ (self.G @ V[:, :, None])
+        return (self._S * (self._c.after @ F[:, :, 0])).sum(axis=1)
+
+    def site_bias(self, qd: ArrayLike) -> Array:
+        """Return the acceleration of the arm's end at qdd = 0: J_site's rate times qd.
+
+        Args:
+            qd: joint velocities, rad/s, (n,).
+
+        Returns:
+            (angular; of the point) in world axes, rad/s^2 and m/s^2, (6,).
+        """
+        _, V, A = self._motion(qd)
+        omega, v, alpha, a = V[-1, :3], V[-1, 3:], A[-1, :3], A[-1, 3:]
+        p = self.T_world_ee[:3, 3]
+        return np.concatenate(
+            [alpha, a + _cross(alpha, p) + _cross(omega, v + _cross(omega, p))]
+        )
+
+    def _motion(self, qd: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return ad(V), V and A of every link at qdd = 0: (n, 6, 6), (n, 6), (n, 6)."""
+        n = len(self.q)
+        qd = np.asarray(qd, dtype=np.float64)
+        if qd.shape != (n,):
+            raise ValueError(f"qd has shape {qd.shape}; expected ({n},)")
+        added = self._S * qd[:, None]
+        V = self._c.before @ added
+        ad_V = (V @ AD).reshape(n, 6, 6)
+        return ad_V, V, self._c.before @ (ad_V @ added[:, :, None])[:, :, 0]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return (a @ SKEW).reshape(3, 3) @ b

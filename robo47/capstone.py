@@ -1,0 +1,167 @@
+"""The capstone of Week 1: the arm picks a cube up and puts it down.
+
+`pick` is given the functions to do it with, one per name in `USES`: the library's
+(`library()`), a student's, or a mixture. So whoever wants to know what a mistake does
+to the arm replaces one function. The robot's numbers are read from the model; every
+formula is one of those functions. The phases stand in `robo47.capstone_task`: joint
+moves are computed torque, straight lines and grips a spring at the hand with the elbow
+held back.
+
+Units: metres, radians, seconds, N m; poses `T_world_x` are (4, 4).
+"""
+
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import (
+    checks,
+    control,
+    dynamics,
+    jacobian,
+    scenes,
+    screws,
+    se3,
+    simulate,
+    task_space,
+    trajectory,
+)  # fmt: skip
+from robo47.capstone_task import PHASES, Result, Task
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+
+RATE = 100.0  # Hz, of the controller; at 50 Hz the cube drops now and then
+SPEED = 0.6  # of the joints' speed and acceleration limits, in joint moves
+CUBE_XY, GOAL_XY, YAW = (0.5, 0.2), (0.5, -0.2), 0.5  # where `make capstone` has them
+
+# What `pick` calls, by the day that teaches it.
+USES = {
+    1: ("make_T", "inverse", "link_T", "joint_T"),
+    2: ("joint_screws", "fk_space"),
+    3: ("space_jacobian", "site_jacobian", "pose_error", "solve_ik", "manipulability"),
+    4: ("link_inertias", "mass_matrix", "bias_torque", "gravity_torque"),
+    5: ("gains", "computed_torque", "pd_torque", "gravity_pd", "saturate"),
+    6: (
+        "task_inertia", "site_bias", "osc_torque", "null_torque", "spring_wrench",
+        "critical_damping", "impedance_torque", "set_point_for_force",
+    ),
+    7: (
+        "grasp_pose", "quintic_scaling", "quintic_duration", "joint_move",
+        "straight_pose", "carry", "heaviest_cube",
+    ),
+}  # fmt: skip
+
+
+def library() -> SimpleNamespace:
+    """Return the library's functions under the names that `pick` calls."""
+    fns = SimpleNamespace(make_T=se3.make_T, inverse=se3.inverse)
+    fns.link_T = lambda pos, quat: se3.make_T(se3.quat_to_R(quat), pos)
+    fns.joint_T = _joint_T
+    modules = (screws, jacobian, dynamics, control, task_space, trajectory)
+    for day, module in enumerate(modules, start=2):
+        for name in USES[day]:
+            setattr(fns, name, getattr(module, name))
+    return fns
+
+
+def _joint_T(q: float) -> Array:
+    """Return a turn by q about z, (4, 4), unchecked: it is called 5,000 times."""
+    T, c, s = np.eye(4), np.cos(q), np.sin(q)
+    T[0, 0], T[0, 1], T[1, 0], T[1, 1] = c, -s, s, c
+    return T
+
+
+def pick(
+    fns: Any,
+    cube_xy: ArrayLike = CUBE_XY,
+    goal_xy: ArrayLike = GOAL_XY,
+    yaw: float = YAW,
+    *,
+    model: mujoco.MjModel | None = None,
+    speed: float = SPEED,
+    rate: float = RATE,
+    watch: simulate.Watcher | None = None,
+) -> Result:
+    """Pick the cube up, put it down elsewhere, go home.
+
+    Args:
+        fns: has an attribute for every name in `USES`, taking one configuration.
+        cube_xy: where the cube stands, metres, (2,).
+        goal_xy: where it is to stand, metres, (2,).
+        yaw: its turn about z at the start, radians.
+        model: a scene of `robo47.scenes.table_top` in place of the plain one; it
+            must have been made with the same cube_xy and yaw.
+        speed: of joint moves, as a fraction of the limits.
+        rate: of the controller, Hz.
+        watch: as in `simulate.run`: called after every control period.
+
+    Returns:
+        What came of it; a dropped cube is a result, not an error.
+
+    Raises:
+        ValueError: a wrong shape or number, or a place that is not on the table.
+        Robo47Error: a function is missing, or the arm cannot reach a place.
+    """
+    _require(fns)
+    goal_xy = checks.array(goal_xy, "goal_xy", (2,))
+    model = scenes.table_top(cube_xy, yaw) if model is None else model
+    task = Task(fns, model, goal_xy, float(checks.positive(speed, "speed")), watch)
+    for phase in PHASES:
+        task.run(phase, rate)
+    return task.result()
+
+
+def random_task(seed: int) -> tuple[Array, Array, float]:
+    """Return a random cube_xy, goal_xy and yaw, all within reach.
+
+    Args:
+        seed: the same seed gives the same task.
+    """
+    rng = np.random.default_rng(seed)
+    cube = rng.uniform([0.38, 0.05], [0.6, 0.3])
+    goal = rng.uniform([0.4, -0.3], [0.6, -0.05])
+    return cube, goal, float(rng.uniform(-np.pi / 2, np.pi / 2))
+
+
+def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, float]]:
+    """Return what `pick` is to be given to show what a mistake does, by name.
+
+    Args:
+        fns: right functions, as `library` returns them.
+
+    Returns:
+        {name: (functions, speed)}; the first is right.
+    """
+
+    def but(**changed: Any) -> SimpleNamespace:
+        return SimpleNamespace(**{**vars(fns), **changed})
+
+    return {
+        "nothing": (but(), SPEED),
+        "gravity": (
+            but(bias_torque=lambda J, G, qd, g: fns.bias_torque(J, G, qd, 0.0 * g)),
+            SPEED,
+        ),
+        "armature": (
+            but(mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0)),
+            SPEED,
+        ),
+        "what the hand weighs": (
+            but(carry=lambda m1, c1, I1, *_: fns.carry(m1, c1, I1, 0.0, c1, 0.0 * I1)),
+            SPEED,
+        ),
+        "the speed limits' 40 %": (but(), 1.0),
+        "the speed limits": (but(), 1.5),
+    }
+
+
+def _require(fns: Any) -> None:
+    missing = [n for names in USES.values() for n in names if not hasattr(fns, n)]
+    if missing:
+        raise Robo47Error(
+            f"the capstone calls {', '.join(missing)}, which was not given to it."
+            " Start from robo47.capstone.library() and replace what is yours."
+        )

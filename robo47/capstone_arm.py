@@ -1,0 +1,202 @@
+"""The arm of the capstone: its numbers from the model, its formulas from `fns`.
+
+`fns` holds the functions of the week by name (`robo47.capstone.USES`), each for one
+configuration. Whatever is a formula of the lessons is called from there; this module
+reads the model, keeps what was measured and puts the calls in order.
+
+Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import panda, simulate
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.panda_reading import ARM_JOINTS, Inertias
+
+GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
+OMEGA = 20.0  # rad/s, of computed torque; 100 Hz allows no more than about 60
+STIFFNESS = np.array([30.0, 30.0, 30.0, 600.0, 600.0, 600.0])  # Nm/rad, N/m
+POSTURE = (10.0, 4.0)  # Nm/rad, Nm s/rad: how firmly the elbow is held in lines
+REST = (100.0, 10.0)  # Nm/rad, Nm s/rad: the springs that hold the arm at the end
+REACHED = 1e-4  # m and rad: an answer of solve_ik further off than this is none
+
+
+class State(NamedTuple):
+    """What the formulas say of one configuration and velocity."""
+
+    T: Array  # T_world_tcp
+    J_space: Array
+    M: Array
+    bias: Array
+
+
+class Arm:
+    """The seven joints with the hand, and what it holds, as one chain of links."""
+
+    def __init__(self, fns: Any, model: mujoco.MjModel):
+        """Read the model's numbers; `fns` turns them into screws and inertias."""
+        self.fns = fns
+        bodies = [int(model.joint(name).bodyid[0]) for name in ARM_JOINTS]
+        frames = [(model.body_pos[b], model.body_quat[b]) for b in bodies]
+        self.T_parent_link = [fns.link_T(p.copy(), quat.copy()) for p, quat in frames]
+        hand = model.body("hand")
+        T_link7_hand = fns.link_T(hand.pos.copy(), hand.quat.copy())
+        T_hand_tcp = fns.make_T(np.eye(3), model.site("tcp").pos.copy())
+        self.T_link7_tcp = T_link7_hand @ T_hand_tcp
+        T_zero = self.links(np.zeros(7))
+        self.screws, self.M_tcp = fns.joint_screws(T_zero), T_zero[6] @ self.T_link7_tcp
+        self.limits, self.tau_max = simulate.limits(model)
+        dofs = simulate.addresses(model)[1]
+        self.armature = float(model.dof_armature[dofs][0])
+        self.damping = float(model.dof_damping[dofs][0])
+        self.empty = panda.inertias(model)
+        self.empty = self._with(panda.hand_inertia(model, opening=0.04))
+        self.inertias = self.empty
+        self.kp, self.kd = fns.gains(OMEGA, 1.0)
+
+    def links(self, q: Array) -> Array:
+        """Return T_world_link of the seven links, (7, 4, 4)."""
+        poses, T = [], np.eye(4)
+        for T_parent_link, angle in zip(self.T_parent_link, q, strict=True):
+            T = T @ T_parent_link @ self.fns.joint_T(float(angle))
+            poses.append(T)
+        return np.array(poses)
+
+    def end(self, q: Array) -> Array:
+        """Return T_world_tcp, (4, 4)."""
+        return self.fns.fk_space(self.screws, self.M_tcp, q)
+
+    def at(self, q: Array, qd: Array) -> State:
+        """Return the state at q and qd."""
+        fns, T_links = self.fns, self.links(q)
+        J_space = fns.space_jacobian(self.screws, q)
+        G = fns.link_inertias(T_links, *self.inertias)
+        M = fns.mass_matrix(J_space, G, self.armature)
+        bias = fns.bias_torque(J_space, G, qd, GRAVITY)
+        return State(self.end(q), J_space, M, bias)
+
+    def gravity(self, q: Array) -> Array:
+        """Return the torque that holds the arm at q, (7,)."""
+        T_links, (masses, coms, _) = self.links(q), self.inertias
+        coms_world = (T_links[:, :3, :3] @ coms[..., None])[..., 0] + T_links[:, :3, 3]
+        J_space = self.fns.space_jacobian(self.screws, q)
+        return self.fns.gravity_torque(J_space, masses, coms_world, GRAVITY)
+
+    def way_point(self, T_goal: Array, q: Array) -> tuple[Array, float]:
+        """Return q at which the tool is at T_goal, and its manipulability.
+
+        Raises:
+            Robo47Error: solve_ik found none.
+        """
+        fns = self.fns
+        answer = fns.solve_ik(self.screws, self.M_tcp, T_goal, q, self.limits)
+        T = self.end(answer)
+        off = float(np.abs(fns.pose_error(T, T_goal)).max())
+        if not off < REACHED:
+            raise Robo47Error(
+                f"no way point: solve_ik ends {off:.3g} (m or rad) from the pose at"
+                f" {np.round(T_goal[:3, 3], 3).tolist()}. Choose a place nearer to"
+                " (0.5, 0), or check solve_ik (task 3.6)."
+            )
+        J = fns.site_jacobian(fns.space_jacobian(self.screws, answer), T[:3, 3])
+        return answer, float(fns.manipulability(J))
+
+    def hold(self, mass: float, half: float, T_world_cube: Array, q: Array) -> Array:
+        """Count a cube as part of the hand; return T_tcp_cube, (4, 4)."""
+        T_link7_world = self.fns.inverse(self.links(q)[6])
+        com = (T_link7_world @ T_world_cube)[:3, 3]
+        I_cube = mass * (2.0 * half) ** 2 / 6.0 * np.eye(3)
+        self.inertias = self._with((mass, com, I_cube))
+        return self.fns.inverse(self.end(q)) @ T_world_cube
+
+    def let_go(self) -> None:
+        """Count the hand as empty again."""
+        self.inertias = self.empty
+
+    def _with(self, load: tuple[float, Array, Array]) -> Inertias:
+        """Return the links' inertias with a load on the empty arm's last one."""
+        masses, coms, inertias = (part.copy() for part in self.empty)
+        ten = self.fns.carry(masses[6], coms[6], inertias[6], *load)
+        xx, yy, zz, xy, xz, yz = ten[4:]
+        masses[6], coms[6] = ten[0], ten[1:4]
+        inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+        return Inertias(masses, coms, inertias)
+
+
+@dataclass
+class JointMove:
+    """Computed torque along a quintic from the measured q0 to q1, in T seconds."""
+
+    arm: Arm
+    q0: Array
+    q1: Array
+    T: float
+    worst: float = 0.0
+
+    def __call__(self, t: float, q: Array, qd: Array) -> Array:
+        """Return the torques, (7,); keep the worst error of any joint, radians."""
+        arm, fns, now = self.arm, self.arm.fns, self.arm.at(q, qd)
+        q_ref, qd_ref, qdd_ref = fns.joint_move(self.q0, self.q1, t, self.T)
+        e, ed = q_ref - q, qd_ref - qd
+        self.worst = max(self.worst, float(np.abs(e).max()))
+        gains = (float(arm.kp), float(arm.kd))
+        tau = fns.computed_torque(
+            now.M, now.bias, arm.damping, qd, e, ed, qdd_ref, *gains
+        )
+        return fns.saturate(tau, arm.tau_max)
+
+
+@dataclass
+class Line:
+    """A spring between the hand and a point that goes straight from T0 to T1."""
+
+    arm: Arm
+    T0: Array
+    T1: Array
+    T: float
+    posture: Array  # where the null space pulls the joints
+    worst: float = 0.0
+
+    @cached_property
+    def way(self) -> Array:
+        """The twist of the point per unit of s: the turn's axis does not change."""
+        return self.arm.fns.pose_error(self.T0, self.T1)
+
+    def __call__(self, t: float, q: Array, qd: Array) -> Array:
+        """Return the torques, (7,); keep the hand's worst distance, metres."""
+        arm, fns, now = self.arm, self.arm.fns, self.arm.at(q, qd)
+        s, sd, sdd = fns.quintic_scaling(t, self.T)
+        J = fns.site_jacobian(now.J_space, now.T[:3, 3])
+        Lambda = fns.task_inertia(J, now.M)
+        e = fns.pose_error(now.T, fns.straight_pose(self.T0, self.T1, float(s)))
+        self.worst = max(self.worst, float(np.linalg.norm(e[3:])))
+        D = fns.critical_damping(STIFFNESS, Lambda)
+        wrench = fns.spring_wrench(e, sd * self.way - J @ qd, np.diag(STIFFNESS), D)
+        Jdot_qd = fns.site_bias(now.J_space, qd, now.T[:3, 3])
+        # What the motion itself needs stands where the bias does.
+        forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * self.way)
+        back = fns.pd_torque(self.posture - q, -qd, *POSTURE)
+        tau_null = fns.null_torque(J, now.M, Lambda, back)
+        tau = fns.impedance_torque(J, wrench, forward, arm.damping, qd, tau_null)
+        return fns.saturate(tau, arm.tau_max)
+
+
+@dataclass
+class Rest:
+    """Springs in the joints that hold the arm at q0."""
+
+    arm: Arm
+    q0: Array
+    worst: float = 0.0
+
+    def __call__(self, t: float, q: Array, qd: Array) -> Array:
+        """Return the torques, (7,)."""
+        fns, g = self.arm.fns, self.arm.gravity(q)
+        tau = fns.gravity_pd(self.q0 - q, -qd, *REST, g)
+        return fns.saturate(tau, self.arm.tau_max)

@@ -1,0 +1,201 @@
+"""The capstone's phases, one after the other, and what is measured on the way.
+
+Units: metres, radians, seconds, N m; poses `T_world_x` are (4, 4).
+"""
+
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import scenes, simulate, trajectory
+from robo47.capstone_arm import STIFFNESS, Arm, JointMove, Line, Rest
+from robo47.checks import Array
+from robo47.panda import READY_Q
+
+HOVER = 0.12  # m over the cube, between joint moves and straight lines
+LINE_SECONDS = 0.75  # for those 0.12 m: the hand peaks at 1.23 m/s2
+GRIP_SECONDS = 0.4  # to close or open the fingers
+REST_SECONDS = 0.3  # at the end, held by springs
+PUT_DOWN = 1.0  # N, how hard the cube is pressed on the table before it is let go
+OPEN, CLOSED = 255.0, 0.0  # ctrl of the hand's servo
+
+
+class Phase(NamedTuple):
+    """One step of the task: its name, how it moves, to where, with what fingers."""
+
+    name: str
+    kind: str  # "joint", "line", "hold" or "rest"
+    over: str  # "cube", "goal" or "" for home
+    above: float  # m
+    fingers: float
+
+
+PHASES = (
+    Phase("reach", "joint", "cube", HOVER, OPEN),
+    Phase("descend", "line", "cube", 0.0, OPEN),
+    Phase("close", "hold", "cube", 0.0, CLOSED),
+    Phase("lift", "line", "cube", HOVER, CLOSED),
+    Phase("carry", "joint", "goal", HOVER, CLOSED),
+    Phase("put down", "line", "goal", 0.0, CLOSED),
+    Phase("open", "hold", "goal", 0.0, OPEN),
+    Phase("leave", "line", "goal", HOVER, OPEN),
+    Phase("go home", "joint", "", 0.0, OPEN),
+    Phase("rest", "rest", "", 0.0, OPEN),
+)
+
+
+class Result(NamedTuple):
+    """What came of it.
+
+    Attributes:
+        place_mm: from the cube's centre to where it was to be, at the end.
+        joint_mrad: worst error of any joint in the joint moves.
+        line_mm: worst distance of the hand from its straight lines.
+        lift: greatest height of the cube's centre, metres.
+        seconds: how long the task took in the simulation.
+        torque: largest torque asked for, as a fraction of that motor's limit.
+        speed: largest joint speed, as a fraction of that joint's limit.
+        manipulability: smallest at the way points.
+        heaviest: the cube that this grip can lift, predicted, kg.
+        phases: (name, when it began in seconds), in order.
+        t: time of each control instant, seconds, (N,).
+        qpos: everything's configuration then, (N, nq): for pictures and replays.
+    """
+
+    place_mm: float
+    joint_mrad: float
+    line_mm: float
+    lift: float
+    seconds: float
+    torque: float
+    speed: float
+    manipulability: float
+    heaviest: float
+    phases: list[tuple[str, float]]
+    t: Array
+    qpos: Array
+
+    @property
+    def failed(self) -> bool:
+        """Whether the cube was dropped or put down more than 10 mm off."""
+        return self.place_mm > 10.0
+
+
+class Task:
+    """The model, the state of the world and what has been measured so far."""
+
+    def __init__(
+        self,
+        fns: Any,
+        model: mujoco.MjModel,
+        goal_xy: Array,
+        speed: float,
+        watch: simulate.Watcher | None,
+    ):
+        """Put the arm at the ready; arguments as in `robo47.capstone.pick`."""
+        self.fns, self.model, self.speed, self.watch = fns, model, speed, watch
+        self.data = simulate.start(model, READY_Q)
+        self.arm = Arm(fns, model)
+        self.cube = int(model.jnt_qposadr[model.body("cube").jntadr[0]])
+        self.goal = np.array([*goal_xy, scenes.TABLE_HEIGHT + scenes.CUBE_HALF])
+        self.T_world_cube, self.T_tcp_cube = self._cube(), np.eye(4)
+        self.worst = {"joint": 0.0, "line": 0.0, "hold": 0.0, "rest": 0.0}
+        self.manipulability, self.heaviest, self.now = np.inf, 0.0, 0.0
+        self.phases: list[tuple[str, float]] = []
+        self.runs: list[simulate.Run] = []
+        self.log: list[Array] = []
+
+    def run(self, phase: Phase, rate: float) -> None:
+        """Do one phase, from where the arm is measured to be."""
+        q = self.data.qpos[simulate.addresses(self.model)[0]].copy()
+        move, seconds = self._move(phase, q)
+        seconds = np.ceil(seconds * rate) / rate  # a whole number of control periods
+
+        def controller(t: float, q: Array, qd: Array) -> Array:
+            return np.append(move(t, q, qd), phase.fingers)
+
+        self.phases.append((phase.name, self.now))
+        self.runs.append(
+            simulate.run(
+                self.model, self.data, controller, seconds, rate=rate, watch=self._look
+            )
+        )
+        self.worst[phase.kind] = max(self.worst[phase.kind], move.worst)
+        self.now += seconds
+        if phase.name == "close":
+            self._grasped()
+        elif phase.name == "open":
+            self.arm.let_go()
+
+    def _move(self, phase: Phase, q: Array) -> tuple[JointMove | Line | Rest, float]:
+        """Return the controller of a phase and how long it takes."""
+        T = self.arm.end(q)
+        if phase.kind == "rest":
+            return Rest(self.arm, q), REST_SECONDS
+        if phase.kind == "hold":
+            return Line(self.arm, T, T, GRIP_SECONDS, q), GRIP_SECONDS
+        goal = self._tool(phase) if phase.over else None
+        if phase.kind == "line":
+            return Line(self.arm, T, goal, LINE_SECONDS, q), LINE_SECONDS
+        q1 = READY_Q.copy()
+        if goal is not None:
+            q1, reach = self.arm.way_point(goal, q)
+            self.manipulability = min(self.manipulability, reach)
+        v, a = self.speed * simulate.SPEED_LIMITS, self.speed * simulate.ACC_LIMITS
+        seconds = float(self.fns.quintic_duration(q1 - q, v, a))
+        return JointMove(self.arm, q, q1, seconds), seconds
+
+    def _tool(self, phase: Phase) -> Array:
+        """Return where the tool has to be, T_world_tcp, (4, 4)."""
+        fns = self.fns
+        if phase.over == "cube":
+            return fns.grasp_pose(self.T_world_cube, phase.above)
+        T = fns.grasp_pose(fns.make_T(np.eye(3), self.goal), phase.above)
+        T[:3, 3] -= T[:3, :3] @ self.T_tcp_cube[:3, 3]  # the cube, not the tool
+        if phase.name == "put down":
+            k = float(STIFFNESS[5])
+            T[2, 3] = fns.set_point_for_force(PUT_DOWN, k, float(T[2, 3]))
+        return T
+
+    def _grasped(self) -> None:
+        """Count the cube as part of the hand, and say what this grip can lift."""
+        model, mass = self.model, float(self.model.body("cube").mass[0])
+        q = self.data.qpos[simulate.addresses(model)[0]]
+        self.T_tcp_cube = self.arm.hold(mass, scenes.CUBE_HALF, self._cube(), q)
+        # A tendon over both fingers pulls with 100 N/m; each gets a half.
+        opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
+        lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
+        mu = float(model.geom("cube").friction[0])
+        self.heaviest = float(self.fns.heaviest_cube(50.0 * opening, mu, lift))
+
+    def _cube(self) -> Array:
+        """Return T_world_cube, (4, 4), from what a camera would see."""
+        pose = self.data.qpos[self.cube : self.cube + 7]
+        return self.fns.link_T(pose[:3].copy(), pose[3:].copy())
+
+    def _look(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.log.append(data.qpos.copy())
+        if self.watch is not None:
+            self.watch(model, data)
+
+    def result(self) -> Result:
+        """Return the log and its worst numbers."""
+        qpos = np.array(self.log)
+        cube = qpos[:, self.cube : self.cube + 3]
+        tau = np.concatenate([run.tau for run in self.runs])
+        qd = np.concatenate([run.qd for run in self.runs])
+        return Result(
+            place_mm=1e3 * float(np.linalg.norm(cube[-1] - self.goal)),
+            joint_mrad=1e3 * self.worst["joint"],
+            line_mm=1e3 * self.worst["line"],
+            lift=float(cube[:, 2].max()),
+            seconds=self.now,
+            torque=float((np.abs(tau) / self.arm.tau_max).max()),
+            speed=float((np.abs(qd) / simulate.SPEED_LIMITS).max()),
+            manipulability=float(self.manipulability),
+            heaviest=self.heaviest,
+            phases=self.phases,
+            t=np.linspace(self.now / len(qpos), self.now, len(qpos)),
+            qpos=qpos,
+        )

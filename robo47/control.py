@@ -1,0 +1,243 @@
+"""Control of the joints: torques from errors, and the error to expect beforehand.
+
+Conventions: e = q_ref - q and ed = qd_ref - qd, so that a positive error asks for a
+positive torque. Radians, rad/s, rad/s2, Nm, seconds. `n` is the number of joints;
+leading dimensions broadcast. A gain is one number for all joints, or (n,).
+Every function raises ValueError where a shape is wrong, a number is not finite or
+out of the range that its docstring states.
+
+Sources: Lynch and Park, Modern Robotics (2017), chapter 11: section 11.2 for error
+dynamics, 11.4 for control by torques.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks
+from robo47.checks import Array
+
+
+def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Array:
+    """Return the torque of a spring and a damper at every joint.
+
+    tau = kp e + kd ed (Modern Robotics, section 11.4.1).
+
+    Args:
+        e, ed: errors in radians and rad/s, (..., n).
+        kp, kd: gains in Nm/rad and Nm s/rad, one number or (..., n).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    e, ed = checks.same_size(e=e, ed=ed)
+    return checks.per_joint(kp, "kp", e) * e + checks.per_joint(kd, "kd", e) * ed
+
+
+def gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
+    """Return the gains per unit of inertia that give a wanted response.
+
+    edd + kd ed + kp e = 0 has natural frequency omega and damping ratio zeta for
+    kp = omega^2 and kd = 2 zeta omega (Modern Robotics, section 11.2.2).
+
+    Args:
+        omega: natural frequency in rad/s, (...).
+        zeta: damping ratio, 1 for critical damping, (...).
+
+    Returns:
+        kp in 1/s2 and kd in 1/s, (..., 2).
+    """
+    omega, zeta = checks.array(omega, "omega", ()), checks.array(zeta, "zeta", ())
+    omega, zeta = np.broadcast_arrays(omega, zeta)
+    return np.stack([omega**2, 2.0 * zeta * omega], axis=-1)
+
+
+def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
+    """Return the error that was 1 at rest at t = 0, as edd + kd ed + kp e = 0 has it.
+
+    With r = zeta omega and w^2 = omega^2 - r^2, the error is
+    e^(-r t) (cos(w t) + r sin(w t) / w). Critical damping is its limit
+    (1 + omega t) e^(-omega t); above it the cosine and sine become cosh and sinh
+    (Modern Robotics, section 11.2.2). Written so that nothing overflows and nothing
+    is divided by w: zeta may pass through 1.
+
+    Args:
+        t: time in seconds, at least 0, (...).
+        omega: natural frequency in rad/s, above 0, (...).
+        zeta: damping ratio, at least 0, (...).
+
+    Returns:
+        The error as a fraction of the first one, (...).
+    """
+    t, omega = checks.not_negative(t, "t"), checks.positive(omega, "omega")
+    zeta = checks.not_negative(zeta, "zeta")
+    rate = zeta * omega
+    swing = omega * np.sqrt(np.maximum(1.0 - zeta**2, 0.0))
+    under = np.exp(-rate * t) * (
+        np.cos(swing * t) + rate * t * np.sinc(swing * t / np.pi)
+    )
+    spread = omega * np.sqrt(np.maximum(zeta**2 - 1.0, 0.0))
+    # rate - spread, written without the cancellation; any number where it is not used
+    slow = omega**2 / np.where(zeta < 1.0, omega, rate + spread)
+    gap = 2.0 * spread * t
+    ratio = np.where(gap == 0.0, 1.0, -np.expm1(-gap) / np.where(gap == 0, 1.0, gap))
+    over = np.exp(-slow * t) * ((1.0 + np.exp(-gap)) / 2.0 + rate * t * ratio)
+    return np.where(zeta < 1.0, under, over)
+
+
+def sag_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
+    """Return where PD without gravity compensation would rest if g did not change.
+
+    At rest kp (q_goal - q) = g(q), so q = q_goal - g(q) / kp. Evaluated again at
+    its own answer until nothing changes, it is the pose to which the arm sags.
+
+    Args:
+        q_goal: commanded configuration in radians, (..., n).
+        g_at_q: gravity torque at the last q in Nm, (..., n).
+        kp: stiffness in Nm/rad, above 0, one number or (..., n).
+
+    Returns:
+        The next q in radians, (..., n).
+    """
+    q_goal, g_at_q = checks.same_size(q_goal=q_goal, g_at_q=g_at_q)
+    kp = checks.positive(checks.per_joint(kp, "kp", q_goal), "kp")
+    return q_goal - g_at_q / kp
+
+
+def gravity_pd(
+    e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike, g_at_q: ArrayLike
+) -> Array:
+    """Return the torque of springs and dampers that do not sag.
+
+    tau = kp e + kd ed + g(q) (Modern Robotics, section 11.4.2).
+
+    Args:
+        e, ed, kp, kd: as in `pd_torque`.
+        g_at_q: gravity torque at the measured q in Nm, (..., n).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    e, g_at_q = checks.same_size(e=e, g_at_q=g_at_q)
+    return pd_torque(e, ed, kp, kd) + g_at_q
+
+
+def computed_torque(
+    M: ArrayLike,
+    bias: ArrayLike,
+    damping: ArrayLike,
+    qd: ArrayLike,
+    e: ArrayLike,
+    ed: ArrayLike,
+    qdd_ref: ArrayLike,
+    kp: ArrayLike,
+    kd: ArrayLike,
+) -> Array:
+    """Return the torque that makes every joint the same spring of unit inertia.
+
+    tau = M (qdd_ref + kd ed + kp e) + bias + damping qd, so that the error obeys
+    edd + kd ed + kp e = 0. The gains stand inside the product with M: outside, the
+    error does not decay as designed (Modern Robotics, section 11.4.2, "computed
+    torque control").
+
+    Args:
+        M: mass matrix with armature in kg m2, (..., n, n).
+        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
+        damping: of the joints in Nm s/rad, one number or (..., n).
+        qd: measured velocity in rad/s, (..., n).
+        e, ed: errors in radians and rad/s, (..., n).
+        qdd_ref: reference acceleration in rad/s2, (..., n).
+        kp, kd: gains in 1/s2 and 1/s, one number or (..., n).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    bias, qd, qdd_ref, e, ed = checks.same_size(
+        bias=bias, qd=qd, qdd_ref=qdd_ref, e=e, ed=ed
+    )
+    M = checks.array(M, "M", (bias.shape[-1], bias.shape[-1]))
+    acc = qdd_ref + pd_torque(e, ed, kp, kd)
+    friction = checks.per_joint(damping, "damping", qd) * qd
+    return (M @ acc[..., None])[..., 0] + bias + friction
+
+
+def pid_step(
+    e: ArrayLike,
+    ed: ArrayLike,
+    integral: ArrayLike,
+    kp: ArrayLike,
+    kd: ArrayLike,
+    ki: ArrayLike,
+    dt: float,
+    clamp: ArrayLike,
+) -> tuple[Array, Array]:
+    """Return PID's acceleration, and its integral, which cannot wind up.
+
+    The integral grows by e dt and is clipped to +-clamp before it is used
+    (Modern Robotics, section 11.4.1; anti-windup by clamping).
+
+    Args:
+        e, ed: errors in radians and rad/s, (..., n).
+        integral: what the last step returned, or zeros, in rad s, (..., n).
+        kp, kd, ki: gains in 1/s2, 1/s and 1/s3, one number or (..., n).
+        dt: time since the last step in seconds.
+        clamp: largest size of the integral in rad s, one number or (..., n).
+
+    Returns:
+        Acceleration in rad/s2, (..., n), and the new integral in rad s, (..., n).
+    """
+    e, integral = checks.same_size(e=e, integral=integral)
+    clamp = checks.not_negative(checks.per_joint(clamp, "clamp", e), "clamp")
+    integral = np.clip(integral + e * checks.array(dt, "dt", ()), -clamp, clamp)
+    acc = pd_torque(e, ed, kp, kd) + checks.per_joint(ki, "ki", e) * integral
+    return acc, integral
+
+
+def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
+    """Return the torque that the motors can give: clipped joint by joint.
+
+    Args:
+        tau: wanted torques in Nm, (..., n).
+        limits: largest torques in Nm, at least 0, one number or (..., n).
+
+    Returns:
+        Torques within +-limits in Nm, (..., n).
+    """
+    tau = checks.array(tau, "tau", ("n",))
+    limits = checks.not_negative(checks.per_joint(limits, "limits", tau), "limits")
+    return np.clip(tau, -limits, limits)
+
+
+def fastest(h: ArrayLike) -> Array:
+    """Return the largest omega of critical damping that a time step allows.
+
+    Semi-implicit Euler takes edd = -omega^2 e - 2 omega ed over a step h to a linear
+    map whose eigenvalue reaches -1 at omega h = 2 (sqrt(2) - 1) (our derivation).
+
+    Args:
+        h: time step in seconds, above 0, (...).
+
+    Returns:
+        Natural frequency in rad/s, (...).
+    """
+    return 2.0 * (np.sqrt(2.0) - 1.0) / checks.positive(h, "h")
+
+
+def servo_ctrl(
+    tau: ArrayLike, q: ArrayLike, qd: ArrayLike, kp: ArrayLike, kd: ArrayLike
+) -> Array:
+    """Return the command at which a position servo gives a wanted torque.
+
+    The servo gives kp (ctrl - q) - kd qd, so ctrl = q + (tau + kd qd) / kp.
+
+    Args:
+        tau: wanted torques in Nm, (..., n).
+        q, qd: measured, in radians and rad/s, (..., n).
+        kp, kd: the servo's gains in Nm/rad (above 0) and Nm s/rad, one number or
+            (..., n).
+
+    Returns:
+        Commanded configuration in radians, (..., n).
+    """
+    tau, q, qd = checks.same_size(tau=tau, q=q, qd=qd)
+    kp = checks.positive(checks.per_joint(kp, "kp", q), "kp")
+    return q + (tau + checks.per_joint(kd, "kd", q) * qd) / kp

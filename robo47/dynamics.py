@@ -1,0 +1,250 @@
+"""Rigid-body dynamics of a chain of links: mass matrix, forces, accelerations.
+
+Everything stands in world axes about the world's origin, so what belongs to different
+links is simply added. The space Jacobian's columns are the joints' screws where they
+are now, and all that the algorithms need to know of the motion. Conventions:
+
+- Twists are (omega; v), wrenches (moment; force), as in *Modern Robotics*; `J` is the
+  space Jacobian, (..., 6, n), whose column i moves link i and all links after it.
+- Gravity is the vector g = (0, 0, -9.81), never the number 9.81.
+- Radians, metres, kilograms, newtons, seconds; torques in N m.
+- M contains the armature: the inertia of the motors' rotors, as the joints feel
+  it (Modern Robotics, section 8.9).
+- Leading dimensions broadcast: one configuration, or many at once.
+- A wrong shape or a number that is not finite is a ValueError, in every function.
+
+Sources: Lynch and Park, *Modern Robotics* (2017), chapter 8; Featherstone, *Rigid Body
+Dynamics Algorithms* (2008), chapters 2, 5 and 6.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks
+from robo47.checks import Array
+from robo47.screws import ad, skew
+
+
+def spatial_inertia(m: ArrayLike, c: ArrayLike, I: ArrayLike) -> Array:  # noqa: E741
+    """Return a body's 6x6 inertia about the world's origin.
+
+    [[I + m [c] [c]^T, m [c]], [m [c]^T, m 1]] (Featherstone, eq. 2.63): G @ V is the
+    momentum of a body with twist V, and V @ G @ V / 2 its kinetic energy.
+
+    Args:
+        m: mass, kg, (...).
+        c: centre of mass in the world, metres, (..., 3).
+        I: inertia about the centre of mass in world axes, kg m^2, (..., 3, 3).
+
+    Returns:
+        G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+    """
+    m = checks.array(m, "m", ())[..., None, None]
+    C, I = skew(c), checks.array(I, "I", (3, 3))  # noqa: E741
+    corner = m * C
+    around = I + corner @ np.swapaxes(C, -1, -2)
+    G = np.empty((*around.shape[:-2], 6, 6))
+    G[..., :3, :3], G[..., :3, 3:] = around, corner
+    G[..., 3:, :3], G[..., 3:, 3:] = np.swapaxes(corner, -1, -2), m * np.eye(3)
+    return G
+
+
+def link_inertias(
+    T_links: ArrayLike, masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike
+) -> Array:
+    """Return every link's 6x6 inertia at the pose it has now.
+
+    A centre of mass goes with its link, R c + p; an inertia turns with it, R I R^T.
+
+    Args:
+        T_links: `T_world_link` of each link, (..., n, 4, 4).
+        masses: kg, (n,).
+        coms: centres of mass in the links' own frames, metres, (n, 3).
+        inertias: about the centres of mass in the links' axes, kg m^2, (n, 3, 3).
+
+    Returns:
+        G of each link about the world's origin, (..., n, 6, 6).
+    """
+    T = checks.pose(T_links, "T_links")
+    coms = checks.array(coms, "coms", (3,))
+    inertias = checks.array(inertias, "inertias", (3, 3))
+    R, p = T[..., :3, :3], T[..., :3, 3]
+    turned = R @ inertias @ np.swapaxes(R, -1, -2)
+    return spatial_inertia(masses, _times(R, coms) + p, turned)
+
+
+def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
+    """Return M, which makes qd @ M @ qd / 2 the arm's kinetic energy.
+
+    The sum over the links of J_i^T G_i J_i, where J_i is J with the columns after i
+    zero, and the armature on the diagonal (Modern Robotics, section 8.4).
+
+    Args:
+        J: space Jacobian, (..., 6, n).
+        G: inertias of the links about the world's origin, (..., n, 6, 6).
+        armature: kg m^2, a number or (n,).
+
+    Returns:
+        M, kg m^2, (..., n, n): symmetric and positive definite, as many a wrong one.
+    """
+    n = _last(J)
+    J, G = checks.array(J, "J", (6, n)), checks.array(G, "G", (n, 6, 6))
+    armature = np.broadcast_to(checks.array(armature, "armature", ()), n)
+    # Joint i carries link i and all after it (Featherstone's composite bodies).
+    carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
+    momenta = _times(carried, np.swapaxes(J, -1, -2))
+    lower = np.tril(momenta @ J)  # what speed 1 of joint i makes joint j <= i feel
+    return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
+
+
+def gravity_torque(
+    J: ArrayLike, masses: ArrayLike, coms_world: ArrayLike, g: ArrayLike
+) -> Array:
+    """Return the torque that holds the arm still against gravity.
+
+    Minus the sum of m J_v(c)^T g over the links that the joint carries, where column
+    i of J_v(c) is v + omega x c: the velocity joint i gives to the centre of mass c
+    (Modern Robotics, section 8.4).
+
+    Args:
+        J: space Jacobian, (..., 6, n).
+        masses: kg, (n,).
+        coms_world: centres of mass in the world, metres, (..., n, 3).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        Torque, N m, (..., n).
+    """
+    n = _last(J)
+    J = checks.array(J, "J", (6, n))
+    coms = checks.array(coms_world, "coms_world", (n, 3))
+    weights = checks.array(masses, "masses", (n,))[..., None] * _gravity(g)
+    moments = _times(skew(coms), weights)
+    forces = np.broadcast_to(weights, moments.shape)
+    return -_felt(J, np.concatenate([moments, forces], axis=-1))
+
+
+def inverse_dynamics(
+    J: ArrayLike, G: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
+) -> Array:
+    """Return the torque for an acceleration: recursive Newton-Euler.
+
+    Outwards the velocities and accelerations add up, inwards the forces:
+
+        V_i = V_(i-1) + S_i qd_i                        V_0 = 0
+        A_i = A_(i-1) + S_i qdd_i + ad(V_i) S_i qd_i    A_0 = (0; -g)
+        F_i = G_i A_i - ad(V_i)^T G_i V_i               tau_i = S_i . (F_i + ... + F_n)
+
+    with S_i the columns of J (Modern Robotics, section 8.3; Featherstone, section
+    5.3). A_0: a base that accelerates upwards feels like gravity.
+
+    Args:
+        J: space Jacobian, (..., 6, n).
+        G: inertias of the links about the world's origin, (..., n, 6, 6).
+        qd: joint velocities, rad/s, (..., n).
+        qdd: joint accelerations, rad/s^2, (..., n).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        Torque, N m, (..., n): the links' alone, without armature and damping.
+    """
+    n = _last(J)
+    J, G = checks.array(J, "J", (6, n)), checks.array(G, "G", (n, 6, 6))
+    qd = checks.array(qd, "qd", (n,))[..., None]
+    qdd = checks.array(qdd, "qdd", (n,))[..., None]
+    S = np.swapaxes(J, -1, -2)
+    V = np.cumsum(S * qd, axis=-2)
+    ad_V = ad(V)
+    A = np.cumsum(S * qdd + _times(ad_V, S * qd), axis=-2)
+    A = A + np.concatenate([np.zeros(3), -_gravity(g)])
+    F = _times(G, A) - _times(np.swapaxes(ad_V, -1, -2), _times(G, V))
+    return _felt(J, F)
+
+
+def bias_torque(J: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Array:
+    """Return the torque of Coriolis, centrifugal and gravity forces together.
+
+    Inverse dynamics with qdd = 0. MuJoCo calls it qfrc_bias.
+
+    Args:
+        J: space Jacobian, (..., 6, n).
+        G: inertias of the links about the world's origin, (..., n, 6, 6).
+        qd: joint velocities, rad/s, (..., n).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        Torque, N m, (..., n).
+    """
+    return inverse_dynamics(J, G, qd, np.zeros(np.shape(J)[-1:]), g)
+
+
+def forward_dynamics(
+    M: ArrayLike, bias: ArrayLike, damping: ArrayLike, qd: ArrayLike, tau: ArrayLike
+) -> Array:
+    """Return the acceleration that a torque gives: what the simulator computes.
+
+    Solves M qdd = tau - bias - damping qd (Modern Robotics, section 8.5).
+
+    Args:
+        M: mass matrix with armature, kg m^2, (..., n, n).
+        bias: Coriolis and gravity torque, N m, (..., n).
+        damping: of the joints, N m s/rad, a number or (n,).
+        qd: joint velocities, rad/s, (..., n).
+        tau: torque of the motors, N m, (..., n).
+
+    Returns:
+        qdd, rad/s^2, (..., n).
+    """
+    n = _last(M)
+    M, bias = checks.array(M, "M", (n, n)), checks.array(bias, "bias", (n,))
+    qd, tau = checks.array(qd, "qd", (n,)), checks.array(tau, "tau", (n,))
+    net = tau - bias - checks.array(damping, "damping", ()) * qd
+    return np.linalg.solve(M, net[..., None])[..., 0].astype(np.float64, copy=False)
+
+
+def energy(
+    M: ArrayLike, qd: ArrayLike, masses: ArrayLike, coms_world: ArrayLike, g: ArrayLike
+) -> Array:
+    """Return the kinetic and the potential energy of the moving links.
+
+    qd . M qd / 2, and minus the sum of m g . c (Modern Robotics, section 8.1.1). Their
+    sum stays the same when nothing drives or brakes the arm.
+
+    Args:
+        M: mass matrix, kg m^2, (..., n, n).
+        qd: joint velocities, rad/s, (..., n).
+        masses: kg, (n,).
+        coms_world: centres of mass in the world, metres, (..., n, 3).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        (kinetic, potential) in joules, (..., 2); potential is 0 at the origin.
+    """
+    n = _last(M)
+    M, qd = checks.array(M, "M", (n, n)), checks.array(qd, "qd", (n,))
+    masses = checks.array(masses, "masses", (n,))
+    coms = checks.array(coms_world, "coms_world", (n, 3))
+    kinetic = 0.5 * (qd * _times(M, qd)).sum(axis=-1)
+    potential = -(masses * (coms @ _gravity(g))).sum(axis=-1)
+    return np.stack(np.broadcast_arrays(kinetic, potential), axis=-1)
+
+
+def _felt(J: Array, wrenches: Array) -> Array:
+    """Return what each joint feels of the wrenches on its link and all after it."""
+    carried = np.cumsum(wrenches[..., ::-1, :], axis=-2)[..., ::-1, :]
+    return (np.swapaxes(J, -1, -2) * carried).sum(axis=-1)
+
+
+def _times(A: Array, x: Array) -> Array:
+    return (A @ x[..., None])[..., 0]
+
+
+def _gravity(g: ArrayLike) -> Array:
+    if np.ndim(g) == 0:
+        raise ValueError(f"g is the number {g!r}; expected a vector: (0, 0, -9.81)")
+    return checks.array(g, "g", (3,))
+
+
+def _last(value: ArrayLike) -> int:
+    """Return how many joints an array of a wrong or right shape is for."""
+    return np.shape(value)[-1] if np.ndim(value) else 0

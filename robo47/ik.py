@@ -1,0 +1,231 @@
+"""Inverse kinematics of one arm for many targets at once, in pure NumPy.
+
+Every target has walkers, configurations that go downhill by Levenberg-Marquardt steps
+with the joint limits kept (Sugihara, "Solvability-unconcerned inverse kinematics by
+the Levenberg-Marquardt method", IEEE Trans. Robotics 27(5), 2011: the damping follows
+the error). A step that would push a joint through its limit is taken again without
+that joint. A walker that no longer gains ends; a target that none of its walkers
+reaches gets new ones, the nearest of some random configurations, and the fewer targets
+are left, the more walkers each has: the arrays stay wide, which is what NumPy is fast
+at.
+
+All arrays here are columns: q (joints, n), goals (3, 4, n). Units: metres, radians.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, poe
+from robo47.checks import Array
+from robo47.rotation_log import log_rotation, pose_error
+from robo47.screws import fk_space
+
+REACHED = 1e-8  # the length of the pose error (radians and metres) of a solution
+STOP = 1e-9  # where walkers stop: a tenth of it
+FLOOR = 1e-8  # squared damping that is left where the error is 0
+CHUNK = 1024  # targets at once
+WIDTH = 500  # walkers at once while targets are left, at least
+MOST = 50  # walkers of one target
+DRAWN = 1000  # random configurations that the nearest ones are chosen from
+ROUNDS = 20
+# (steps at most, how often the gain is looked at, what must be left of the squared
+# error): patient from the caller's start, impatient from a random one.
+FIRST, AGAIN = (60, 5, 0.9), (30, 3, 0.5)
+NEAR_PI = -0.9  # cosine of the angle beyond which sin(angle) is no base for the axis
+
+
+@dataclass(frozen=True)
+class _Problem:
+    arm: poe.Arm
+    goals: Array
+    low: Array
+    high: Array
+
+
+def solve_ik(
+    screws: ArrayLike,
+    M: ArrayLike,
+    T_goal: ArrayLike,
+    q_start: ArrayLike,
+    limits: ArrayLike,
+) -> Array:
+    """Return joint angles that bring the end effector to each target.
+
+    The first try starts at q_start, later ones at seeded random configurations; the
+    same call gives the same answer. `reached` says which targets were. A start that
+    reaches its target comes back unchanged.
+
+    Args:
+        screws: space screws (omega; v) of one arm, (n, 6).
+        M: `T_world_ee` at q = 0, (4, 4).
+        T_goal: targets, `T_world_ee`, (..., 4, 4).
+        q_start: where to start, radians (metres for slides), (..., n); what is outside
+            the limits is brought to the nearest limit first.
+        limits: lowest and highest value of each joint, (n, 2).
+
+    Returns:
+        q, (..., n), always within the limits. For a target that nobody reached, an
+        unreachable one among them, the best that was found: where the length of
+        `pose_error` was smallest.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, no screw, not a pose, or a lower
+            limit above its upper one.
+    """
+    S, M, T, q, low, high = _checked(screws, M, T_goal, q_start, limits)
+    lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
+    T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
+    q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
+    arm, out = poe.arm_of(S, M), np.empty_like(q)
+    for first in range(0, len(q), CHUNK):
+        part = slice(first, first + CHUNK)
+        goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))
+        start = np.clip(q[part].T, low, high)
+        out[part] = _solve(_Problem(arm, goals, low, high), start).T
+    return out.reshape(*lead, len(S))
+
+
+def reached(
+    screws: ArrayLike, M: ArrayLike, T_goal: ArrayLike, q: ArrayLike
+) -> np.ndarray:
+    """Return whether q brings the end effector to its target, to 1e-8.
+
+    Args:
+        screws: space screws (omega; v), (n, 6).
+        M: `T_world_ee` at q = 0, (4, 4).
+        T_goal: targets, (..., 4, 4).
+        q: what `solve_ik` returned, (..., n).
+
+    Returns:
+        True where the pose error (radians and metres) is shorter than 1e-8, (...).
+
+    Raises:
+        ValueError: as `solve_ik`.
+    """
+    e = pose_error(fk_space(screws, M, q), T_goal)
+    return np.linalg.norm(e, axis=-1) < REACHED
+
+
+def _solve(problem: _Problem, start: Array) -> Array:
+    """Return the best q found for every target, (joints, n)."""
+    rng = np.random.default_rng(47)
+    everyone = np.arange(start.shape[1])
+    best, miss = _walk(problem, start, everyone, FIRST)
+    for _ in range(ROUNDS):
+        left = np.flatnonzero(miss > STOP**2)
+        if not len(left):
+            break
+        each = int(np.clip(WIDTH // len(left), 1, MOST))
+        target = np.repeat(left, each)
+        q, ee = _walk(problem, _near(problem, left, each, rng), target, AGAIN)
+        pick = ee.reshape(-1, each).argmin(axis=1) + each * np.arange(len(left))
+        better = ee[pick] < miss[left]
+        best[:, left[better]] = q[:, pick[better]]
+        miss[left[better]] = ee[pick[better]]
+    return best
+
+
+def _walk(
+    problem: _Problem, q: Array, target: np.ndarray, patience: tuple[int, int, float]
+) -> tuple[Array, Array]:
+    """Return every walker's best q, (joints, n), and its squared error, (n,).
+
+    Walkers end when one of them reaches their common target, or they no longer gain.
+    """
+    steps, every, enough = patience
+    best, miss = q.copy(), np.full(q.shape[1], np.inf)
+    before, walker = np.full(q.shape[1], np.inf), np.arange(q.shape[1])
+    solved = np.zeros(problem.goals.shape[-1], dtype=bool)
+    for step in range(steps):
+        J, e = _downhill(problem, q, target)
+        ee = np.einsum("in,in->n", e, e)
+        better = ee < miss[walker]
+        best[:, walker[better]], miss[walker[better]] = q[:, better], ee[better]
+        solved[target[ee <= STOP**2]] = True
+        on = ~solved[target]
+        if step % every == 0:
+            on &= ee < enough * before[walker]
+            before[walker] = ee
+        if not on.all():
+            walker, target = walker[on], target[on]
+            q, J, e, ee = q[:, on], J[..., on], e[:, on], ee[on]
+        if not len(walker):
+            break
+        q = _step(problem, q, J, e, 0.5 * ee + FLOOR)
+    return best, miss
+
+
+def _downhill(problem: _Problem, q: Array, target: np.ndarray) -> tuple[Array, Array]:
+    """Return the site Jacobian, (6, joints, n), and the pose error, (6, n)."""
+    J, R, p = poe.jacobian_columns(problem.arm, q, at_end=True)
+    goal = problem.goals[..., target]
+    E = np.einsum("ikn,jkn->ijn", goal[:, :3], R)
+    e = np.empty((6, q.shape[1]))
+    e[0], e[1], e[2] = E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]
+    sine = 0.5 * np.sqrt(np.einsum("in,in->n", e[:3], e[:3]))
+    cosine = 0.5 * (E[0, 0] + E[1, 1] + E[2, 2] - 1.0)
+    angle = np.arctan2(sine, cosine)
+    e[:3] *= 0.5 * np.divide(angle, sine, out=np.ones_like(sine), where=sine > 0.0)
+    e[3:] = goal[:, 3] - p
+    if (flipped := cosine < NEAR_PI).any():
+        e[:3, flipped] = log_rotation(np.moveaxis(E[..., flipped], -1, 0)).T
+    return J, e
+
+
+def _step(problem: _Problem, q: Array, J: Array, e: Array, damping: Array) -> Array:
+    """Return q after one damped step, within the limits."""
+    low, high = problem.low, problem.high
+    new = q + _damped(J, e, damping)
+    stuck = ((new > high) & (q >= high)) | ((new < low) & (q <= low))
+    if (some := stuck.any(axis=0)).any():
+        J = np.where(stuck[:, some], 0.0, J[..., some])
+        new[:, some] = q[:, some] + _damped(J, e[:, some], damping[some])
+    return np.clip(new, low, high)
+
+
+def _damped(J: Array, e: Array, damping: Array) -> Array:
+    """Return J^T (J J^T + damping I)^-1 e; damping is squared already, (n,)."""
+    A = np.einsum("ikn,jkn->nij", J, J)
+    A[:, range(6), range(6)] += damping[:, None]
+    return np.einsum("ikn,ni->kn", J, np.linalg.solve(A, e.T[..., None])[..., 0])
+
+
+def _near(
+    problem: _Problem, left: np.ndarray, each: int, rng: np.random.Generator
+) -> Array:
+    """Return starts for the targets that are left, (joints, targets * each).
+
+    Of each group of random configurations, the one whose pose is nearest: |p - p'|^2
+    plus half of |R - R'|^2, which is about the squared angle.
+    """
+    group = max(DRAWN // each, 20)
+    low, high = problem.low, problem.high
+    q = rng.uniform(low, high, (len(low), each * group))
+    _, R, p = poe.jacobian_columns(problem.arm, q, at_end=True)
+    scale = np.repeat([np.sqrt(0.5), 1.0], [9, 3])[:, None]
+    drawn = scale * np.concatenate([R.reshape(9, -1), p])
+    goals = problem.goals[..., left]
+    wanted = scale * np.concatenate([goals[:, :3].reshape(9, -1), goals[:, 3]])
+    apart = (drawn * drawn).sum(axis=0) - 2.0 * (wanted.T @ drawn)
+    nearest = apart.reshape(-1, each, group).argmin(axis=-1)
+    return q[:, (nearest + group * np.arange(each)).ravel()]
+
+
+def _checked(
+    S: ArrayLike, M: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
+) -> tuple[Array, ...]:
+    S, M = checks.screws(S, "screws"), checks.pose(M, "M")
+    if S.ndim != 2 or M.ndim != 2:
+        raise ValueError(
+            f"screws has shape {S.shape} and M {M.shape}; expected (n, 6) and (4, 4): "
+            "one arm, many targets"
+        )
+    limits = checks.array(limits, "limits", (len(S), 2))
+    low, high = limits.reshape(len(S), 2).T[..., None]
+    if (bad := (low > high)[:, 0]).any():
+        i = int(np.argmax(bad))
+        raise ValueError(f"limits[{i}] is {limits[i].tolist()}; expected low <= high")
+    T, q = checks.pose(T, "T_goal"), checks.array(q, "q_start", (len(S),))
+    return S, M, T, q, low, high

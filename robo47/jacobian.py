@@ -1,0 +1,177 @@
+"""Jacobians of an arm, pose errors, and the steps that inverse kinematics is made of.
+
+Three Jacobians map joint speeds to a twist (omega; v), and their names are kept apart:
+
+- `J_space`: v is the velocity of the point at the world's origin; world axes.
+- `J_site`: v is the velocity of a point of the hand; world axes. This is what MuJoCo's
+  mj_jacSite says (its jacr above its jacp).
+- `J_body`: v is the velocity of the hand's own origin, both in the hand's axes.
+
+Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
+metres, float64; leading dimensions broadcast.
+
+Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.ik` and
+`robo47.rotation_log` hold the rest of what is named here.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, poe, se3
+from robo47.checks import Array
+from robo47.ik import reached as reached
+from robo47.ik import solve_ik as solve_ik
+from robo47.rotation_log import log_rotation as log_rotation
+from robo47.rotation_log import pose_error as pose_error
+from robo47.screws import adjoint, exp_screw, skew
+
+CHUNK = 1024  # configurations at once: what one core's cache holds
+
+
+def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
+    """Return J_space: where every joint's screw is now.
+
+    Column i is Ad(e^[S1] q1 ... e^[S(i-1)] q(i-1)) S_i (Modern Robotics, section
+    5.1.1).
+
+    Args:
+        screws: space screws (omega; v), (..., n, 6).
+        q: joint angles in radians (metres for slides), (..., n).
+
+    Returns:
+        J_space, (..., 6, n): no unit above, metres below.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or no screw.
+    """
+    S, q = checks.screws_and_q(screws, q)
+    if S.ndim > 2:
+        return _one_by_one(S, q)
+    flat = q.reshape(-1, len(S))
+    arm, J = poe.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
+    for first in range(0, len(flat), CHUNK):
+        part = slice(first, first + CHUNK)
+        now, _, _ = poe.jacobian_columns(arm, flat[part].T, at_end=False)
+        J[part] = np.moveaxis(now, -1, 0)
+    return J.reshape(*q.shape[:-1], 6, len(S))
+
+
+def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
+    """Return J_site: the same motion as the velocity of the point p, world axes.
+
+    v_p = v + omega x p in each column; omega stays (Modern Robotics, section 3.3.2).
+
+    Args:
+        J_space: from `space_jacobian`, (..., 6, n).
+        p: a point that moves with the hand, world coordinates, metres, (..., 3).
+
+    Returns:
+        J_site, (..., 6, n): what mj_jacSite says, omega above.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    J, p = _jacobian(J_space, "J_space"), checks.array(p, "p", (3,))
+    v = J[..., 3:, :] - skew(p) @ J[..., :3, :]  # omega x p = -[p] omega
+    return np.concatenate([np.broadcast_to(J[..., :3, :], v.shape), v], axis=-2)
+
+
+def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
+    """Return J_body: the same motion as the hand itself sees it, Ad(T^-1) J_space.
+
+    Args:
+        J_space: from `space_jacobian`, (..., 6, n).
+        T: `T_world_ee` at the same configuration, (..., 4, 4).
+
+    Returns:
+        J_body, (..., 6, n) (Modern Robotics, section 5.1.4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
+    """
+    return adjoint(se3.inverse(T)) @ _jacobian(J_space, "J_space")
+
+
+def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
+    """Return the damped least-squares step, J^T (J J^T + damping^2 I)^-1 e.
+
+    It minimises |J dq - e|^2 + damping^2 |dq|^2, so it stays short where J is near
+    singular (Wampler, "Manipulator inverse kinematic solutions based on vector
+    formulations and damped least-squares methods", IEEE Trans. SMC 16(1), 1986).
+
+    Args:
+        J: Jacobian, (..., m, n).
+        e: wanted motion, (..., m), in the Jacobian's frame and order.
+        damping: larger is safer and slower, (...); 0 is the pseudo-inverse.
+
+    Returns:
+        Step dq, radians, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a singular J without damping.
+    """
+    J = _jacobian(J, "J", rows=None)
+    e = checks.array(e, "e", J.shape[-2:-1])
+    damping = checks.array(damping, "damping", ())
+    Jt = np.swapaxes(J, -1, -2)
+    A = J @ Jt + damping[..., None, None] ** 2 * np.eye(J.shape[-2])
+    try:
+        y = np.linalg.solve(A, e[..., None])
+    except np.linalg.LinAlgError:
+        raise ValueError("J is singular and damping is 0: give it damping") from None
+    return (Jt @ y)[..., 0]
+
+
+def manipulability(J: ArrayLike) -> Array:
+    """Return sqrt(det(J J^T)), the product of the singular values: 0 when singular.
+
+    Args:
+        J: Jacobian, (..., m, n); with m > n it is 0.
+
+    Returns:
+        Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
+        "Manipulability of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    J = _jacobian(J, "J", rows=None)
+    # From the singular values: det(J J^T) has only half the digits near 0.
+    values = np.linalg.svd(J, compute_uv=False).prod(axis=-1)
+    return values if J.shape[-2] <= J.shape[-1] else 0.0 * values
+
+
+def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
+    """Return the part of dq that the hand does not feel, dq - J^+ J dq.
+
+    Args:
+        J: Jacobian, (..., m, n).
+        dq: wanted motion of the joints, (..., n).
+
+    Returns:
+        The nearest motion with J dq = 0, (..., n) (Modern Robotics, section 6.3).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    J = _jacobian(J, "J", rows=None)
+    dq = checks.array(dq, "dq", J.shape[-1:])
+    return dq - (np.linalg.pinv(J) @ (J @ dq[..., None]))[..., 0]
+
+
+def _jacobian(J: ArrayLike, name: str, rows: int | None = 6) -> Array:
+    J = checks.array(J, name, ())
+    if J.ndim < 2 or rows not in (None, J.shape[-2]):
+        raise ValueError(
+            f"{name} has shape {J.shape}; expected (..., {rows or 'm'}, n)"
+        )
+    return J
+
+
+def _one_by_one(S: Array, q: Array) -> Array:
+    """Return J_space of arms with different screws, as the formula reads."""
+    T, columns = np.eye(4), []
+    for i in range(S.shape[-2]):
+        columns.append((adjoint(T) @ S[..., i, :, None])[..., 0])
+        T = T @ exp_screw(S[..., i, :], q[..., i])
+    return np.stack(np.broadcast_arrays(*columns), axis=-1)

@@ -1,0 +1,211 @@
+"""What the formulas need to know of the Panda, read from a compiled model by name.
+
+MuJoCo is used to read the file (where each body sits on its parent, where each joint
+turns), never to compute the answer. Only the seven arm joints, whatever else the
+model holds. Units: metres, radians, kilograms; screws are (omega; v).
+"""
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import kinematics, se3
+from robo47.arm import Arm
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.screws import screw_axis, skew
+
+ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+# Where the arm ends, by entry: the same point, turned by 180 degrees about z.
+ENDS = ("site:attachment_site", "body:hand")
+
+
+class Inertias(NamedTuple):
+    """What n bodies weigh, and where.
+
+    Attributes:
+        masses: kilograms, (n,).
+        coms: centres of mass in the links' own frames, metres, (n, 3).
+        inertias: rotational inertias about the centres of mass, in the links' own
+            axes, kg m^2, (n, 3, 3).
+    """
+
+    masses: Array
+    coms: Array
+    inertias: Array
+
+
+def screws(model: mujoco.MjModel) -> Array:
+    """Return the space screws of the seven arm joints, with the arm at q = 0.
+
+    Args:
+        model: any entry of `robo47.panda.load`.
+
+    Returns:
+        Screws (omega; v), (7, 6): no unit; metres.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
+    """
+    rows = []
+    poses = kinematics.fk_all(model, _drawn(model))
+    for name in ARM_JOINTS:
+        joint = _joint(model, name)
+        T = poses[f"body:{model.body(int(model.jnt_bodyid[joint.id])).name}"]
+        R, p = T[:3, :3], T[:3, 3]
+        rows.append(screw_axis(R @ joint.axis, p + R @ joint.pos))
+    return np.array(rows) + 0.0  # no -0. where people read it
+
+
+def home_pose(model: mujoco.MjModel) -> Array:
+    """Return M: the pose of the arm's end with every joint at 0.
+
+    Args:
+        model: any entry of `robo47.panda.load`.
+
+    Returns:
+        T_world_ee, (4, 4): of `attachment_site`, or of `hand` where there is one.
+
+    Raises:
+        Robo47Error: the model has neither.
+    """
+    poses = kinematics.fk_all(model, _drawn(model))
+    for frame in ENDS:
+        if frame in poses:
+            return poses[frame] + 0.0
+    raise Robo47Error(f"the model has no {' and no '.join(ENDS)}; load the Panda")
+
+
+def inertias(model: mujoco.MjModel) -> Inertias:
+    """Return the masses, centres of mass and inertias of the seven moving links.
+
+    MuJoCo keeps a link's inertia as three numbers about axes of their own
+    (body_inertia, turned by body_iquat); here they are turned back into the link's
+    axes. Never take the file's own numbers: MuJoCo 3.3.0 reproduces them to 5e-7 only.
+
+    Args:
+        model: any entry of `robo47.panda.load`.
+
+    Returns:
+        (masses (7,), coms (7, 3), inertias (7, 3, 3)). The links alone: what the hand
+        of "panda" and "scene" weighs is not in it; `hand_inertia` tells that.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
+    """
+    links = [_link(model, name) for name in ARM_JOINTS]
+    return Inertias(
+        model.body_mass[links], model.body_ipos[links], _about_coms(model, links)
+    )
+
+
+def hand_inertia(
+    model: mujoco.MjModel, opening: float = 0.0
+) -> tuple[float, Array, Array]:
+    """Return hand and fingers as one body, seen from link 7, which carries them.
+
+    Args:
+        model: any entry of `robo47.panda.load`; without a hand all is zero.
+        opening: how far each finger is out, metres.
+
+    Returns:
+        (mass in kg, com (3,) in link 7's frame in metres, inertia (3, 3) about that
+        com in link 7's axes in kg m^2).
+
+    Raises:
+        Robo47Error: the model has no joint7.
+    """
+    link7 = _link(model, ARM_JOINTS[-1])
+    bodies = [b for b in range(model.nbody) if _hangs_on(model, b, link7)]
+    q = _drawn(model)
+    q[[model.jnt_qposadr[j] for b in bodies for j in _joints_of(model, b)]] = opening
+    poses = kinematics.fk_all(model, q)
+    T_link7_world = se3.inverse(poses[f"body:{model.body(link7).name}"])
+    parts = []
+    for b, about_com in zip(bodies, _about_coms(model, bodies), strict=True):
+        T = T_link7_world @ poses[f"body:{model.body(b).name}"]
+        R, p = T[:3, :3], T[:3, 3]
+        com = p + R @ model.body_ipos[b]
+        parts.append((float(model.body_mass[b]), com, R @ about_com @ R.T))
+    return _lumped([part for part in parts if part[0] > 0.0])
+
+
+def arm(model: mujoco.MjModel) -> Arm:
+    """Return the arm, hand included, for loops: see `robo47.arm`.
+
+    Args:
+        model: any entry of `robo47.panda.load`.
+
+    Returns:
+        The seven links; the last one carries the hand, where there is one, with its
+        fingers closed. It ends at `home_pose`.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
+    """
+    poses = kinematics.fk_all(model, _drawn(model))
+    links = [_link(model, name) for name in ARM_JOINTS]
+    dofs = [int(model.joint(name).dofadr[0]) for name in ARM_JOINTS]
+    bare = Arm(
+        screws(model),
+        home_pose(model),
+        np.stack([poses[f"body:{model.body(link).name}"] for link in links]),
+        *inertias(model),
+        armature=model.dof_armature[dofs],
+        damping=model.dof_damping[dofs],
+        gravity=model.opt.gravity.copy(),
+    )
+    return bare.carrying(*hand_inertia(model))
+
+
+def _drawn(model: mujoco.MjModel) -> Array:
+    """Return qpos with hinges and slides at 0; a free body where the file has it."""
+    q = model.qpos0.copy()
+    for joint in range(model.njnt):
+        if model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
+            q[model.jnt_qposadr[joint]] = 0.0
+    return q
+
+
+def _lumped(parts: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array]:
+    """Return bodies (mass, com, inertia) as one: Modern Robotics, section 8.2.1."""
+    mass = sum(m for m, _, _ in parts)
+    if mass == 0.0:
+        return 0.0, np.zeros(3), np.zeros((3, 3))
+    com = np.sum([m * c for m, c, _ in parts], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for m, c, about_com in parts:
+        away = skew(c - com)
+        inertia += about_com + m * away @ away.T
+    return mass, com, inertia
+
+
+def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:
+    """Return R I R^T of each body, (n, 3, 3): in its axes, about its com."""
+    R = se3.quat_to_R(model.body_iquat[bodies])
+    return (R * model.body_inertia[bodies][:, None, :]) @ np.swapaxes(R, -1, -2)
+
+
+def _hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
+    """Return whether a body hangs on another one, however far out."""
+    parent = int(model.body_parentid[body])
+    while parent > ancestor:  # MuJoCo numbers parents before their children
+        parent = int(model.body_parentid[parent])
+    return parent == ancestor
+
+
+def _link(model: mujoco.MjModel, joint: str) -> int:
+    return int(model.jnt_bodyid[_joint(model, joint).id])
+
+
+def _joints_of(model: mujoco.MjModel, body: int) -> range:
+    first = int(model.body_jntadr[body])
+    return range(first, first + int(model.body_jntnum[body]))
+
+
+def _joint(model: mujoco.MjModel, name: str):
+    try:
+        return model.joint(name)
+    except KeyError:
+        raise Robo47Error(f"the model has no joint {name!r}; load the Panda") from None

@@ -1,0 +1,57 @@
+"""The way from one pose to another as numbers: a rotation vector and a translation.
+
+Radians, metres; world axes; leading dimensions broadcast.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, se3
+from robo47.checks import Array
+
+
+def log_rotation(R: ArrayLike) -> Array:
+    """Return the axis of a rotation times its angle, exact from 0 to pi.
+
+    By the unit quaternion (w; u), whose angle is 2 atan2(|u|, w): no digit is lost
+    near 0, where the textbook's arccosine is, nor near pi, where its division by the
+    sine is (Modern Robotics, section 3.2.3.3, has the usual formula).
+
+    Args:
+        R: rotation matrix, (..., 3, 3).
+
+    Returns:
+        Rotation vector, radians, length in [0, pi], (..., 3). At exactly pi both signs
+        mean the same rotation; the one whose largest entry is positive is returned.
+        Rounding decides within 1e-16 of pi.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or R is not a rotation.
+    """
+    q = se3.R_to_quat(R)
+    w, u = q[..., :1], q[..., 1:]
+    sine = np.linalg.norm(u, axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(sine, w)
+    # Below 1e-154 the square of a length is 0; there the angle is twice the sine.
+    return u * np.divide(angle, sine, out=np.full_like(sine, 2.0), where=sine > 0.0)
+
+
+def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
+    """Return how to move from T to the goal: a rotation vector and a translation.
+
+    (log(R_goal R^T); p_goal - p), in world axes, so it goes with J_site.
+    `se3.pose_error` gives the two lengths.
+
+    Args:
+        T: pose, (..., 4, 4).
+        T_goal: where it should be, (..., 4, 4).
+
+    Returns:
+        Error, radians above and metres below, (..., 6).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not poses.
+    """
+    T, T_goal = checks.pose(T, "T"), checks.pose(T_goal, "T_goal")
+    turn = log_rotation(T_goal[..., :3, :3] @ np.swapaxes(T[..., :3, :3], -1, -2))
+    return np.concatenate([turn, T_goal[..., :3, 3] - T[..., :3, 3]], axis=-1)

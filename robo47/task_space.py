@@ -1,0 +1,250 @@
+"""Control at the hand: the mass felt there, springs, damping and wanted pushes.
+
+Conventions: twists, errors and accelerations of the hand are (angular; linear) and
+wrenches (moment; force), both in world axes at the site. `J` is the site Jacobian:
+J qd = (omega; velocity of the site point). Only `site_bias` takes the space Jacobian,
+and says so. M is the mass matrix with armature. Metres, radians, newtons, kilograms.
+`n` joints, `m` rows of J (6 for the whole hand); leading dimensions broadcast. Every
+function raises ValueError where a shape is wrong, a number is not finite or out of
+the range that its docstring states.
+
+Sources: Khatib, "A unified approach for motion and force control of robot
+manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
+Robotics (2017), sections 8.6 and 11.4 to 11.7.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks
+from robo47.checks import Array
+
+
+def task_inertia(J: ArrayLike, M: ArrayLike) -> Array:
+    """Return the mass and inertia that somebody pushing at the hand feels.
+
+    Lambda = (J M^-1 J^T)^-1 (Khatib 1987; Modern Robotics, section 8.6).
+
+    Args:
+        J: site Jacobian, (..., m, n), of full row rank (no singularity).
+        M: mass matrix with armature in kg m2, (..., n, n).
+
+    Returns:
+        Lambda, symmetric, (..., m, m): kg m2 in the angular block, kg in the linear.
+    """
+    J, M = _model(J, M)
+    try:
+        Lambda = np.linalg.inv(J @ np.linalg.solve(M, _T(J)))
+    except np.linalg.LinAlgError:
+        raise ValueError("the hand is at a singularity, or M is singular") from None
+    return (Lambda + _T(Lambda)) / 2.0
+
+
+def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
+    """Return the acceleration that the hand has while the joints do not accelerate.
+
+    It is Jdot qd of the site Jacobian. A joint's screw S_i is carried along by the
+    twist V_i of its link: (omega'; v') is the sum of ad(V_i) S_i qd_i. The site
+    point's own acceleration is then v' + omega' x p + omega x (velocity of p)
+    (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 2.11).
+
+    Args:
+        J_space: space Jacobian, one screw (omega; v) per column, (..., 6, n).
+        qd: joint velocities in rad/s, (..., n).
+        p: the site point in world axes, metres, (..., 3).
+
+    Returns:
+        (angular; linear) acceleration in rad/s2 and m/s2, (..., 6).
+    """
+    J_space = checks.array(J_space, "J_space", (6, "n"))
+    qd, p = checks.array(qd, "qd", J_space.shape[-1:]), checks.array(p, "p", (3,))
+    Sqd = _T(J_space) * qd[..., None]  # (..., n, 6)
+    V = np.cumsum(Sqd, axis=-2)  # its own part adds nothing: ad(S) S = 0
+    w, v, sw, sv = V[..., :3], V[..., 3:], Sqd[..., :3], Sqd[..., 3:]
+    alpha = _cross(w, sw).sum(axis=-2)
+    a = (_cross(v, sw) + _cross(w, sv)).sum(axis=-2)
+    omega = w[..., -1, :]
+    velocity = v[..., -1, :] + _cross(omega, p)
+    linear = a + _cross(alpha, p) + _cross(omega, velocity)
+    return np.concatenate(np.broadcast_arrays(alpha, linear), axis=-1)
+
+
+def osc_torque(
+    J: ArrayLike,
+    Lambda: ArrayLike,
+    bias: ArrayLike,
+    site_bias: ArrayLike,
+    acc: ArrayLike,
+) -> Array:
+    """Return the torque that gives the hand a wanted acceleration.
+
+    tau = J^T Lambda (acc - Jdot qd) + bias (Khatib 1987). Joint damping is not in
+    it: add damping qd, as `impedance_torque` does.
+
+    Args:
+        J: site Jacobian, (..., m, n).
+        Lambda: task inertia, (..., m, m).
+        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
+        site_bias: Jdot qd, as `site_bias` returns it, (..., m).
+        acc: wanted (angular; linear) acceleration in rad/s2 and m/s2, (..., m).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    J = checks.array(J, "J", ("m", "n"))
+    m, n = J.shape[-2:]
+    Lambda = checks.array(Lambda, "Lambda", (m, m))
+    left = checks.array(acc, "acc", (m,)) - checks.array(site_bias, "site_bias", (m,))
+    return _times(_T(J), _times(Lambda, left)) + checks.array(bias, "bias", (n,))
+
+
+def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -> Array:
+    """Return the part of tau that does not accelerate the hand.
+
+    (I - J^T Lambda J M^-1) tau, for which J M^-1 (its result) = 0 (Khatib 1987).
+
+    Args:
+        J: site Jacobian, (..., m, n).
+        M: mass matrix with armature in kg m2, (..., n, n).
+        Lambda: task inertia, (..., m, m).
+        tau: wanted torques, of a posture for example, in Nm, (..., n).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    J, M = _model(J, M)
+    m, n = J.shape[-2:]
+    tau = checks.array(tau, "tau", (n,))
+    Lambda = checks.array(Lambda, "Lambda", (m, m))
+    hand_acc = J @ np.linalg.solve(M, tau[..., None])
+    return tau - (_T(J) @ Lambda @ hand_acc)[..., 0]
+
+
+def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) -> Array:
+    """Return K e + D V_err, a spring and a damper (Modern Robotics, section 11.7).
+
+    Args:
+        e: (rotation vector; position) from the hand to its target, (..., m).
+        V_err: the target's twist minus the hand's, (..., m).
+        K: stiffness in Nm/rad and N/m, (..., m, m).
+        D: damping in Nm s/rad and N s/m, (..., m, m).
+
+    Returns:
+        Wrench (moment; force) in Nm and N, (..., m).
+    """
+    e, V_err = checks.same_size(e=e, V_err=V_err)
+    square = (e.shape[-1], e.shape[-1])
+    K, D = checks.array(K, "K", square), checks.array(D, "D", square)
+    return _times(K, e) + _times(D, V_err)
+
+
+def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
+    """Return the damping with which the hand comes back without ringing.
+
+    D = sqrt(Lambda) sqrt(K) + sqrt(K) sqrt(Lambda); for one mass 2 sqrt(K Lambda)
+    (Albu-Schaeffer, Ott, Frese and Hirzinger, "Cartesian impedance control of
+    redundant robots", ICRA 2003, "factorization design").
+
+    Args:
+        K: stiffness along each axis in Nm/rad and N/m, at least 0, (..., m).
+        Lambda: task inertia, positive definite, (..., m, m).
+
+    Returns:
+        D, symmetric, (..., m, m), in Nm s/rad and N s/m.
+    """
+    K = checks.not_negative(checks.array(K, "K", ("m",)), "K")
+    Lambda = checks.array(Lambda, "Lambda", (K.shape[-1], K.shape[-1]))
+    values, vectors = np.linalg.eigh(Lambda)
+    if np.any(values <= 0.0):
+        raise ValueError("Lambda is not positive definite; pass a task inertia")
+    root = (vectors * np.sqrt(values)[..., None, :]) @ _T(vectors)
+    k = np.sqrt(K)
+    return root * k[..., None, :] + k[..., :, None] * root
+
+
+def impedance_torque(
+    J: ArrayLike,
+    wrench: ArrayLike,
+    bias: ArrayLike,
+    damping: ArrayLike,
+    qd: ArrayLike,
+    tau_null: ArrayLike,
+) -> Array:
+    """Return the torque that makes the hand push with a wrench, and nothing else.
+
+    J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2, 11.7).
+
+    Args:
+        J: site Jacobian, (..., m, n).
+        wrench: (moment; force) in Nm and N, (..., m).
+        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
+        damping: of the joints in Nm s/rad, one number or (..., n).
+        qd: measured velocity in rad/s, (..., n).
+        tau_null: torque that the hand does not feel, from `null_torque`, (..., n).
+
+    Returns:
+        Joint torques in Nm, (..., n).
+    """
+    J = checks.array(J, "J", ("m", "n"))
+    m, n = J.shape[-2:]
+    wrench = checks.array(wrench, "wrench", (m,))
+    bias, qd = checks.array(bias, "bias", (n,)), checks.array(qd, "qd", (n,))
+    tau_null = checks.array(tau_null, "tau_null", (n,))
+    friction = checks.per_joint(damping, "damping", qd) * qd
+    return _times(_T(J), wrench) + bias + friction + tau_null
+
+
+def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> Array:
+    """Return how deep to command a soft hand so that it presses with a wanted force.
+
+    Args:
+        force: wanted push in newtons, (...).
+        k: stiffness in N/m, above 0, (...).
+        surface: height of the surface in metres, (...).
+
+    Returns:
+        Height to command in metres, surface - force / k, (...).
+    """
+    surface = checks.array(surface, "surface", ())
+    return surface - checks.array(force, "force", ()) / checks.positive(k, "k")
+
+
+def hybrid_wrench(
+    e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike, force: ArrayLike
+) -> Array:
+    """Return a wrench that is a spring sideways and a wanted force downwards.
+
+    `spring_wrench`, with the z force replaced by -force + the damper's part (Modern
+    Robotics, section 11.6, for a flat, level surface).
+
+    Args:
+        e, V_err, K, D: as in `spring_wrench`, with m = 6.
+        force: wanted push along -z in newtons, (...).
+
+    Returns:
+        Wrench (moment; force) in Nm and N, (..., 6).
+    """
+    V_err, D = checks.array(V_err, "V_err", (6,)), checks.array(D, "D", (6, 6))
+    wrench = spring_wrench(checks.array(e, "e", (6,)), V_err, K, D)
+    down = _times(D, V_err)[..., 5] - checks.array(force, "force", ())
+    sideways = np.broadcast_to(wrench[..., :5], (*down.shape, 5))
+    return np.concatenate([sideways, down[..., None]], axis=-1)
+
+
+def _model(J: ArrayLike, M: ArrayLike) -> tuple[Array, Array]:
+    J = checks.array(J, "J", ("m", "n"))
+    return J, checks.array(M, "M", (J.shape[-1], J.shape[-1]))
+
+
+def _T(A: Array) -> Array:
+    return np.swapaxes(A, -1, -2)
+
+
+def _times(A: Array, x: Array) -> Array:
+    return (A @ x[..., None])[..., 0]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Return a x b, (..., 3); np.cross takes six times as long on so few numbers."""
+    (x, y, z), (u, v, w) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)

@@ -1,0 +1,119 @@
+"""A day's catalogue: students' files, and what each is to be told.
+
+    python tests/catalogue.py 1              every file of day 1: what differs, totals
+    python tests/catalogue.py 1 fk_hand      files with that in their name, with messages
+
+Each file opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3: passed`) and, below it,
+what the student did. Where a mistake cannot show when the file runs as a lab, the first
+line says why: `# task 1.6: typed-in (not in a run: the lab has one Panda)`.
+"""
+
+import contextlib
+import io
+import re
+import sys
+import textwrap
+import types
+from pathlib import Path
+from typing import NamedTuple
+
+import inprocess
+
+from robo47.diagnose import Verdict
+from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, find_day
+
+_HEADER = re.compile(
+    r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?\n# .+\n"
+)
+STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
+
+
+class Submission(NamedTuple):
+    """One file: what folder it is in, its tasks, what it must be told, seen in a run."""
+
+    path: Path
+    folder: str
+    tasks: tuple[str, ...]
+    expected: str
+    runs: bool
+
+    @property
+    def name(self) -> str:
+        """Return "wrong/quat_xyzw"."""
+        return f"{self.folder}/{self.path.stem}"
+
+
+def submissions(day: Day, *folders: str) -> list[Submission]:
+    """Return every file of a day's catalogue, by default of all three folders."""
+    found = []
+    for folder in folders or STATUS:
+        for path in sorted((day.own / "submissions" / folder).glob("*.py")):
+            header = _HEADER.match(path.read_text("utf-8"))
+            if header is None:
+                raise ValueError(f"{path} does not say its task and mistake on top")
+            tasks, slug, hidden = header.groups()
+            runs = not hidden
+            found.append(Submission(path, folder, tuple(tasks.split()), slug, runs))
+    return found
+
+
+def told(day: Day, submission: Submission) -> dict[str, Verdict]:
+    """Return the verdict on each of a file's tasks."""
+    return {
+        task: inprocess.verdicts(day, submission.path, task)[task]
+        for task in submission.tasks
+    }
+
+
+def run_as_lab(day: Day, submission: Submission | None = None) -> int:
+    """Return the exit code of a day's lab with a file's functions in it.
+
+    Args:
+        day: whose complete script is run, without logging, in this process.
+        submission: its functions of the day's tasks take the script's place.
+    """
+    lab = types.ModuleType(day.source.stem)
+    lab.__file__ = str(day.source)
+    source = day.source.read_text("utf-8").replace("\nimport kit ", "\n# ")
+    exec(compile(source, str(day.source), "exec"), vars(lab))
+    if submission:
+        own = types.ModuleType(submission.path.stem)
+        code = submission.path.read_text("utf-8")
+        exec(compile(code, str(submission.path), "exec"), vars(own))
+        names = {f for task in day.tasks for f in task.functions}
+        vars(lab).update({k: v for k, v in vars(own).items() if k in names})
+    if hasattr(lab, "LIBRARY_TRIALS"):
+        lab.LIBRARY_TRIALS = 20  # the library has tests of its own
+    arguments, sys.argv = sys.argv, [str(day.source), "--no-log"]
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            return lab.main()
+    except (Robo47Error, ArithmeticError, LookupError, ValueError, TypeError):
+        return 1  # a lab that stops has not passed
+    except (NotImplementedError, AssertionError, AttributeError):
+        return 1
+    finally:
+        sys.argv = arguments
+
+
+def main() -> int:
+    """Print what differs; return 1 if anything does."""
+    day, wanted = find_day(int(sys.argv[1])), (sys.argv[2:] or [""])[0]
+    count = wrong = 0
+    for one in submissions(day):
+        if wanted not in one.name:
+            continue
+        for task, verdict in told(day, one).items():
+            said = verdict.mistake or verdict.status
+            count, wrong = count + 1, wrong + (said != one.expected)
+            if wanted or said != one.expected:
+                print(f"{one.name} {task}: told {said}; expected {one.expected}")
+                for line in (verdict.message, *verdict.measured):
+                    print(textwrap.indent(textwrap.fill(line, 74), "    "))
+    print(f"day {day.number}: {count} judged, {wrong} not told what they must be")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

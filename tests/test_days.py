@@ -1,0 +1,136 @@
+"""Every day of the course: its manifest, starter, questions, catalogue and documents."""
+
+import re
+
+import inprocess
+import pytest
+from catalogue import STATUS, run_as_lab, submissions, told
+from conftest import ROOT, kits_worksheet
+
+from robo47.checker.deliverables.worksheet import split_sections
+from robo47.checker.library import library_of
+from robo47.lesson import folder
+from robo47.lesson.day import all_days
+from robo47.lesson.starter import find_regions, make_starter
+
+DAYS = all_days()
+FILES = [
+    pytest.param(day, one, id=f"day{day.number}/{one.name}")
+    for day in DAYS
+    for one in submissions(day)
+]
+SHOWN = [
+    pytest.param(day, one, id=f"day{day.number}/{one.name}")
+    for day in DAYS
+    for one in submissions(day, "wrong")
+    if one.runs
+]
+each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
+
+
+@each_day
+class TestManifest:
+    def test_the_script_has_exactly_the_tasks_of_the_manifest(self, day):
+        regions = find_regions(day.source.read_text("utf-8"), day.script)
+        found = {(region.task, region.function) for region in regions}
+        assert found == {(t.id, name) for t in day.tasks for name in t.functions}
+
+    def test_every_function_has_a_row_of_questions(self, day):
+        rows = folder.load(day, "questions").QUESTIONS
+        assert set(rows) == {f for task in day.tasks for f in task.functions}
+
+    def test_hints_are_two_or_three_of_a_size_to_read_and_ask(self, day):
+        for task in day.tasks:
+            assert len(task.hints) in (2, 3), task.id
+            assert any("?" in hint for hint in task.hints), task.id
+            for hint in task.hints:
+                assert 20 <= len(hint.split()) <= 50, hint
+
+    def test_hints_give_no_line_of_the_solution_away(self, day):
+        lines = day.source.read_text("utf-8").splitlines()
+        given = "\n".join(hint for task in day.tasks for hint in task.hints)
+        for region in find_regions("\n".join(lines), day.script):
+            for line in lines[region.start + 1 : region.end]:
+                assert len(line.strip()) < 8 or line.strip() not in given
+
+    def test_tasks_send_back_to_sections_that_the_lab_guide_has(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        headings = set(re.findall(r"^#+ (.+)$", guide, re.MULTILINE))
+        for task in day.tasks:
+            section = task.read.partition(";")[0].removeprefix("Lab guide, ")
+            assert section in headings, task.id
+
+    def test_the_worksheet_has_room_for_what_is_asked(self, day):
+        sections = split_sections(kits_worksheet(day))
+        assert {term.lower() for term in day.terms} <= sections.keys()
+        drawings = [name for name in sections if name.startswith("drawing ")]
+        assert len(drawings) == day.drawings
+        assert "- [ ]" in sections["checklist"]
+        questions = re.findall(r"^\d+\.", sections["can you explain?"], re.MULTILINE)
+        assert len(questions) == day.questions
+
+    def test_the_guide_explains_every_term_of_the_worksheet(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        terms = re.findall(r"^- \*\*(.+?)\*\*: ", guide, re.MULTILINE)
+        assert [term.lower() for term in terms] == [t.lower() for t in day.terms]
+
+    def test_the_library_of_earlier_days_holds_no_answer_of_this_one(self, day):
+        assert not {f"robo47.{name}" for name in day.library} & set(library_of(day))
+
+
+@each_day
+class TestScript:
+    def test_the_solution_passes_every_task(self, day):
+        verdicts = inprocess.verdicts(day, day.source)
+        assert {t: (v.status, v.message) for t, v in verdicts.items()} == {
+            task.id: ("passed", "") for task in day.tasks
+        }
+
+    def test_the_starter_has_every_task_to_do(self, day, tmp_path):
+        path = tmp_path / day.script
+        text = make_starter(day.source.read_text("utf-8"), day.script, day.number)
+        path.write_text(text, "utf-8")
+        (tmp_path / "kit.py").write_text("")
+        verdicts = inprocess.verdicts(day, path)
+        assert {verdict.status for verdict in verdicts.values()} == {"todo"}
+
+    def test_the_complete_lab_passes(self, day):
+        assert run_as_lab(day) == 0
+
+    def test_a_mistake_in_a_docstring_is_ours_so_each_task_has_one(self, day):
+        text = day.source.read_text("utf-8")
+        for task in day.tasks:
+            for function in task.functions:
+                assert re.search(rf'def {function}\((?:.|\n)*?:\n    """', text)
+
+
+@each_day
+def test_the_catalogue_has_files_of_every_task(day):
+    asked = {task.id for task in day.tasks}
+    judged = {t for one in submissions(day, "wrong", "close") for t in one.tasks}
+    assert judged == asked
+
+
+@pytest.mark.parametrize(("day", "submission"), FILES)
+def test_a_file_is_told_what_the_catalogue_says(day, submission):
+    status = STATUS[submission.folder]
+    for task, verdict in told(day, submission).items():
+        assert (verdict.mistake or verdict.status) == submission.expected, task
+        assert verdict.status in (status, "todo" if status == "wrong" else status)
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(("day", "submission"), SHOWN)
+def test_a_wrong_file_run_as_a_lab_fails(day, submission):
+    assert run_as_lab(day, submission) == 1
+
+
+def test_the_machine_names_no_day():
+    words = re.compile(r"\bday[1-7]\b|day[1-7]_|compose_fk|link4_to_world")
+    named = [
+        f"{path.relative_to(ROOT)}: {line.strip()}"
+        for path in sorted((ROOT / "robo47").rglob("*.py"))
+        for line in path.read_text("utf-8").splitlines()
+        if words.search(line)
+    ]
+    assert named == []

@@ -1,0 +1,301 @@
+"""Dynamics against MuJoCo, Pinocchio, the textbook, and worked cases on paper."""
+
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from robo47 import dynamics, panda, screws, verify
+
+G_EARTH = np.array([0.0, 0.0, -9.81])
+DATA = Path(__file__).parent / "data"
+N = 200
+
+numbers = st.floats(-3.0, 3.0, allow_subnormal=False)
+vectors = arrays(np.float64, 3, elements=numbers)
+twists = arrays(np.float64, 6, elements=numbers)
+
+
+def moving(model, n=N, seed=4):
+    """Return n random motions and what the formulas take, computed by the library."""
+    rng = np.random.default_rng(seed)
+    q = verify.random_q(model, n, seed)
+    qd, qdd = rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape)
+    return SimpleNamespace(q=q, qd=qd, qdd=qdd, **vars(terms(model, q)))
+
+
+def terms(model, q):
+    """Return T_links, J, G, the masses and the centres of mass in the world."""
+    poses = verify.mujoco_poses(model, q)
+    T = np.stack([poses[f"body:link{i}"] for i in range(1, 8)], axis=-3)
+    J = np.swapaxes(screws.joint_screws(T), -1, -2)  # each link turns about its z axis
+    masses, coms, inertias = panda.inertias(model)
+    coms_world = (T[..., :3, :3] @ coms[..., None])[..., 0] + T[..., :3, 3]
+    G = dynamics.link_inertias(T, masses, coms, inertias)
+    return SimpleNamespace(T=T, J=J, G=G, masses=masses, coms_world=coms_world)
+
+
+@pytest.fixture
+def arm(either_panda):
+    """panda_nohand with motors, and N motions of it."""
+    model = panda.load("panda_nohand", drive="torque")
+    return model, moving(model)
+
+
+def test_the_mass_matrix_is_mujocos(arm):
+    model, now = arm
+    M = dynamics.mass_matrix(now.J, now.G, model.dof_armature)
+    assert_same(M, verify.mujoco_mass_matrix(model, now.q), 1e-13)
+
+
+def test_the_mass_matrix_is_the_sum_over_the_links(arm):
+    _, now = arm
+    M = dynamics.mass_matrix(now.J, now.G, 0.1)
+    by_links = np.zeros_like(M) + 0.1 * np.eye(7)
+    for i in range(7):
+        J_i = now.J * (np.arange(7) <= i)
+        by_links += np.swapaxes(J_i, -1, -2) @ now.G[..., i, :, :] @ J_i
+    assert_same(M, by_links, 1e-13)
+
+
+def test_the_gravity_torque_is_mujocos_bias_at_rest(arm):
+    model, now = arm
+    gravity = dynamics.gravity_torque(now.J, now.masses, now.coms_world, G_EARTH)
+    assert_same(gravity, verify.mujoco_bias(model, now.q, np.zeros(7)), 1e-12)
+    at_rest = dynamics.bias_torque(now.J, now.G, np.zeros(7), G_EARTH)
+    assert_same(gravity, at_rest, 1e-12)
+
+
+def test_the_bias_torque_is_mujocos(arm):
+    model, now = arm
+    bias = dynamics.bias_torque(now.J, now.G, now.qd, G_EARTH)
+    assert_same(bias, verify.mujoco_bias(model, now.q, now.qd), 1e-12)
+
+
+def test_inverse_dynamics_with_armature_and_damping_is_mj_inverse(arm):
+    model, now = arm
+    tau = dynamics.inverse_dynamics(now.J, now.G, now.qd, now.qdd, G_EARTH)
+    tau += model.dof_armature * now.qdd + model.dof_damping * now.qd
+    truth = verify.mujoco_inverse_dynamics(model, now.q, now.qd, now.qdd)
+    assert_same(tau, truth, 1e-12)
+
+
+def test_inverse_dynamics_is_the_mass_matrix_and_the_bias(arm):
+    _, now = arm
+    tau = dynamics.inverse_dynamics(now.J, now.G, now.qd, now.qdd, G_EARTH)
+    M = dynamics.mass_matrix(now.J, now.G, 0.0)
+    bias = dynamics.bias_torque(now.J, now.G, now.qd, G_EARTH)
+    assert_same(tau, (M @ now.qdd[..., None])[..., 0] + bias, 1e-12)
+
+
+def test_forward_dynamics_is_what_the_simulator_computes(arm):
+    model, now = arm
+    M = dynamics.mass_matrix(now.J, now.G, 0.1)
+    bias = dynamics.bias_torque(now.J, now.G, now.qd, G_EARTH)
+    tau = np.random.default_rng(5).uniform(*model.actuator_ctrlrange.T, (N, 7))
+    qdd = dynamics.forward_dynamics(M, bias, 1.0, now.qd, tau)
+    truth = verify.mujoco_acceleration(model, now.q, now.qd, tau)
+    assert_same(qdd, truth, 1e-13 * np.abs(truth).max())
+
+
+def test_one_step_of_the_simulator_can_be_predicted(arm):
+    """implicitfast: the damping acts at the end of the step."""
+    model, now = arm
+    tau = np.random.default_rng(6).uniform(*model.actuator_ctrlrange.T, (N, 7))
+    h = model.opt.timestep
+    M = dynamics.mass_matrix(now.J, now.G, 0.1) + h * np.diag(model.dof_damping)
+    bias = dynamics.bias_torque(now.J, now.G, now.qd, G_EARTH)
+    after = now.qd + h * dynamics.forward_dynamics(M, bias, 1.0, now.qd, tau)
+    assert_same(after, verify.mujoco_step(model, now.q, now.qd, tau), 1e-13)
+
+
+def test_the_energy_changes_by_the_power_of_what_drives_the_arm(arm):
+    """d/dt of (kinetic + potential) = qd . tau, by central differences along qd."""
+    model, now = arm
+    dt = 1e-6
+
+    def total(sign):
+        later = terms(model, now.q + sign * dt * now.qd)
+        M = dynamics.mass_matrix(later.J, later.G, 0.1)
+        qd = now.qd + sign * dt * now.qdd
+        both = dynamics.energy(M, qd, later.masses, later.coms_world, G_EARTH)
+        return both.sum(axis=-1)
+
+    tau = dynamics.inverse_dynamics(now.J, now.G, now.qd, now.qdd, G_EARTH)
+    tau += 0.1 * now.qdd
+    power = (now.qd * tau).sum(axis=-1)
+    assert_same((total(+1) - total(-1)) / (2 * dt), power, 1e-6)
+
+
+def test_pinocchio_agrees(either_panda):
+    """Its answers, kept by make oracle; it takes the armature into M and into tau."""
+    answer = json.loads((DATA / "dynamics_oracle.json").read_text())["panda_nohand"]
+    q, qd, qdd = (np.array(answer[name]) for name in ("q", "qd", "qdd"))
+    now = terms(either_panda, q)
+    # MuJoCo 3 reproduces the file's inertias, which Pinocchio reads, to 5e-7.
+    tol = 1e-4 if mujoco.__version__.startswith("3.") else 1e-12
+    M = dynamics.mass_matrix(now.J, now.G, either_panda.dof_armature)
+    assert_same(M, np.array(answer["crba"]), tol)
+    bias = dynamics.bias_torque(now.J, now.G, qd, G_EARTH)
+    assert_same(bias, np.array(answer["bias"]), tol)
+    tau = dynamics.inverse_dynamics(now.J, now.G, qd, qdd, G_EARTH) + 0.1 * qdd
+    assert_same(tau, np.array(answer["rnea"]), tol)
+
+
+# Worked cases that fit on paper.
+
+
+def test_a_point_mass_away_from_the_origin():
+    G = dynamics.spatial_inertia(2.0, [0.0, 0.0, 1.0], np.zeros((3, 3)))
+    assert_same(np.diag(G), [2.0, 2.0, 0.0, 2.0, 2.0, 2.0], 0.0)
+    assert_same(G[:3, 3:], [[0, -2, 0], [2, 0, 0], [0, 0, 0]], 0.0)
+    assert_same(G, G.T, 0.0)
+
+
+def test_inertias_at_identity_poses_are_the_links_own(either_panda):
+    masses, coms, inertias = panda.inertias(either_panda)
+    G = dynamics.link_inertias(
+        np.broadcast_to(np.eye(4), (7, 4, 4)), masses, coms, inertias
+    )
+    assert_same(G, dynamics.spatial_inertia(masses, coms, inertias), 0.0)
+
+
+def pendulum():
+    """Return J, G, mass and centre of mass of 1 kg at (1, 0, 0) on a hinge about +y."""
+    J = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]]).T
+    com = np.array([[1.0, 0.0, 0.0]])
+    G = dynamics.spatial_inertia([1.0], com, np.zeros((1, 3, 3)))
+    return J, G, np.array([1.0]), com
+
+
+def test_a_pendulum_is_held_against_its_weight():
+    J, G, mass, com = pendulum()
+    assert_same(dynamics.gravity_torque(J, mass, com, G_EARTH), [-9.81], 1e-15)
+    tau = dynamics.inverse_dynamics(J, G, [0.0], [1.0], G_EARTH)
+    assert_same(tau, [-8.81], 1e-14)
+    assert_same(dynamics.mass_matrix(J, G, 0.0), [[1.0]], 0.0)
+
+
+def test_a_turning_pendulum_needs_no_torque_to_keep_its_speed():
+    J, G, _, _ = pendulum()
+    assert_same(dynamics.bias_torque(J, G, [3.0], np.zeros(3)), [0.0], 1e-15)
+
+
+def test_one_hinge_feels_its_load_and_its_armature():
+    J = np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]).T
+    G = dynamics.spatial_inertia([2.0], [[1.0, 0.0, 0.0]], np.zeros((1, 3, 3)))
+    assert_same(dynamics.mass_matrix(J, G, 0.25), [[2.25]], 0.0)
+
+
+def test_the_torque_of_the_bias_gives_no_acceleration():
+    M, bias = np.diag([2.0, 3.0]), np.array([1.0, -4.0])
+    assert_same(dynamics.forward_dynamics(M, bias, 1.0, np.zeros(2), bias), [0, 0], 0.0)
+    qdd = dynamics.forward_dynamics(M, bias, 0.5, [2.0, 0.0], bias + np.full(2, 3.0))
+    assert_same(qdd, [1.0, 1.0], 1e-15)
+
+
+def test_the_energy_of_one_hinge():
+    both = dynamics.energy([[2.0]], [3.0], [1.0], [[0.0, 0.0, 2.0]], G_EARTH)
+    assert_same(both, [9.0, 19.62], 1e-14)
+
+
+def test_two_links_in_a_plane_as_the_textbook_writes_them():
+    """Modern Robotics, section 8.1.1: the 2R arm with point masses, eqs. 8.9 to 8.11.
+
+    The plane is x-z here: gravity pulls along -z, both hinges turn about -y.
+    """
+    l1, l2, m1, m2, g = 0.7, 0.4, 2.0, 3.0, 9.81
+    t1, t2, w1, w2, a1, a2 = 0.3, -1.1, 0.8, -1.7, 2.5, 0.9
+    elbow = np.array([l1 * np.cos(t1), 0.0, l1 * np.sin(t1)])
+    tip = elbow + np.array([l2 * np.cos(t1 + t2), 0.0, l2 * np.sin(t1 + t2)])
+    J = screws.screw_axis([0.0, -1.0, 0.0], np.array([np.zeros(3), elbow])).T
+    G = dynamics.spatial_inertia([m1, m2], [elbow, tip], np.zeros((2, 3, 3)))
+    c, s = np.cos(t2), np.sin(t2)
+    M12 = m2 * (l1 * l2 * c + l2**2)
+    M11 = m1 * l1**2 + m2 * (l1**2 + 2 * l1 * l2 * c + l2**2)
+    M = np.array([[M11, M12], [M12, m2 * l2**2]])
+    coriolis = m2 * l1 * l2 * s * np.array([-(2 * w1 * w2 + w2**2), w1**2])
+    far = m2 * l2 * g * np.cos(t1 + t2)
+    gravity = np.array([(m1 + m2) * l1 * g * np.cos(t1) + far, far])
+    masses, coms = np.array([m1, m2]), np.array([elbow, tip])
+    assert_same(dynamics.mass_matrix(J, G, 0.0), M, 1e-14)
+    assert_same(dynamics.gravity_torque(J, masses, coms, G_EARTH), gravity, 1e-13)
+    tau = dynamics.inverse_dynamics(J, G, [w1, w2], [a1, a2], G_EARTH)
+    assert_same(tau, M @ [a1, a2] + coriolis + gravity, 1e-13)
+
+
+# Algebra.
+
+
+@given(vectors, twists, st.floats(0.1, 10.0))
+def test_a_spatial_inertia_gives_the_kinetic_energy(c, V, m):
+    """m v_c^2 / 2 + omega I omega / 2, with v_c the velocity of the centre of mass."""
+    I = np.diag([0.2, 0.3, 0.4])  # noqa: E741
+    omega, v_c = V[:3], V[3:] + np.cross(V[:3], c)
+    energy = 0.5 * m * v_c @ v_c + 0.5 * omega @ I @ omega
+    G = dynamics.spatial_inertia(m, c, I)
+    assert abs(0.5 * V @ G @ V - energy) <= 1e-12 * max(1.0, np.abs(G).max())
+
+
+@given(vectors, st.floats(0.1, 10.0))
+def test_seen_from_another_place_it_is_the_same_inertia(p, m):
+    """G_world = Ad(T^-1)^T G_body Ad(T^-1) (Modern Robotics, section 8.2.2)."""
+    I, c = np.diag([0.2, 0.3, 0.4]), np.array([0.1, -0.2, 0.3])  # noqa: E741
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = screws.exp_rotation([0.6, 0.0, 0.8], 0.7), p
+    there = dynamics.link_inertias(T[None], [m], c[None], I[None])[0]
+    Ad = np.linalg.inv(screws.adjoint(T))
+    here = dynamics.spatial_inertia(m, c, I)
+    assert_same(there, Ad.T @ here @ Ad, 1e-12 * max(1.0, np.abs(there).max()))
+
+
+def test_a_batch_is_its_configurations_one_by_one(either_panda):
+    now = moving(either_panda, n=6)
+    J, G = now.J.reshape(2, 3, 6, 7), now.G.reshape(2, 3, 7, 6, 6)
+    qd, qdd = now.qd.reshape(2, 3, 7), now.qdd.reshape(2, 3, 7)
+    coms = now.coms_world.reshape(2, 3, 7, 3)
+    M = dynamics.mass_matrix(J, G, 0.1)
+    bias = dynamics.bias_torque(J, G, qd, G_EARTH)
+    together = (
+        M,
+        bias,
+        dynamics.gravity_torque(J, now.masses, coms, G_EARTH),
+        dynamics.inverse_dynamics(J, G, qd, qdd, G_EARTH),
+        dynamics.forward_dynamics(M, bias, 1.0, qd, qdd),
+        dynamics.energy(M, qd, now.masses, coms, G_EARTH),
+    )
+    one = dynamics.mass_matrix(J[1, 2], G[1, 2], 0.1)
+    alone = (
+        one,
+        (slow := dynamics.bias_torque(J[1, 2], G[1, 2], qd[1, 2], G_EARTH)),
+        dynamics.gravity_torque(J[1, 2], now.masses, coms[1, 2], G_EARTH),
+        dynamics.inverse_dynamics(J[1, 2], G[1, 2], qd[1, 2], qdd[1, 2], G_EARTH),
+        dynamics.forward_dynamics(one, slow, 1.0, qd[1, 2], qdd[1, 2]),
+        dynamics.energy(one, qd[1, 2], now.masses, coms[1, 2], G_EARTH),
+    )
+    for many, single in zip(together, alone, strict=True):
+        assert_same(many[1, 2], single, 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: dynamics.mass_matrix(np.eye(7), np.ones((7, 6, 6)), 0.1), "J has"),
+        (lambda: dynamics.mass_matrix(np.ones((6, 7)), np.eye(6), 0.1), "G has shape"),
+        (lambda: dynamics.mass_matrix(3.0, np.eye(6), 0.1), "J has shape"),
+        (lambda: dynamics.spatial_inertia(1.0, [0, 0], np.eye(3)), "has shape"),
+        (lambda: dynamics.spatial_inertia(np.nan, [0, 0, 0], np.eye(3)), "not finite"),
+        (lambda: dynamics.bias_torque(*pendulum()[:2], [0.0, 0.0], G_EARTH), "qd has"),
+        (lambda: dynamics.bias_torque(*pendulum()[:2], [0.0], -9.81), "expected a vec"),
+    ],
+)  # fmt: skip
+def test_a_wrong_argument_is_named_with_what_was_expected(call, words):
+    with pytest.raises(ValueError, match=words):
+        call()

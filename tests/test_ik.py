@@ -1,0 +1,148 @@
+"""Inverse kinematics is judged by where the arm is, the limits and the promises."""
+
+import numpy as np
+import pytest
+from compare import assert_same
+from test_screws import PANDA, arm
+
+from robo47 import ik, jacobian, panda, screws, se3, verify
+
+READY = panda.READY_Q
+
+
+@pytest.fixture
+def robot(twin):
+    model = panda.load("panda_nohand")
+    return (*arm(model), model.jnt_range.copy(), model)
+
+
+def test_a_thousand_random_targets_are_reached_within_the_limits(robot):
+    S, M, limits, model = robot
+    wanted = verify.random_q(model, 1000, seed=47)
+    frame = panda.END_FRAME["panda_nohand"]
+    goals = verify.mujoco_poses(model, wanted)[frame]
+    q = jacobian.solve_ik(S, M, goals, READY, limits)
+    off = jacobian.pose_error(verify.mujoco_poses(model, q)[frame], goals)
+    assert np.linalg.norm(off, axis=1).max() < 1e-8
+    assert ((q >= limits[:, 0]) & (q <= limits[:, 1])).all()
+    assert jacobian.reached(S, M, goals, q).all()
+
+
+def test_a_start_that_is_the_answer_comes_back_unchanged(robot):
+    S, M, limits, model = robot
+    q = verify.random_q(model, 20, seed=1)
+    same = jacobian.solve_ik(S, M, screws.fk_space(S, M, q), q, limits)
+    assert_same(same, q, 0.0)
+
+
+def test_one_target_alone_and_a_batch_of_any_shape(robot):
+    S, M, limits, model = robot
+    goals = screws.fk_space(S, M, verify.random_q(model, 6, seed=2)).reshape(2, 3, 4, 4)
+    q = jacobian.solve_ik(S, M, goals, READY, limits)
+    assert q.shape == (2, 3, 7)
+    assert jacobian.reached(S, M, goals, q).shape == (2, 3)
+    one = jacobian.solve_ik(S, M, goals[1, 2], READY, limits)
+    assert one.shape == (7,)
+    assert jacobian.reached(S, M, goals[1, 2], one)
+    starts = np.stack([READY, np.zeros(7)])
+    from_both = jacobian.solve_ik(S, M, goals[1, 2], starts, limits)
+    assert from_both.shape == (2, 7)
+    assert jacobian.reached(S, M, goals[1, 2], from_both).all()
+    assert jacobian.solve_ik(S, M, np.empty((0, 4, 4)), READY, limits).shape == (0, 7)
+
+
+def test_more_targets_than_a_chunk_have_no_seam(robot, monkeypatch):
+    S, M, limits, model = robot
+    goals = screws.fk_space(S, M, verify.random_q(model, 15, seed=3))
+    monkeypatch.setattr(ik, "CHUNK", 7)
+    q = jacobian.solve_ik(S, M, goals, READY, limits)
+    assert jacobian.reached(S, M, goals, q).all()
+
+
+def test_the_same_call_gives_the_same_answer(robot):
+    S, M, limits, model = robot
+    goals = screws.fk_space(S, M, verify.random_q(model, 30, seed=4))
+    first, second = (jacobian.solve_ik(S, M, goals, READY, limits) for _ in range(2))
+    assert_same(first, second, 0.0)
+
+
+def test_an_unreachable_target_gets_the_best_that_was_found_and_is_told_apart(robot):
+    S, M, limits, model = robot
+    near = screws.fk_space(S, M, verify.random_q(model, 1, seed=5)[0])
+    far = se3.make_T(near[:3, :3], [3.0, 0.0, 0.5])
+    q = jacobian.solve_ik(S, M, [near, far], READY, limits)
+    assert jacobian.reached(S, M, [near, far], q).tolist() == [True, False]
+    assert ((q >= limits[:, 0]) & (q <= limits[:, 1])).all()
+    off = jacobian.pose_error(screws.fk_space(S, M, q[1]), far)
+    others = screws.fk_space(S, M, verify.random_q(model, 3000, seed=6))
+    theirs = np.linalg.norm(jacobian.pose_error(others, far), axis=-1)
+    assert np.linalg.norm(off) < theirs.min()
+
+
+@pytest.mark.parametrize("axis", np.eye(3))
+def test_a_target_that_is_exactly_half_a_turn_away_is_no_answer_yet(robot, axis):
+    S, M, limits, _ = robot
+    here = screws.fk_space(S, M, READY)
+    half = np.eye(4)
+    half[:3, :3] = 2.0 * np.outer(axis, axis) - np.eye(3)
+    goal = here.copy()
+    goal[:3, :3] = half[:3, :3] @ here[:3, :3]
+    q = jacobian.solve_ik(S, M, goal, READY, limits)
+    assert not np.array_equal(q, READY)
+    off = jacobian.pose_error(screws.fk_space(S, M, q), goal)
+    assert jacobian.reached(S, M, goal, q) == (np.linalg.norm(off) < 1e-8)
+
+
+def test_tight_limits_are_kept_where_a_solution_still_exists(robot):
+    S, M, limits, _ = robot
+    tight = np.stack([np.maximum(READY - 0.3, limits[:, 0]), READY + 0.3], axis=1)
+    wanted = np.random.default_rng(47).uniform(*tight.T, (100, 7))
+    goals = screws.fk_space(S, M, wanted)
+    q = jacobian.solve_ik(S, M, goals, READY, tight)
+    assert jacobian.reached(S, M, goals, q).all()
+    assert ((q >= tight[:, 0]) & (q <= tight[:, 1])).all()
+
+
+def test_an_arm_with_a_slide_is_solved_too():
+    S = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1.0], [0, 1, 0, -1, 0, 0]]
+    S += [[0, 0, 1, 0, -0.5, 0], [0, 1, 0, -1, 0, 0.8], [1, 0, 0, 0, 1, 0]]
+    M = se3.make_T(np.eye(3), [1.0, 0.0, 1.0])
+    limits = np.tile([-1.0, 1.0], (6, 1))
+    goals = screws.fk_space(S, M, np.random.default_rng(47).uniform(-0.9, 0.9, (50, 6)))
+    q = jacobian.solve_ik(S, M, goals, np.full(6, 0.1), limits)
+    assert jacobian.reached(S, M, goals, q).all()
+
+
+def test_a_start_outside_the_limits_is_brought_inside(robot):
+    S, M, limits, _ = robot  # joint 4 cannot be 0
+    goal = screws.fk_space(S, M, READY)
+    q = jacobian.solve_ik(S, M, goal, np.zeros(7), limits)
+    assert jacobian.reached(S, M, goal, q)
+
+
+BAD = np.tile([-1.0, 1.0], (7, 1))
+BAD[3] = [1.0, -1.0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"limits": BAD}, r"limits\[3\] is \[1.0, -1.0\]; expected low <= high"),
+        ({"limits": BAD[:6]}, r"limits has shape \(6, 2\); expected"),
+        ({"q_start": [0] * 6}, r"q_start has shape \(6,\)"),
+        ({"T_goal": np.ones((4, 4))}, "T_goal is not a pose"),
+        ({"screws": [PANDA]}, "one arm, many targets"),
+        ({"M": np.full((4, 4), np.nan)}, "M holds a number that is not finite"),
+    ],
+)
+def test_what_does_not_fit_is_named(change, words):
+    good = {
+        "screws": PANDA,
+        "M": np.eye(4),
+        "T_goal": np.eye(4),
+        "q_start": READY,
+        "limits": np.tile([-1.0, 1.0], (7, 1)),
+    }
+    with pytest.raises(ValueError, match=words) as caught:
+        jacobian.solve_ik(**{**good, **change})
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,284 @@
+"""Jacobians against MuJoCo, finite differences and the textbook; logs against SciPy."""
+
+import hypothesis.extra.numpy as hnp
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import example, given
+from hypothesis import strategies as st
+from scipy.linalg import null_space
+from scipy.spatial.transform import Rotation
+from test_screws import (
+    BOOK_BODY,
+    BOOK_M,
+    BOOK_Q,
+    BOOK_SPACE,
+    PANDA,
+    any_screws,
+    arm,
+    directions,
+    poses,
+    vectors,
+)
+
+from robo47 import jacobian, panda, screws, se3, verify
+
+READY = panda.READY_Q
+matrices = hnp.arrays(np.float64, (6, 7), elements=st.floats(-2, 2))
+steps = hnp.arrays(np.float64, 7, elements=st.floats(-2, 2))
+
+
+def mujoco_jacobian(model, q, frame):
+    """Return the frame's Jacobian as MuJoCo says it, angular rows first."""
+    data = mujoco.MjData(model)
+    angular, linear = np.zeros((2, 3, model.nv))
+    data.qpos[:] = q
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)  # mj_jac reads cdof, which this fills
+    kind, _, name = frame.partition(":")
+    if kind == "site":
+        mujoco.mj_jacSite(model, data, linear, angular, model.site(name).id)
+    else:
+        mujoco.mj_jacBody(model, data, linear, angular, model.body(name).id)
+    return np.vstack([angular, linear])
+
+
+# --- the three Jacobians ---
+
+
+@pytest.mark.parametrize("entry", ["panda_nohand", "panda"])
+def test_the_site_jacobian_is_mujocos(entry):
+    model = panda.load(entry)
+    S, M = arm(model)
+    q = verify.random_q(model, 300, seed=47)
+    p = screws.fk_space(S, M, q[:, :7])[:, :3, 3]
+    ours = jacobian.site_jacobian(jacobian.space_jacobian(S, q[:, :7]), p)
+    for row, J in zip(q, ours, strict=True):
+        truth = mujoco_jacobian(model, row, panda.END_FRAME[entry])
+        assert_same(J, truth[:, :7], 1e-14)
+
+
+def test_the_site_jacobian_is_how_the_pose_starts_to_change(either_panda):
+    S, M = arm(either_panda)
+    q, h = verify.random_q(either_panda, 20, seed=1), 1e-6
+    T = screws.fk_space(S, M, q)
+    J = jacobian.site_jacobian(jacobian.space_jacobian(S, q), T[:, :3, 3])
+    for i in range(7):
+        change = h * np.eye(7)[i]
+        before, after = (screws.fk_space(S, M, q + way * change) for way in (-1, 1))
+        rate = jacobian.pose_error(before, after) / (2 * h)
+        assert_same(J[:, :, i], rate, 1e-8)
+
+
+@given(st.lists(any_screws(), min_size=1, max_size=5), poses(), st.data())
+def test_the_three_jacobians_of_any_arm_are_one_motion_seen_three_ways(S, M, data):
+    S = np.array(S)
+    q = data.draw(hnp.arrays(np.float64, len(S), elements=st.floats(-4, 4)))
+    T = screws.fk_space(S, M, q)
+    J_space = jacobian.space_jacobian(S, q)
+    formula, so_far = [], np.eye(4)
+    for row, angle in zip(S, q, strict=True):
+        formula.append(screws.adjoint(so_far) @ row)
+        so_far = so_far @ screws.exp_screw(row, angle)
+    assert_same(J_space, np.transpose(formula), 1e-10)
+    J_body = jacobian.body_jacobian(J_space, T)
+    assert_same(screws.adjoint(T) @ J_body, J_space, 1e-9)
+    J_site = jacobian.site_jacobian(J_space, T[:3, 3])
+    turned = np.kron(np.eye(2), T[:3, :3])  # R on both halves
+    assert_same(turned @ J_body, J_site, 1e-9)
+
+
+@given(vectors, vectors)
+def test_moving_the_point_twice_is_moving_it_by_the_sum(a, b):
+    J = jacobian.space_jacobian(PANDA, READY)
+    once = jacobian.site_jacobian(J, a + b)
+    assert_same(jacobian.site_jacobian(jacobian.site_jacobian(J, a), b), once, 1e-13)
+
+
+def test_the_textbooks_examples_of_both_jacobians():
+    # Modern Robotics' code library, the examples of JacobianSpace and JacobianBody.
+    space = [
+        [0, 0, 1, 0, 0.2, 0.2],
+        [1, 0, 0, 2, 0, 3],
+        [0, 1, 0, 0, 2, 1],
+        [1, 0, 0, 0.2, 0.3, 0.4],
+    ]
+    q = [0.2, 1.1, 0.1, 1.2]
+    book = [
+        [0, 0.98006658, -0.09011564, 0.95749426],
+        [0, 0.19866933, 0.4445544, 0.28487557],
+        [1, 0, 0.89120736, -0.04528405],
+        [0, 1.95218638, -2.21635216, -0.51161537],
+        [0.2, 0.43654132, -2.43712573, 2.77535713],
+        [0.2, 2.96026613, 3.23573065, 2.22512443],
+    ]
+    assert_same(jacobian.space_jacobian(space, q), book, 1e-8)
+    # The body Jacobian of the three-joint arm: its last column is the last screw.
+    T = screws.fk_body(BOOK_BODY, BOOK_M, BOOK_Q)
+    J = jacobian.body_jacobian(jacobian.space_jacobian(BOOK_SPACE, BOOK_Q), T)
+    assert_same(J[:, -1], BOOK_BODY[-1], 1e-14)
+
+
+def test_the_worked_cases_of_the_lesson():
+    assert_same(jacobian.space_jacobian(PANDA, np.zeros(7)), np.transpose(PANDA), 1e-16)
+    spin = np.reshape([0, 0, 1, 0, 0, 0], (6, 1))
+    moved = jacobian.site_jacobian(spin, [1, 0, 0])
+    assert_same(moved[:, 0], [0, 0, 1, 0, 1, 0], 0.0)
+    assert_same(jacobian.log_rotation(se3.Rz(np.pi / 2)), [0, 0, np.pi / 2], 1e-15)
+    up = se3.make_T(np.eye(3), [0, 0, 0.1])
+    assert_same(jacobian.pose_error(np.eye(4), up), [0, 0, 0, 0, 0, 0.1], 0.0)
+    e = np.arange(6.0)
+    assert_same(jacobian.dls_step(np.eye(6), e, 1.0), e / 2, 1e-15)
+    assert_same(jacobian.manipulability(np.diag([1.0, 2.0, 3.0])), 6.0, 1e-15)
+    assert_same(jacobian.null_step([[1.0, 0.0]], [1.0, 1.0]), [0, 1], 1e-15)
+
+
+def test_the_zero_pose_is_singular_and_ready_is_not():
+    at_zero, at_ready = jacobian.space_jacobian(PANDA, [np.zeros(7), READY])
+    assert jacobian.manipulability(at_zero) < 1e-16
+    assert jacobian.manipulability(at_ready) > 0.05
+    assert jacobian.manipulability(np.ones((3, 2))) == 0.0
+
+
+# --- the logarithm ---
+
+around_pi = st.one_of(
+    st.sampled_from([0.0, 1e-16, 1e-15, 1e-12, 1e-9, 1e-8, 1e-7, 1e-4, 0.1]),
+    st.floats(0.0, 1e-6),
+).map(lambda below: np.pi - below)
+all_angles = st.one_of(
+    st.floats(0, np.pi),
+    around_pi,
+    st.sampled_from([0.0, 1e-300, 1e-160, 1e-16, 1e-9, 1e-7]),
+)
+
+
+@given(directions, all_angles)
+@example(np.array([0.0, 0.0, 1.0]), np.pi)
+@example(np.array([0.6, 0.0, -0.8]), np.pi - 1e-12)
+def test_the_log_gives_back_axis_and_angle_from_0_to_pi(axis, theta):
+    found = jacobian.log_rotation(se3.axis_angle(axis, theta))
+    if np.pi - theta < 1e-15:  # both signs are the same rotation
+        found = found * np.sign(found @ axis)
+    assert_same(found, axis * theta, 4e-15)
+
+
+@given(directions, all_angles)
+def test_the_log_agrees_with_scipy(axis, theta):
+    R = se3.axis_angle(axis, theta)
+    ours, truth = jacobian.log_rotation(R), Rotation.from_matrix(R).as_rotvec()
+    if np.pi - theta < 1e-15:
+        truth = truth * np.sign(ours @ truth)
+    assert_same(ours, truth, 4e-15)
+
+
+@given(hnp.arrays(np.float64, 3, elements=st.floats(-1.8, 1.8)))
+def test_the_exponential_of_the_log_is_the_rotation(w):
+    R = Rotation.from_rotvec(w).as_matrix()
+    back = jacobian.log_rotation(R)
+    assert_same(Rotation.from_rotvec(back).as_matrix(), R, 4e-15)
+
+
+@pytest.mark.parametrize("axis", [[1, 0, 0], [0, -1, 0], [0, 0, -1], [-0.8, 0, 0.6]])
+def test_at_exactly_pi_the_largest_entry_is_positive(axis):
+    R = 2.0 * np.outer(axis, axis) - np.eye(3)  # half a turn, without rounding of pi
+    found = jacobian.log_rotation(R)
+    assert_same(found * np.sign(found @ axis), np.pi * np.array(axis), 1e-15)
+    assert found[np.argmax(np.abs(axis))] > 0
+
+
+@given(poses(), poses())
+def test_the_pose_error_leads_to_the_goal(T, T_goal):
+    e = jacobian.pose_error(T, T_goal)
+    assert_same(
+        Rotation.from_rotvec(e[:3]).as_matrix() @ T[:3, :3], T_goal[:3, :3], 1e-13
+    )
+    assert_same(T[:3, 3] + e[3:], T_goal[:3, 3], 1e-14)
+    metres, radians = se3.pose_error(T, T_goal)
+    assert_same(np.linalg.norm(e[3:]), metres, 1e-14)
+    assert_same(np.linalg.norm(e[:3]), radians, 1e-13)
+
+
+# --- steps ---
+
+
+@given(
+    matrices, hnp.arrays(np.float64, 6, elements=st.floats(-2, 2)), st.floats(0.01, 2)
+)
+def test_the_damped_step_is_least_squares_with_the_damping_as_more_rows(J, e, damping):
+    rows = np.vstack([J, damping * np.eye(7)])
+    truth = np.linalg.lstsq(rows, np.concatenate([e, np.zeros(7)]))[0]
+    assert_same(jacobian.dls_step(J, e, damping), truth, 1e-9)
+
+
+def test_without_damping_the_step_is_the_pseudo_inverses():
+    J, e = jacobian.space_jacobian(PANDA, READY), np.arange(6.0)
+    assert_same(jacobian.dls_step(J, e, 0.0), np.linalg.pinv(J) @ e, 1e-12)
+
+
+@given(matrices, steps)
+def test_the_hand_does_not_feel_the_null_step(J, dq):
+    part = jacobian.null_step(J, dq)
+    if np.linalg.svd(J, compute_uv=False).min() < 1e-3:
+        return
+    assert_same(J @ part, np.zeros(6), 1e-9)
+    assert_same(jacobian.null_step(J, part), part, 1e-9)
+    N = null_space(J)
+    assert_same(part, N @ N.T @ dq, 1e-9)
+
+
+def test_the_elbow_moves_at_ready_and_the_hand_stays():
+    J = jacobian.space_jacobian(PANDA, READY)
+    part = jacobian.null_step(J, np.eye(7)[2])
+    assert_same(np.abs(part / np.linalg.norm(part))[[1, 3, 5]], [0, 0, 0], 1e-12)
+    assert np.linalg.norm(part) > 0.3
+
+
+@given(matrices)
+def test_manipulability_is_the_root_of_the_determinant(J):
+    truth = np.sqrt(max(np.linalg.det(J @ J.T), 0.0))
+    assert_same(jacobian.manipulability(J), truth, 1e-5)
+
+
+# --- batches and mistakes ---
+
+
+def test_leading_dimensions_broadcast():
+    q = np.random.default_rng(47).uniform(-2, 2, (4, 300, 7))
+    J = jacobian.space_jacobian(PANDA, q)
+    assert J.shape == (4, 300, 6, 7)
+    assert_same(J[3, 299], jacobian.space_jacobian(PANDA, q[3, 299]), 1e-15)
+    stacked = jacobian.space_jacobian(np.stack([PANDA, PANDA])[:, None], q[0])
+    assert_same(stacked[1], J[0], 1e-13)
+    T = screws.fk_space(PANDA, BOOK_M, q)
+    assert jacobian.body_jacobian(J, T).shape == J.shape
+    assert jacobian.site_jacobian(J, T[..., :3, 3]).shape == J.shape
+    e = jacobian.pose_error(T, T[0, 0])
+    assert e.shape == (4, 300, 6)
+    assert jacobian.dls_step(J, e, 0.1).shape == q.shape
+    assert jacobian.null_step(J, q).shape == q.shape
+    assert jacobian.manipulability(J).shape == (4, 300)
+    assert jacobian.space_jacobian(PANDA, np.empty((0, 7))).shape == (0, 6, 7)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: jacobian.space_jacobian(PANDA, [0] * 6), r"q has shape \(6,\)"),
+        (lambda: jacobian.site_jacobian(np.eye(5), [0] * 3), r"expected \(..., 6, n\)"),
+        (lambda: jacobian.log_rotation(2 * np.eye(3)), "R is not a rotation"),
+        (lambda: jacobian.pose_error(np.eye(4), np.ones((4, 4))), "T_goal is not a po"),
+        (lambda: jacobian.dls_step(np.eye(6), [0] * 5, 0.1), r"e has shape \(5,\)"),
+        (
+            lambda: jacobian.dls_step(np.ones((2, 3)), [1, 1], 0),
+            "J is singular and dam",
+        ),
+        (lambda: jacobian.null_step(np.eye(6), [np.nan] * 6), "dq holds a number that"),
+        (lambda: jacobian.manipulability([1, 2]), r"expected \(..., m, n\)"),
+    ],
+)
+def test_what_does_not_fit_is_named(call, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        call()
+    assert "\n" not in str(caught.value)
