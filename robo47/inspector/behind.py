@@ -73,6 +73,7 @@ def verdicts(day: Day) -> Sequence[TaskState]:
             result.task.title,
             result.verdict.status,
             result.verdict.message,
+            result.verdict.mistake,
         )
         for result in results
     ]

@@ -30,11 +30,14 @@ class Ghost:
         frames: short names of the frames along the arm, the base first, the end last.
         questions: `questions(model, q)` returns the function's arguments for each of
             the frames, in that order; a `Model(0)` among them is the model.
+        whole: `whole(model, q)` returns the arguments for the last frame alone, asked
+            where the function answers none of the questions; None for never.
     """
 
     function: str
     frames: tuple[str, ...]
     questions: Callable[[mujoco.MjModel, Array], Sequence[Arguments]]
+    whole: Callable[[mujoco.MjModel, Array], Arguments] | None = None
 
 
 @dataclass(frozen=True)
@@ -92,11 +95,12 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
         if bent := [name for name in wrong if not is_rigid(seen.poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
         return Difference(f"{says}. {seen.problem}".strip(), False, drawn)
-    if seen.problem or not apart:
+    if ghost.frames[-1] not in apart:
         return Difference(seen.problem or f"{whose} gave no pose", False, {})
     worst = max(apart.values())
-    says = f"{whose} agrees with MuJoCo at every frame: largest difference {worst:.1e}"
-    return Difference(says, True, {})
+    where = "at every frame" if len(apart) == len(ghost.frames) else "here"
+    says = f"{whose} agrees with MuJoCo {where}: largest difference {worst:.1e}"
+    return Difference(f"{says}. {seen.problem}".rstrip(". "), True, {})
 
 
 def _how_far(T: Array, truth: Array) -> str:

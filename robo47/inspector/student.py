@@ -163,20 +163,28 @@ class Student(threading.Thread):
             return None
         if self._asker is None:
             return Seen(q, problem=self._problem)
-        start = time.perf_counter()
-        questions = [
-            Question("ghost", self.ghost.function, tuple(args))
-            for args in self.ghost.questions(self.model, q)
-        ]
-        replies = self._ask(questions)
+        start, ghost = time.perf_counter(), self.ghost
+        poses, problem = self._poses(ghost.frames, ghost.questions(self.model, q))
+        if not poses and ghost.whole is not None and self._asker is not None:
+            end = ghost.frames[-1:]
+            poses, why = self._poses(end, [ghost.whole(self.model, q)])
+            note = f"Only {end[0]} is drawn: {problem}"
+            problem = why or note
+        return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
+
+    def _poses(
+        self, frames: Sequence[str], asked: Sequence[tuple[Any, ...]]
+    ) -> tuple[dict[str, Array], str]:
+        """Return the poses that the student's function gives, and the first problem."""
+        function = self.ghost.function
+        questions = [Question("ghost", function, tuple(args)) for args in asked]
         poses, problem = {}, ""
-        for name, reply in zip(self.ghost.frames, replies, strict=True):
-            said = self.source.describe(self.ghost.function, reply)
-            if not said and not (said := no_pose(self.ghost.function, reply.value)):
+        for name, reply in zip(frames, self._ask(questions), strict=True):
+            said = self.source.describe(function, reply)
+            if not said and not (said := no_pose(function, reply.value)):
                 poses[name] = np.array(reply.value, dtype=np.float64)
             problem = problem or said
-        elapsed = 1000 * (time.perf_counter() - start)
-        return Seen(q, poses, problem, elapsed)
+        return poses, problem
 
     def _one(self, question: Question) -> Reply:
         if self._asker is None:

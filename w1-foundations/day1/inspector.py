@@ -27,6 +27,7 @@ GHOST = Ghost(
     "compose_fk",
     frames=(*(f"link{i}" for i in range(8)), END),
     questions=ask_compose_fk,
+    whole=lambda model, q: (Model(0), q),  # a chain of one's own may take no path
 )
 
 
