@@ -119,7 +119,7 @@ class ArmScene:
         }
         Triad(server, "/frames/world", "world", "top-right", letters=True)
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
-        self.yours = Triad(server, "/yours_end", "", letters=True)
+        self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
         self.way = _lines(server, "/way", HIGHLIGHT)
         self.gap = _lines(server, "/gap", GHOST_COLOUR)
