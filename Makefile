@@ -35,7 +35,7 @@ week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one
 	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
 
 view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --screenshot
-	@$(PY) scripts/view_panda.py $(ARGS)
+	@$(PY) scripts/view_panda.py $(DAY) $(ARGS)
 
 start: .venv/.ready-core ## write your copy of a day's lab; RESET=1.4 empties a task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
@@ -63,7 +63,7 @@ soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
 report: .venv/.ready-report ## metrics/report.html and report.png from the log
-	@$(PY) scripts/report_metrics.py $(ARGS)
+	@$(PY) scripts/report_metrics.py $(ON_DAY) $(ARGS)
 
 test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
 	@$(PY) scripts/test_matrix.py $(ARGS)

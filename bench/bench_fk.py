@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from bench.timing import take_turns
-from robo47 import kinematics, panda, se3, verify
+from robo47 import kinematics, panda, screws, se3, verify
 from robo47.checks import Array
 
 N = 100_000
@@ -118,17 +118,18 @@ def toolbox_batch() -> Rival:
 def textbook_loop() -> Rival:
     """FKinSpace of Modern Robotics: the product of exponentials, in a Python loop."""
     mr = importlib.import_module("modern_robotics")
-    chain = kinematics.chain_to(panda.load("panda_nohand"), FRAME)
-    M = kinematics.fk(chain, np.zeros(7))
-    screws, T = [], np.eye(4)
-    for link in chain.links:
-        T = T @ link.T_parent_link
-        for joint in link.joints:
-            w, p = T[:3, :3] @ joint.axis, T[:3, 3]
-            screws.append([*w, *-np.cross(w, p)])
-    S = np.array(screws).T
+    model = panda.load("panda_nohand")
+    M, S = panda.home_pose(model), panda.screws(model).T
     solve = lambda q: np.array([mr.FKinSpace(M, S, row) for row in q])  # noqa: E731
     return Rival(solve, solve, SLOW_N)
+
+
+def ours_by_screws() -> Rival:
+    """robo47.screws.fk_space, one call: the textbook's formula as a batch."""
+    model = panda.load("panda_nohand")
+    S, M = panda.screws(model), panda.home_pose(model)
+    fk = lambda q: screws.fk_space(S, M, q)  # noqa: E731
+    return Rival(fk, fk)
 
 
 def any_robot() -> Rival:
@@ -150,6 +151,7 @@ def tilted_panda() -> mujoco.MjModel:
 
 RIVALS: dict[str, Callable[[], Rival]] = {
     "robo47 fk": ours,
+    "robo47 fk_space, screws": ours_by_screws,
     "robo47 fk, any axes": any_robot,
     "MuJoCo mj_kinematics, loop": mujoco_loop,
     "Pinocchio, loop": lambda: pinocchio_loop(frame=False),

@@ -15,6 +15,8 @@ def render(results: dict[str, Any]) -> str:
     lines.append(", ".join(f"{name} {about[name]}" for name in tools if name in about))
     parts = {
         "fk": _fk,
+        "ik": _ik,
+        "dynamics": _dynamics,
         "lab": _lab,
         "growth": _growth,
         "metrics": _metrics,
@@ -43,6 +45,39 @@ def _fk(fk: dict[str, Any]) -> list[str]:
         )
     lines += [f"  left out: {name} ({why})" for name, why in fk["left_out"].items()]
     return lines
+
+
+def _ik(ik: dict[str, Any]) -> list[str]:
+    rows = ik["rows"]
+    ours = rows["robo47 solve_ik"]["us"]
+    lines = [
+        f"Inverse kinematics, {ik['n']:,} random targets, to 1e-8, one thread",
+        f"  {'':33}  {'us each':>7}  {'ours /':>6}  {'solved':>9}  {'within':>6}"
+        f"  {'steps':>5}",
+    ]
+    for name, row in sorted(rows.items(), key=lambda item: item[1]["us"]):
+        solved = f"{row['solved']}/{row['targets']}"
+        lines.append(
+            f"  {name:33}  {row['us']:7.0f}  {ours / row['us']:6.3f}  {solved:>9}"
+            f"  {row['within']:6}  {row['steps']:5.1f}"
+        )
+    return [*lines, *(f"  left out: {n} ({why})" for n, why in ik["left_out"].items())]
+
+
+def _dynamics(dynamics: dict[str, Any]) -> list[str]:
+    lines = [f"Dynamics of the Panda, {dynamics['n']:,} configurations, one thread"]
+    for question, rows in dynamics["questions"].items():
+        ours = rows["robo47 batch"]["us"]
+        lines.append(f"  {question:32}  {'us each':>8}  {'ours /':>6}  {'error':>7}")
+        lines += [
+            f"    {name:30}  {row['us']:8.3f}  {ours / row['us']:6.3f}"
+            f"  {row['error']:7.0e}"
+            for name, row in sorted(rows.items(), key=lambda item: item[1]["us"])
+        ]
+    lines.append("  one configuration at a time, us")
+    lines += [f"    {what:30}  {us:8.1f}" for what, us in dynamics["one"].items()]
+    left_out = dynamics["left_out"].items()
+    return lines + [f"  left out: {name} ({why})" for name, why in left_out]
 
 
 def _lab(lab: dict[str, Any]) -> list[str]:

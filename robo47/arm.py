@@ -12,6 +12,7 @@ the armature. Pure NumPy; `robo47.panda.arm(model)` makes one of a model.
 """
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -81,9 +82,10 @@ class Arm:
             ValueError: wrong shape or a non-finite number.
         """
         q = np.asarray(q, dtype=np.float64)
-        if q.shape != self.masses.shape or not np.isfinite(q).all():
-            checks.array(q, "q", self.masses.shape)
+        if q.shape != self.masses.shape:
             raise ValueError(f"q has shape {q.shape}; expected {self.masses.shape}")
+        if not math.isfinite(q.dot(q)):
+            checks.array(q, "q", q.shape)
         return ArmState(self, q)
 
     def tool(self, T_ee_tool: ArrayLike) -> "Arm":

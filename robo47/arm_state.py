@@ -107,6 +107,8 @@ class Constants:
 class ArmState:
     """An arm at one configuration. Each quantity is computed when first asked for.
 
+    The arrays are kept and handed out again: copy one before you write to it.
+
     Attributes:
         arm: whose configuration it is.
         q: the configuration, rad, (n,).

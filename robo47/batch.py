@@ -15,6 +15,7 @@ Units: metres and radians.
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -33,6 +34,7 @@ from robo47.moves import (
     Turn,
     combine,
 )
+from robo47.single import Single, single_of
 
 CHUNK = 2048  # 4 columns x 3 x 2048 float64 = 197 kB: stays within a core's L2 cache
 ROUNDING = 2e-15  # what products of unit quaternions leave in place of 0 and 1
@@ -58,6 +60,11 @@ class Plan:
     def __post_init__(self) -> None:
         """Measure every q from 0 until a joint says otherwise."""
         self.ref = np.zeros((self.nq, 1))
+
+    @cached_property
+    def single(self) -> Single | None:
+        """The same for one configuration at a time, where floats can do it."""
+        return single_of(self.steps, self.frames.values())
 
 
 class Cursor:
@@ -151,6 +158,8 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     Raises:
         ValueError: a non-finite number, or a quaternion of length 0.
     """
+    if qpos.size == plan.nq and (one := _one(plan, qpos)):
+        return one
     flat = qpos.reshape(math.prod(qpos.shape[:-1]), plan.nq)
     poses = {name: np.zeros((len(flat), 4, 4)) for name in plan.frames}
     for start in range(0, len(flat), CHUNK):
@@ -166,6 +175,17 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         for name, frame in plan.frames.items():
             _write(poses[name][part], nodes[frame.node], frame)
     return {name: T.reshape(*qpos.shape[:-1], 4, 4) for name, T in poses.items()}
+
+
+def _one(plan: Plan, qpos: Array) -> dict[str, Array] | None:
+    """Return the poses at one configuration, or None where the batch has to do it."""
+    q = qpos.ravel() - plan.ref[:, 0]
+    if plan.single is None or not np.isfinite(q).all():
+        return None
+    found = plan.single.poses(q.tolist())
+    if qpos.ndim > 1:
+        found = [T.reshape(*qpos.shape[:-1], 4, 4) for T in found]
+    return dict(zip(plan.frames, found, strict=True))
 
 
 def chunk_of(q: Array) -> Chunk:

@@ -27,12 +27,15 @@ def parser(about: str | None) -> argparse.ArgumentParser:
     """Return the parser of a script whose docstring is its help.
 
     Args:
-        about: the docstring; its lines are kept as they are.
+        about: the docstring; its indented lines are kept as they are.
     """
-    summary, _, usage = (about or "").partition("\n")
+    summary, *paragraphs = (about or "").strip().split("\n\n")
     return argparse.ArgumentParser(
-        description=summary,
-        epilog=usage.strip("\n"),
+        description=wrapped(" ".join(summary.split())),
+        epilog="\n\n".join(
+            text if "\n  " in "\n" + text else wrapped(" ".join(text.split()))
+            for text in paragraphs
+        ),
         formatter_class=functools.partial(
             argparse.RawDescriptionHelpFormatter, width=WIDTH - 1
         ),

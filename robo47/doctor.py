@@ -7,7 +7,6 @@ everything that can fail is tried in a process of its own.
 from __future__ import annotations
 
 import functools
-import json
 import os
 import platform
 import re
@@ -16,60 +15,24 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-ROOT = Path(__file__).resolve().parent.parent  # no robo47 import: it may be broken
+from robo47.probes import (
+    GL_PROBE,
+    LESSONS_PROBE,
+    MUJOCO_PROBE,
+    PYTHON_PROBE,
+    ROBOT_PROBE,
+    ROOT,
+    VERSIONS_PROBE,
+    probe,
+)
+
 VENV_PYTHON = (
     ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 )
 OLDEST = (3, 11)
 LEAST_FREE_GB = 1
-PROBE_SECONDS = 60
-
-PYTHON_PROBE = "import json, platform; print(json.dumps(platform.python_version()))"
-VERSIONS_PROBE = """
-import json
-from importlib import metadata
-found = {}
-for name in ("mujoco", "mujoco-core", "numpy"):
-    try:
-        found[name] = metadata.version(name)
-    except metadata.PackageNotFoundError:
-        pass
-print(json.dumps(found))
-"""
-MUJOCO_PROBE = """
-import json, mujoco
-mujoco.mj_forward(m := mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(m))
-print(json.dumps(mujoco.__version__))
-"""
-ROBOT_PROBE = """
-import json
-from robo47 import menagerie, panda
-from robo47.paths import menagerie_root
-found = panda.provenance()
-found["loads"] = panda.load("panda_nohand").nq
-folder = menagerie.panda_folder()
-if folder:
-    record = menagerie.read_provenance().get("files")
-    found["files"] = len(record or ())
-    found["changed"] = menagerie.changed_files(folder, record or {})[:3]
-    found["missing"] = menagerie.missing_files(folder)[:3]
-print(json.dumps(found))
-"""
-LESSONS_PROBE = """
-import json
-from robo47 import originals, week
-from robo47.paths import shown
-days = week.all_days()
-others = [shown(day.source) for day in days if not originals.is_kits(day)]
-print(json.dumps({"days": len(days), "others": others}))
-"""
-GL_PROBE = """
-import json
-from robo47.figures import probe_backends
-print(json.dumps(probe_backends()))
-"""
 
 
 class Line(NamedTuple):
@@ -79,34 +42,6 @@ class Line(NamedTuple):
     about: str
     found: str
     remedy: str = ""
-
-
-def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
-    """Run code that prints one JSON value; return it, or None and the last words.
-
-    MUJOCO_GL stops MuJoCo's import where it is wrong: only the look at OpenGL gets it.
-    """
-    kept = dict(os.environ)
-    if not gl:
-        kept.pop("MUJOCO_GL", None)
-    try:
-        done = subprocess.run(
-            [python, "-c", code],
-            cwd=str(ROOT),
-            env=kept,
-            capture_output=True,
-            timeout=PROBE_SECONDS,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return None, "no answer after {} s".format(PROBE_SECONDS)  # noqa: UP032
-    except OSError as error:
-        return None, str(error.strerror)
-    try:
-        return json.loads(done.stdout.decode("utf-8", "replace").splitlines()[-1]), ""
-    except (ValueError, IndexError):
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        return None, said[-1] if said else f"ended with code {done.returncode}"
 
 
 def kit_python() -> str:
@@ -126,11 +61,11 @@ def check_python(python: str) -> Line:
             "todo",
             "Python",
             found,
-            "The kit needs 3.11 or newer: install it, then make setup PYTHON=python3.13",
+            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
         )
     if not own:
         broken = VENV_PYTHON.exists()
-        remedy = ".venv does not start: make setup" if broken else "Set up: make setup"
+        remedy = ".venv does not start: make setup" if broken else "Set up: make day1"
         return Line("todo", "Python", found, remedy)
     return Line("good", "Python", found)
 

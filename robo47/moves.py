@@ -76,11 +76,17 @@ class Turn:
     sign: float
     adr: int
 
+    @property
+    def turned(self) -> tuple[int, int]:
+        """The axes that it turns: i towards j."""
+        one, two = (self.k + 1) % 3, (self.k + 2) % 3
+        # A turn about -k is a turn about k with the other two axes swapped.
+        return (one, two) if self.sign > 0 else (two, one)
+
     def __call__(self, at: Columns, chunk: Chunk) -> Columns:
         c, s = chunk.cos[self.adr], chunk.sin[self.adr]
         axes = list(at)
-        # A turn about -k is a turn about k with the other two axes swapped.
-        i, j = ((self.k + step) % 3 for step in ((1, 2) if self.sign > 0 else (2, 1)))
+        i, j = self.turned
         axes[i], axes[j] = c * at[i] + s * at[j], c * at[j] - s * at[i]
         return Columns(*axes)
 

@@ -5,9 +5,9 @@ is neither. The markers of the tasks tell the two apart, with or without git.
 """
 
 from robo47.errors import Robo47Error
-from robo47.paths import shown
-from robo47.lesson.starter import find_regions, read_script
 from robo47.lesson.day import Day
+from robo47.lesson.starter import find_regions, read_script
+from robo47.paths import shown
 
 
 def is_kits(day: Day) -> bool:

@@ -1,4 +1,4 @@
-"""The Panda in MuJoCo's own window, at home and holding still.
+"""The Panda in MuJoCo's own window, at ready and holding still.
 
 MuJoCo ends the whole process where it cannot open a window, so that is found out
 first, in a process that may die.
@@ -10,8 +10,10 @@ import sys
 import time
 
 import mujoco
+import numpy as np
 
 from robo47 import cli, panda
+from robo47.figures.scene import Camera
 
 FRAME_SECONDS = 1 / 60
 PROBE_SECONDS = 20
@@ -51,18 +53,24 @@ def obstacle() -> str | None:
     return None if probe.returncode == 0 else "the display cannot open an OpenGL window"
 
 
-def at_home(model: mujoco.MjModel) -> mujoco.MjData:
-    """Return the arm at its `home` key, its actuators set to hold it there.
+def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
+    """Return the arm at `panda.READY_Q`, its actuators set to hold it there.
+
+    That is the configuration whose matrices the lessons print; `home`, the model's own
+    key, is another one.
 
     Args:
-        model: with a key `home`; one without actuators is made weightless, since
-            nothing would hold it up.
+        model: the Panda; one without actuators is made weightless, since nothing would
+            hold it up.
     """
-    data = mujoco.MjData(model)
-    # Sets ctrl as well as qpos: with qpos alone the arm would sag at once.
-    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
+    data, joints = mujoco.MjData(model), len(panda.READY_Q)
+    if model.nkey:  # opens the fingers, where there are any
+        mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
+    data.qpos[:joints] = panda.READY_Q
     if model.nu == 0:
         model.opt.gravity[:] = 0.0
+    else:  # with qpos alone the arm would sag at once
+        data.ctrl[:joints] = panda.READY_Q
     mujoco.mj_forward(model, data)
     return data
 
@@ -76,13 +84,17 @@ def show() -> int:
     import mujoco.viewer
 
     model = panda.load("scene", meshes=True)
-    data = at_home(model)
+    data = at_ready(model)
     model.vis.scale.framelength *= 0.6  # the default triads hide the arm
     model.vis.scale.framewidth *= 0.4
-    print("window: drag the sliders under Control; close it, or Ctrl-C here, to end")
+    print("window: the arm at ready; its sliders are under Control, on the right")
+    print("        (Shift+Tab hides them). Close it, or Ctrl-C here, to end")
     try:
-        with mujoco.viewer.launch_passive(model, data) as viewer:
+        # Both of MuJoCo's panels would leave a small window no room for the arm.
+        with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as viewer:
             viewer.opt.frame = int(mujoco.mjtFrame.mjFRAME_BODY)
+            viewer.opt.label = int(mujoco.mjtLabel.mjLABEL_BODY)
+            look_at(viewer.cam, Camera(distance=2.6))
             while viewer.is_running():
                 _advance(viewer, model, data)
     except KeyboardInterrupt:
@@ -91,6 +103,19 @@ def show() -> int:
         # Its thread is still tidying up: without the wait most runs crashed at exit.
         time.sleep(1.0)
     return cli.EXIT_OK
+
+
+def look_at(theirs: mujoco.MjvCamera, camera: Camera) -> None:
+    """Turn MuJoCo's camera to where one of ours looks from.
+
+    Args:
+        theirs: the viewer's, changed in place.
+        camera: ours.
+    """
+    theirs.lookat[:] = camera.lookat
+    theirs.distance = camera.distance
+    theirs.azimuth = float(np.degrees(camera.azimuth))
+    theirs.elevation = float(np.degrees(camera.elevation))
 
 
 def _advance(

@@ -4,13 +4,13 @@
     python scripts/bench.py fk lab          only these parts
     python scripts/bench.py --table         the last results, nothing is run
 
-Parts: fk (kinematics), lab (the whole script), growth, metrics (a row of the log),
-tests (`make test`), checker (save to verdict), first-minute (a fresh clone; needs the
-network). All in one run, taking turns; results are ratios, since seconds differ from
-machine to machine. Writes bench/results.json and bench/bench.png.
+Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
+configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make
+test`), checker (save to verdict), first-minute (a fresh clone; needs the network). All
+in one run, taking turns; results are ratios, since seconds differ from machine to
+machine. Writes bench/results.json and bench/bench.png.
 """
 
-import argparse
 import datetime
 import importlib
 import importlib.metadata
@@ -31,8 +31,18 @@ from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
-PARTS = ("fk", "lab", "growth", "metrics", "tests", "checker", "first-minute")
-VERSIONS = ("mujoco", "numpy", "pin", "roboticstoolbox-python", "modern-robotics")
+PARTS = (
+    *("fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker"),
+    "first-minute",
+)
+VERSIONS = (
+    "mujoco",
+    "numpy",
+    "pin",
+    "roboticstoolbox-python",
+    "modern-robotics",
+    "mink",
+)
 
 
 def machine() -> dict[str, Any]:
@@ -63,13 +73,12 @@ def cpu() -> str:
 
 def main() -> int:
     """Run the parts that are asked for and keep the results of the others."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("parts", nargs="*", metavar="PART", help="default: all of them")
     parser.add_argument("--table", action="store_true", help="print the last results")
     options = parser.parse_args()
-    if unknown := set(options.parts) - set(PARTS):
+    unknown = set(options.parts) - set(PARTS)
+    if unknown:
         raise Robo47Error(
             f"no part {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}"
         )

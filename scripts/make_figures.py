@@ -1,65 +1,61 @@
-"""Draw the pictures of the lessons into w1-foundations/figures.
+"""Draw the pictures of a day's lesson into its week's figures/.
 
-    make figures                                    all of them
-    python scripts/make_figures.py                  the same
-    python scripts/make_figures.py day1_order       one of them
-    python scripts/make_figures.py --out /tmp/pics  into another folder
+    make figures DAY=1                                 all of a day
+    python3 scripts/make_figures.py --day 1            the same
+    python3 scripts/make_figures.py day1_order         one of them
+    python3 scripts/make_figures.py --out other/place  into another folder
 
 Works without a display. MuJoCo draws the robot; the frames over it are composed
 by hand, so a wrong one would be seen beside its link.
 """
 
-import importlib
-import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+from tqdm import tqdm
 
-try:
-    from tqdm import tqdm
-
-    from robo47 import cli
-    from robo47.errors import Robo47Error
-    from robo47.figures import backends
-    from robo47.paths import ROOT, shown
-except ModuleNotFoundError as missing:
-    sys.exit(f"{missing.name} is not in this Python: run `make figures` in the clone")
-
-LESSONS = ROOT / "w1-foundations" / "src"
-FOLDER = ROOT / "w1-foundations" / "figures"
-
-
-def find_figures() -> dict[str, Callable[[], Any]]:
-    """Return {name of the picture: what draws it} of every day."""
-    sys.path.insert(0, str(LESSONS))
-    found = {}
-    for path in sorted(LESSONS.glob("day*_figures.py")):
-        day = path.stem.removesuffix("_figures")
-        for name, draw in importlib.import_module(path.stem).FIGURES.items():
-            found[f"{day}_{name}"] = draw
-    return found
+from robo47 import cli
+from robo47.errors import Robo47Error
+from robo47.figures import backends
+from robo47.figures.lessons import lesson_figures
+from robo47.lesson.day import find_day, started_day
+from robo47.paths import shown
 
 
 def main() -> int:
     """Draw what was asked for."""
     parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
-    parser.add_argument("--out", type=Path, default=FOLDER, help="folder to write to")
-    arguments = parser.parse_args()
+    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--out", type=Path, help="folder to write to")
+    options = parser.parse_args()
     # Before a lesson imports MuJoCo, which fails there with a traceback.
     backends.rendering_environment()
-    figures = find_figures()
-    names = arguments.names or list(figures)
-    if unknown := set(names) - set(figures):
-        raise Robo47Error(f"no picture {min(unknown)}; there are {', '.join(figures)}")
-    written = [
-        save(figures[name](), arguments.out / f"{name}.png")
-        for name in tqdm(names, "drawing", leave=False, delay=1)
-    ]
-    print("\n".join(written))
+    day = find_day(options.day or day_of(options.names) or started_day())
+    folder = options.out or day.folder / "figures"
+    try:
+        figures = lesson_figures(day.number)
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"pictures need {missing.name}, which is not installed yet: make figures"
+        ) from None
+    names = options.names or list(figures)
+    unknown = set(names) - set(figures)
+    if unknown:
+        raise Robo47Error(
+            f"no picture {min(unknown)}; day {day.number} has: "
+            f"{', '.join(figures) or 'none'}"
+        )
+    for name in tqdm(names, "drawing", leave=False, delay=1, disable=None):
+        print(save(figures[name](), folder / f"{name}.png"))
     return cli.EXIT_OK
+
+
+def day_of(names: list[str]) -> int | None:
+    """Return the day that a picture's name begins with, such as day1_order."""
+    number = names[0].partition("_")[0].removeprefix("day") if names else ""
+    return int(number) if number.isdecimal() else None
 
 
 def save(picture: Any, path: Path) -> str:

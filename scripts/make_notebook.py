@@ -1,28 +1,32 @@
-"""Turn Day 1's lab script into a notebook, for a headless machine or Colab.
+"""Turn a day's lab script into a notebook, for a headless machine or Colab.
 
-    make notebook                             write it
-    python scripts/make_notebook.py           the same
-    python scripts/make_notebook.py --check   only say whether it is up to date
+    make notebook DAY=1                              write it
+    python3 scripts/make_notebook.py --day 1         the same
+    python3 scripts/make_notebook.py --check         only say if it is old
 
 The script is the only source: its functions and the steps of its main() become
-cells. What the notebook adds (set-up, pictures, sliders) is in this file.
+cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
 """
 
 import ast
 import contextlib
 import re
 import textwrap
+import tomllib
+from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
 from robo47.errors import Robo47Error
-from robo47.paths import ROOT, shown
+from robo47.lesson.day import Day, find_day, started_day
+from robo47.paths import shown
 
-SCRIPT = ROOT / "w1-foundations" / "src" / "day1_transforms.py"
-NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 MARKER = re.compile(r"^ *# (?:end)?region (\S+)\n", re.MULTILINE)
+# The function's own: the end marker of the one before it comes first.
+TASK = re.compile(r"^ *# region (\S+)$", re.MULTILINE)
+LAST = "Record the number"
 
 SETUP = """
 import importlib.util
@@ -44,32 +48,13 @@ if importlib.util.find_spec("robo47") is None:  # Colab, or a kernel without the
 
 from robo47.paths import ROOT
 
-sys.path.insert(0, str(ROOT / "w1-foundations" / "src"))
-sys.argv = ["day1_transforms"]  # add "--no-log" to leave metrics/metrics.csv alone
+sys.path.insert(0, str(ROOT / "WEEK" / "src"))
+sys.argv = ["SCRIPT"]  # add "--no-log" to leave metrics/metrics.csv alone
 """
-# After which step a picture comes: what to look at, and the code that draws it.
-PICTURES = {
-    "1": (
-        "The arm at home. Each link carries a frame: x red, y green, z blue. MuJoCo\n"
-        "drew the robot; the frames over it are composed by hand.",
-        "from robo47 import figures\n\nfigures.render_panda(HOME_Q)",
-    ),
-    "4": (
-        "The same `T_extra`, once on the left and once on the right. Blue is where it\n"
-        "takes the arm, or the tool.",
-        "import day1_figures\n\nday1_figures.order()",
-    ),
-}
-RECORD = "Record the number"
-SLIDERS = (
-    "## Try it\n\nDrag a joint: the frames follow, and so does `T_world_ee`.\n"
-    "Which joint changes only its rotation?",
-    "from robo47.figures.sliders import joint_sliders\n\njoint_sliders()",
-)
 
 
-def build() -> str:
-    """Return the notebook as the text of its file.
+def build(day: Day) -> str:
+    """Return a day's notebook as the text of its file.
 
     Raises:
         Robo47Error: jupytext is not installed.
@@ -80,14 +65,41 @@ def build() -> str:
         raise Robo47Error(
             "jupytext is not installed; run make notebook, which brings it"
         ) from None
-    source = SCRIPT.read_text("utf-8")
+    source = day.source.read_text("utf-8")
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
-    cells = [*head(tree), *library(tree, lines), *lab(tree, lines)]
+    cells = [*head(day, tree), *library(tree, lines), *lab(day, tree, lines)]
     notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")
     notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
     for i, cell in enumerate(notebook.cells):
         cell["id"] = f"cell-{i:02}"  # random ones would differ at every run
     return jupytext.writes(notebook, fmt="ipynb").rstrip("\n") + "\n"
+
+
+def notebook_of(day: Day) -> Path:
+    """Return where a day's notebook is."""
+    return day.folder / "notebooks" / Path(day.script).with_suffix(".ipynb").name
+
+
+def extras(day: Day) -> dict[str, list[str]]:
+    """Return the cells that come after a step: {"1": [...], ..., "end": [...]}.
+
+    Raises:
+        Robo47Error: the day's notebook.toml is not right; says where.
+    """
+    path = day.own / "notebook.toml"
+    if not path.exists():
+        return {}
+    found: dict[str, list[str]] = {}
+    try:
+        for cell in tomllib.loads(path.read_text("utf-8"))["cells"]:
+            words, lines = cell["text"], cell.get("code", "")
+            found.setdefault(str(cell["after"]), []).extend(drawing(words, lines))
+    except (ValueError, KeyError, TypeError) as error:
+        raise Robo47Error(
+            f"{shown(path)}: {type(error).__name__}: {error}; expected [[cells]] with "
+            "after, text and code"
+        ) from None
+    return found
 
 
 def text(words: str) -> str:
@@ -102,18 +114,21 @@ def code(lines: str, tags: str = "") -> str:
 
 def drawing(words: str, lines: str) -> list[str]:
     """Return two cells; where nothing draws, "run all" goes on with the next."""
-    return [text(words), code(lines, ' tags=["raises-exception"]')]
+    cells = [text(words)]
+    return [*cells, code(lines, ' tags=["raises-exception"]')] if lines else cells
 
 
-def head(tree: ast.Module) -> list[str]:
+def head(day: Day, tree: ast.Module) -> list[str]:
     """Return the title and the set-up."""
     title, *about = (ast.get_docstring(tree) or "").split("\n\n")
     prose = [part for part in about if not part.startswith(" ")]  # not the commands
     made = (
-        f"Made from `{shown(SCRIPT)}` by `make notebook`: change it there. "
+        f"Made from `{shown(day.source)}` by `make notebook`: change it there. "
         "Run the cells from top to bottom."
     )
-    return [text("\n\n".join([f"# {title}", *prose, made])), code(SETUP)]
+    setup = SETUP.replace("WEEK", day.folder.name)
+    setup = setup.replace("SCRIPT", Path(day.script).stem)
+    return [text("\n\n".join([f"# {title}", *prose, made])), code(setup)]
 
 
 def library(tree: ast.Module, lines: list[str]) -> list[str]:
@@ -128,24 +143,33 @@ def library(tree: ast.Module, lines: list[str]) -> list[str]:
             wanted = lines[node.body[0].lineno - 1 : node.body[-1].end_lineno]
             segment = "\n" + textwrap.dedent("".join(wanted))
         if isinstance(node, ast.FunctionDef):
-            task = "".join(MARKER.findall(segment)[:1])
-            functions += [text(f"### {task} `{node.name}`"), code(segment)]
-        else:
+            task = "".join(TASK.findall(segment)[:1])
+            name = f"{task} `{node.name}`".strip()
+            functions += [text(f"### {name}"), code(segment)]
+        elif not is_import_of(node, "kit"):  # a notebook has its kernel already
             constants += segment
     return [code(constants), text("## The functions"), *functions]
 
 
-def lab(tree: ast.Module, lines: list[str]) -> list[str]:
-    """Return main(): a heading and a cell per step, and the pictures."""
-    cells = [text("## The lab")]
-    for title, body in sections(tree, lines):
+def is_import_of(node: ast.stmt, name: str) -> bool:
+    """Return whether a statement is `import name`."""
+    return isinstance(node, ast.Import) and node.names[0].name == name
+
+
+def lab(day: Day, tree: ast.Module, lines: list[str]) -> list[str]:
+    """Return main(): a heading and a cell per step, and what the day adds."""
+    cells, more = [text("## The lab")], extras(day)
+    for title, body in sections(day, tree, lines):
         cells += [text(f"### {title}")] if title else []
         cells.append(code(body))
-        cells += drawing(*PICTURES[title[0]]) if title[:1] in PICTURES else []
-    return [*cells, *drawing(*SLIDERS)]
+        cells += more.pop(title.partition(".")[0], [])
+    cells += more.pop("end", [])
+    if more:
+        raise Robo47Error(f"day {day.number}: no step {min(more)} to add a cell after")
+    return cells
 
 
-def sections(tree: ast.Module, lines: list[str]) -> list[tuple[str, str]]:
+def sections(day: Day, tree: ast.Module, lines: list[str]) -> list[tuple[str, str]]:
     """Return the titles and bodies of main()'s steps; the first has no title."""
     docstring, *nodes = find_main(tree).body
     names = literals(tree)
@@ -155,13 +179,14 @@ def sections(tree: ast.Module, lines: list[str]) -> list[tuple[str, str]]:
         segment = "".join(lines[end : node.end_lineno])
         end = node.end_lineno
         method, arguments = lab_call(node)
-        if method == "step" or (method == "record" and title != RECORD):
-            found.append((title, body))
-            title = evaluate(arguments[0], names) if method == "step" else RECORD
-            body = ""
         if isinstance(node, ast.Return) and node.value:
-            segment = f"\n    {ast.unparse(node.value)}"
-        body += segment if method != "step" else ""
+            found.append((title, body))
+            title, body = LAST, f"\n    {ast.unparse(node.value)};"  # no "Out: 0"
+        elif method == "step":
+            found.append((title, body))
+            title, body = evaluate(arguments[0], names, day.script), ""
+        else:
+            body += segment
     return [*found, (title, body)]
 
 
@@ -173,10 +198,11 @@ def find_main(tree: ast.Module) -> ast.FunctionDef:
 
 def lab_call(node: ast.stmt) -> tuple[str, list[ast.expr]]:
     """Return the method and the arguments of `lab.method(...)`, or "" and none."""
-    match node:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name("lab"), method), arguments)):
-            return method, arguments
-    return "", []
+    call = node.value if isinstance(node, ast.Expr) else None
+    if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+        return "", []
+    on_lab = isinstance(call.func.value, ast.Name) and call.func.value.id == "lab"
+    return (call.func.attr, call.args) if on_lab else ("", [])
 
 
 def literals(tree: ast.Module) -> dict[str, object]:
@@ -190,26 +216,29 @@ def literals(tree: ast.Module) -> dict[str, object]:
     return names
 
 
-def evaluate(heading: ast.expr, names: dict[str, object]) -> str:
+def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
     """Return the words of a heading, an f-string or a plain one."""
-    return str(eval(compile(ast.Expression(heading), SCRIPT.name, "eval"), names))
+    return str(eval(compile(ast.Expression(heading), script, "eval"), names))
 
 
 def main() -> int:
-    """Write the notebook, or check it."""
+    """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
+    parser.add_argument("--day", type=int, help="default: the last begun")
     parser.add_argument("--check", action="store_true", help="write nothing")
-    check, fresh = parser.parse_args().check, build()
-    current = NOTEBOOK.read_text("utf-8") if NOTEBOOK.exists() else ""
-    if fresh == current:
-        print(f"{shown(NOTEBOOK)} is up to date")
+    options = parser.parse_args()
+    day = find_day(options.day or started_day())
+    path, fresh = notebook_of(day), build(day)
+    if path.exists() and fresh == path.read_text("utf-8"):
+        print(f"{shown(path)} is up to date")
         return cli.EXIT_OK
-    if check:
-        print(f"{shown(NOTEBOOK)} is out of date: run `make notebook`")
+    if options.check:
+        print(f"{shown(path)} is out of date: make notebook DAY={day.number}")
         return cli.EXIT_FAILED
-    NOTEBOOK.parent.mkdir(parents=True, exist_ok=True)
-    NOTEBOOK.write_text(fresh, "utf-8", newline="\n")
-    print(f"{shown(NOTEBOOK)} written; open it with Jupyter or VS Code (kernel .venv)")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(fresh, "utf-8", newline="\n")
+    print(f"{shown(path)} written")
+    print("Open it with Jupyter or VS Code (kernel .venv).")
     return cli.EXIT_OK
 
 

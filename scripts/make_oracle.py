@@ -1,17 +1,19 @@
 """Ask Pinocchio for the Panda's poses and forces and keep its answers for the tests.
 
-    python scripts/make_oracle.py            write the two files in tests/data/
-    python scripts/make_oracle.py --check    compute anew and compare with them
+    make oracle                      write the two files in tests/data/
+    make oracle ARGS=--check         compute anew and compare with them
 
 pinocchio_panda.json holds poses of every frame; dynamics_oracle.json what crba and rnea
 say: both with the armature, which Pinocchio reads from the file, without damping.
+kinematics_oracle.json holds Pinocchio's three Jacobians, its twists turned into
+(omega; v), and what the textbook's own package (modern_robotics) says, given our
+screws.
 
 Pinocchio (pin) reads the same MJCF files but shares no code with MuJoCo or with us.
 It is 480 MB installed and has no Windows wheel, so it gets an environment of its own,
 .venv-oracle, and the tests read its answers from a small file.
 """
 
-import argparse
 import json
 import os
 import subprocess
@@ -28,8 +30,10 @@ from robo47.paths import ROOT, shown
 ORACLE = ROOT / "tests" / "data" / "pinocchio_panda.json"
 DYNAMICS = ROOT / "tests" / "data" / "dynamics_oracle.json"
 ENVIRONMENT = ROOT / ".venv-oracle"
-PIN = "pin==4.1.0"
+KINEMATICS = ROOT / "tests" / "data" / "kinematics_oracle.json"
+PIN, TEXTBOOK = "pin==4.1.0", "modern-robotics==1.1.1"
 CONFIGURATIONS, SEED = 15, 47
+JACOBIANS = 24  # configurations, for the Jacobians
 SAME = 1e-12  # two builds of Pinocchio need not agree to the last bit
 
 # Runs inside .venv-oracle: a file name and configurations in, poses out, as JSON.
@@ -68,17 +72,43 @@ answer = {"q": q, "qd": qd, "qdd": qdd, "crba": crba, "rnea": rnea, "bias": bias
 json.dump({"pinocchio": pin.__version__, "panda_nohand": answer}, sys.stdout)
 """
 
+# The same for Jacobians, and the textbook's package beside Pinocchio.
+ASK_FOR_JACOBIANS = """
+import json, sys
+import modern_robotics as mr, numpy as np, pinocchio as pin
+xml, frame, q, S, M = json.load(sys.stdin)
+model = pin.buildModelFromMJCF(xml)
+data = model.createData()
+index, S, M = model.getFrameId(frame), np.array(S).T, np.array(M)
+B = mr.Adjoint(mr.TransInv(M)) @ S
+ask = {
+    kind: lambda row, r=r: pin.computeFrameJacobian(model, data, row, index, r)[
+        [3, 4, 5, 0, 1, 2]
+    ]
+    for kind, r in pin.ReferenceFrame.names.items()
+}
+ask["FKinSpace"] = lambda row: mr.FKinSpace(M, S, row)[:3]
+ask["FKinBody"] = lambda row: mr.FKinBody(M, B, row)[:3]
+ask["JacobianSpace"] = lambda row: mr.JacobianSpace(S, row)
+ask["JacobianBody"] = lambda row: mr.JacobianBody(B, row)
+answers = {
+    name: [(np.round(f(row), 15) + 0.0).ravel().tolist() for row in np.array(q)]
+    for name, f in ask.items()
+}
+json.dump({"pinocchio": pin.__version__, "q": q, "answers": answers}, sys.stdout)
+"""
+
 
 def oracle_python() -> Path:
     """Return the Python that has Pinocchio, installing it on first use."""
     inside = "Scripts/python.exe" if os.name == "nt" else "bin/python"
     python = ENVIRONMENT / inside
-    found = [str(python), "-c", "import pinocchio"]
+    found = [str(python), "-c", "import pinocchio, modern_robotics"]
     if python.exists() and subprocess.run(found, check=False).returncode == 0:
         return python
     print(f"installing {PIN} (about 100 MB) into {shown(ENVIRONMENT)} ...", flush=True)
     venv.create(ENVIRONMENT, clear=True, with_pip=True)
-    install = [str(python), "-m", "pip", "install", "--quiet", PIN, "numpy"]
+    install = [str(python), "-m", "pip", "install", "-q", PIN, TEXTBOOK, "numpy"]
     done = subprocess.run(install, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise Robo47Error(f"{PIN} could not be installed: {done.stderr.strip()[-300:]}")
@@ -101,6 +131,15 @@ def ask_for_forces() -> dict:
     motion = (q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
     rounded = [np.round(part, 6).tolist() for part in motion]
     return answer_to(ASK_FOR_FORCES, [xml_of("panda_nohand"), *rounded])
+
+
+def ask_for_jacobians() -> dict:
+    """Return three Jacobians of Pinocchio's and the textbook's, of panda_nohand."""
+    model, frame = panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"]
+    q = np.round(verify.random_q(model, JACOBIANS, SEED), 6).tolist()
+    arm = (panda.screws(model).tolist(), panda.home_pose(model).tolist())
+    question = [xml_of("panda_nohand"), frame.partition(":")[2], q, *arm]
+    return answer_to(ASK_FOR_JACOBIANS, question)
 
 
 def xml_of(entry: str) -> str:
@@ -149,17 +188,24 @@ def largest_force_difference(ours: dict, theirs: dict) -> float:
     )
 
 
+def largest_jacobian_difference(ours: dict, theirs: dict) -> float:
+    """Return the same for the answers about Jacobians."""
+    mine, other = ours["answers"], theirs["answers"]
+    if ours["q"] != theirs["q"] or mine.keys() != other.keys():
+        return np.inf
+    return max(float(np.abs(np.subtract(mine[n], other[n])).max()) for n in mine)
+
+
 ORACLES = {
     ORACLE: (ask, largest_difference),
     DYNAMICS: (ask_for_forces, largest_force_difference),
+    KINEMATICS: (ask_for_jacobians, largest_jacobian_difference),
 }
 
 
 def main() -> int:
     """Write the oracle files, or check them."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
     all_same = True

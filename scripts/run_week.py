@@ -12,15 +12,15 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from robo47 import cli
 from robo47.errors import Robo47Error
-from robo47.metrics import read_rows
 from robo47.lesson.day import Day, all_days
+from robo47.lesson.lab import number_of
+from robo47.metrics import read_rows
 
 Line = tuple[int, str, str, str, str, str]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit")
@@ -52,7 +52,8 @@ def run_lab(day: Day) -> tuple[int, dict[tuple[str, str], float]]:
             check=False,
         )
         rows = read_rows(log) if log.exists() else []
-    return done.returncode, {(r["check"], r["metric"]): r["value"] for r in rows}
+    values = {(str(r["check"]), str(r["metric"])): r["value"] for r in rows}
+    return done.returncode, {k: float(v) for k, v in values.items() if v is not None}
 
 
 def lines_of(day: Day) -> list[Line]:
@@ -62,19 +63,11 @@ def lines_of(day: Day) -> list[Line]:
     lines: list[Line] = []
     for metric in day.metrics:
         value = values.get((metric.check, metric.metric))
-        number = "none" if value is None else f"{value:.1e}"
-        limit, passes = judge(metric, value)
-        verdict = "PASS" if passes and code == 0 else "FAIL"
-        lines.append((day.number, whose, metric.check, number, limit, verdict))
+        number = "none" if value is None else number_of(value)
+        passes = code == 0 and value is not None and metric.passes(value)
+        verdict = "PASS" if passes else "FAIL"
+        lines.append((day.number, whose, metric.check, number, metric.limit, verdict))
     return lines
-
-
-def judge(metric: Any, value: float | None) -> tuple[str, bool]:
-    """Return a limit as people read it, and whether a number keeps it; NaN does not."""
-    most, least = getattr(metric, "max", None), getattr(metric, "min", None)
-    if most is not None:
-        return f"< {most:.0e}", value is not None and value < most
-    return f"> {least:g}", value is not None and least is not None and value > least
 
 
 def as_table(lines: list[Line]) -> str:

@@ -6,8 +6,8 @@
     python3 scripts/setup_env.py --anew     throw .venv away and make it again
     python3 scripts/setup_env.py --venv .venv-bench bench    in another folder
 
-Does nothing when nothing changed, and heals what an interrupted run left behind.
-Two at once wait for each other. Uses `uv` where it is installed.
+Does nothing when nothing changed, and heals what an interrupted run left
+behind. Two at once wait for each other. Uses `uv` where it is installed.
 """
 
 # Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
@@ -21,13 +21,13 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from alone import ROOT, alone, say
+from pythons import OLDEST, ask, find_python, stop
+
 PYTHON_IN_VENV = os.path.join("Scripts", "python.exe")
 if os.name != "nt":
     PYTHON_IN_VENV = os.path.join("bin", "python")
-OLDEST = (3, 11)
 OFFLINE = (
     "Temporary failure",
     "Failed to establish",
@@ -38,56 +38,6 @@ OFFLINE = (
     "getaddrinfo",
 )
 DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
-
-
-def stop(problem, remedy):
-    """End with one line on what is wrong and one on what to do."""
-    sys.exit("setup: " + problem + "\n       " + remedy)
-
-
-def say(text):
-    """Print a line at once, also into a pipe."""
-    print("setup: " + text)
-    sys.stdout.flush()
-
-
-def find_python():
-    """Return a Python that is new enough, and its version: this one, or on PATH."""
-    if sys.version_info[:2] >= OLDEST:
-        # Run from inside an environment, the Python that it was made with.
-        return getattr(sys, "_base_executable", sys.executable), sys.version_info[:2]
-    which = getattr(shutil, "which", lambda name: None)  # Python 2 has none
-    for minor in (13, 12, 11, 14):
-        found = which("python3.{}".format(minor))
-        if found and is_version(found, (3, minor)):
-            return found, (3, minor)
-    return stop(
-        "this is Python {}.{}; the kit needs 3.11 or newer.".format(
-            *sys.version_info[:2]
-        ),
-        "Install one (python.org, or your package manager), then run make again\n"
-        "       with PYTHON=python3.13",
-    )
-
-
-def is_version(python, version):
-    """Return whether a Python starts and is that version (a pyenv shim may not)."""
-    return ask(python, "import sys") == tuple(version)
-
-
-def ask(python, imports):
-    """Return the version of a Python that can import something, or None."""
-    code = imports + "; import sys; print('%d %d' % sys.version_info[:2])"
-    try:
-        process = subprocess.Popen(
-            [str(python), "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-        )
-        said = process.communicate()[0].split()
-    except OSError:
-        return None
-    if process.returncode != 0 or len(said) != 2:
-        return None
-    return int(said[0]), int(said[1])
 
 
 def made_with(venv):
@@ -148,46 +98,6 @@ def remove(path):
     """Delete a file that may not be there."""
     with contextlib.suppress(OSError):
         os.remove(path)
-
-
-@contextlib.contextmanager
-def alone(name):
-    """Wait until no other process does this; a killed one lets go by itself."""
-    try:
-        folder = os.path.join(ROOT, ".robo47")
-        if not os.path.isdir(folder):
-            os.makedirs(folder)
-        file = open(os.path.join(folder, name + ".lock"), "a+b")  # noqa: SIM115
-    except OSError:  # a folder that nobody can write to: setting up will say so
-        yield
-        return
-    try:
-        waited = False
-        while not try_lock(file.fileno()):
-            if not waited:
-                say("another run is at it in this folder; waiting ...")
-            waited = True
-            time.sleep(0.2)
-        yield
-    finally:
-        file.close()
-
-
-def try_lock(fd):
-    """Take a lock on an open file; True too where the system has no locks."""
-    try:
-        if os.name == "nt":
-            import msvcrt
-
-            os.lseek(fd, 0, os.SEEK_SET)
-            msvcrt.locking(fd, msvcrt.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        return error.errno not in (errno.EAGAIN, errno.EACCES, errno.EDEADLK)
-    return True
 
 
 def run(command, doing):

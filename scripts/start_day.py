@@ -13,10 +13,10 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, find_day, find_task, started_day
+from robo47.lesson.starter import make_starter, put_back, read_script
 from robo47.originals import require_kits
 from robo47.paths import shown
-from robo47.lesson.starter import make_starter, put_back, read_script
-from robo47.lesson.day import Day, find_day, find_task, started_day
 
 
 def starter_of(day: Day) -> str:
@@ -76,9 +76,9 @@ def reset(task_id: str) -> int:
 def free_name(work: Path, task_id: str) -> Path:
     """Return a name beside the student's file that nothing has yet."""
     number = 1
-    while (path := work.with_suffix(f".before-{task_id}-{number}.txt")).exists():
+    while work.with_suffix(f".before-{task_id}-{number}.txt").exists():
         number += 1
-    return path
+    return work.with_suffix(f".before-{task_id}-{number}.txt")
 
 
 def main() -> int:

@@ -1,8 +1,8 @@
 """Run the tests on the oldest and the newest MuJoCo and Python that the kit claims.
 
     make test-matrix                                  all four
-    python scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
-    python scripts/test_matrix.py --pytest "-k se3"   only some of the tests
+    python3 scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
+    python3 scripts/test_matrix.py --pytest "-k se3"   only some of the tests
 
 Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that is
 not on this machine's PATH is named and left out.

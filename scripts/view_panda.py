@@ -1,10 +1,10 @@
 """See the arm, its frames, and your own code move it, beside MuJoCo's answer.
 
-    make view                          in your browser; make view DAY=2: that day's tabs
-    python3 scripts/view_panda.py 2    the same, without make
-    python3 scripts/view_panda.py --native           MuJoCo's own window
-    python3 scripts/view_panda.py --screenshot       a picture, with neither
-    python3 scripts/view_panda.py --clip arm.gif     a short clip, with neither
+    make view                        in your browser; DAY=2: that day's tabs
+    make view ARGS=--screenshot      a picture, without a window
+    make view ARGS="--clip arm.gif"  the arm moving, and your own code's arm
+    make view ARGS=--native          MuJoCo's own window
+    python3 scripts/view_panda.py 2  without make: the page of Day 2
 
 In the browser: drag a joint. Your own function draws a red arm wherever it
 differs from MuJoCo's, and is asked again at every save; it runs in the checker's
@@ -17,8 +17,10 @@ import importlib.util
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import numpy as np
 
 from robo47 import cli, menagerie, panda, window
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import ROOT, shown
@@ -32,7 +34,7 @@ def web(day: Day, entry: str, start: str, port: int) -> int:
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
-            "`make view` installs it, or: python scripts/setup_env.py view"
+            "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
     from robo47.inspector.arm import Arm
     from robo47.inspector.serve import Show, serve
@@ -42,7 +44,7 @@ def web(day: Day, entry: str, start: str, port: int) -> int:
     if menagerie.panda_folder() is None:
         missing = (
             "The robot's meshes are not here: simple shapes are drawn, with the same "
-            "frames (python scripts/fetch_menagerie.py fetches them)"
+            "frames (python3 scripts/fetch_menagerie.py fetches them)"
         )
         print(missing)
         about = f"{about}. {missing}"
@@ -54,12 +56,13 @@ def web(day: Day, entry: str, start: str, port: int) -> int:
 
 def native() -> int:
     """Open MuJoCo's window, or say in one line why not."""
-    if why := window.obstacle():
+    why = window.obstacle()
+    if why:
         raise Robo47Error(f"{why}. The browser needs none of that: make view")
     return window.show()
 
 
-def screenshot(path: Path, entry: str, start: str) -> int:
+def screenshot(path: Path, start: str) -> int:
     """Write a picture of the arm, drawn offscreen; overwrite nothing."""
     if path.exists():
         raise Robo47Error(
@@ -67,20 +70,43 @@ def screenshot(path: Path, entry: str, start: str) -> int:
             "--screenshot other.png"
         )
     try:
-        from robo47.figures import render_panda
+        from robo47.figures.screenshot import screenshot as draw
     except ModuleNotFoundError as missing:
+        if missing.name != "PIL":
+            raise
         raise Robo47Error(
-            f"pictures need {missing.name}, which this Python does not have. "
-            "`make figures` installs it; or take your own from the page: --web"
+            "pictures need Pillow, which is not installed yet: "
+            "make view ARGS=--screenshot (or: python3 scripts/setup_env.py report)"
         ) from None
-    from robo47.inspector.arm import Arm
-
-    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
-    picture = render_panda(arm.named_q[start])
+    picture = draw(configuration(start), start)
     path.parent.mkdir(parents=True, exist_ok=True)
     picture.save(path)
     print(f"wrote {shown(path)}")
     return cli.EXIT_OK
+
+
+def clip(path: Path, day: Day, file: Path | None) -> int:
+    """Write a clip of the arm with the student's own beside it; overwrite nothing."""
+    if path.exists():
+        raise Robo47Error(f"{shown(path)} is there already; name another file")
+    try:
+        from robo47.inspector.film import film
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"a clip needs {missing.name}, which is not installed yet: "
+            'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py report)'
+        ) from None
+    size = film(path, day, file)
+    print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
+    return cli.EXIT_OK
+
+
+def configuration(name: str) -> Array:
+    """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
+    if name == "ready":  # the handout's home_q; `home` is the model's own key
+        return panda.READY_Q
+    model = panda.load("panda_nohand")
+    return panda.home_q(model) if name == "home" else np.zeros(model.nq)
 
 
 def port(text: str) -> int:
@@ -111,15 +137,20 @@ def parse() -> argparse.Namespace:
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
+    parser.add_argument(
+        "--file", type=Path, help="with --clip: whose code, in place of your own"
+    )
     parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
     parser.add_argument(
-        "--start", choices=CONFIGURATIONS, default="ready", help="configuration"
+        "--start",
+        choices=CONFIGURATIONS,
+        default="ready",
+        help="ready (the labs' home_q), home (the model's own key) or zero",
     )
     parser.add_argument(
         "--entry",
         choices=("panda_nohand", "panda"),
-        default="panda_nohand",
-        help="which model; panda has the hand",
+        help="which model, for --web; panda has the hand",
     )
     return parser.parse_args()
 
@@ -128,12 +159,14 @@ def main() -> int:
     """Show the Panda in the way that was asked for."""
     options = parse()
     if options.screenshot:
-        return screenshot(options.screenshot, options.entry, options.start)
+        if options.entry:
+            raise Robo47Error("--entry is for --web; a picture has the hand on")
+        return screenshot(options.screenshot, options.start)
     if options.native:
         return native()
     day = find_day(options.day or started_day())
     if options.clip:
-        return clip(options.clip, day)
+        return clip(options.clip, day, options.file)
     return web(day, options.entry, options.start, options.port)
 
 

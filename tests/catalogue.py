@@ -1,7 +1,7 @@
 """A day's catalogue: students' files, and what each is to be told.
 
     python tests/catalogue.py 1              every file of day 1: what differs, totals
-    python tests/catalogue.py 1 fk_hand      files with that in their name, with messages
+    python tests/catalogue.py 1 fk_hand      with messages, files named like that
 
 Each file opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3: passed`) and, below it,
 what the student did. Where a mistake cannot show when the file runs as a lab, the first
@@ -14,23 +14,26 @@ import re
 import sys
 import textwrap
 import types
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
 import inprocess
 
+from conftest import load_script
 from robo47.diagnose import Verdict
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, find_day
 
 _HEADER = re.compile(
-    r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?\n# .+\n"
+    r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"
+    r"\n# .+\n"
 )
 STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
 
 
 class Submission(NamedTuple):
-    """One file: what folder it is in, its tasks, what it must be told, seen in a run."""
+    """One file: its folder, its tasks, what it must be told, whether a run shows it."""
 
     path: Path
     folder: str
@@ -73,21 +76,18 @@ def run_as_lab(day: Day, submission: Submission | None = None) -> int:
         day: whose complete script is run, without logging, in this process.
         submission: its functions of the day's tasks take the script's place.
     """
-    lab = types.ModuleType(day.source.stem)
-    lab.__file__ = str(day.source)
-    source = day.source.read_text("utf-8").replace("\nimport kit ", "\n# ")
-    exec(compile(source, str(day.source), "exec"), vars(lab))
+    lab = load_script(day.source)
     if submission:
         own = types.ModuleType(submission.path.stem)
         code = submission.path.read_text("utf-8")
         exec(compile(code, str(submission.path), "exec"), vars(own))
         names = {f for task in day.tasks for f in task.functions}
         vars(lab).update({k: v for k, v in vars(own).items() if k in names})
-    if hasattr(lab, "LIBRARY_TRIALS"):
-        lab.LIBRARY_TRIALS = 20  # the library has tests of its own
+    vars(lab).update({k: 50 for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)})
     arguments, sys.argv = sys.argv, [str(day.source), "--no-log"]
     try:
-        with contextlib.redirect_stdout(io.StringIO()):
+        quiet = warnings.catch_warnings(action="ignore")
+        with quiet, contextlib.redirect_stdout(io.StringIO()):
             return lab.main()
     except (Robo47Error, ArithmeticError, LookupError, ValueError, TypeError):
         return 1  # a lab that stops has not passed

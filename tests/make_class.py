@@ -19,8 +19,8 @@ from submissions.catalogue import FOLDER as CATALOGUE
 from test_deliverables import png, worksheet
 
 from robo47 import metrics
-from robo47.lesson.starter import make_starter, put_back
 from robo47.lesson.day import find_day
+from robo47.lesson.starter import make_starter, put_back
 
 DAY = find_day(1)
 WEEK = DAY.folder.name

@@ -11,8 +11,8 @@ import pytest
 from robo47 import verify
 from robo47.checker import process, tasks, variant
 from robo47.checker.replies import Question
-from robo47.paths import METRICS_CSV, ROOT
 from robo47.lesson.day import find_day
+from robo47.paths import METRICS_CSV, ROOT
 
 DAY = find_day(1)
 REFERENCE = DAY.source.read_text("utf-8")

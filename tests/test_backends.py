@@ -3,8 +3,8 @@
 import os
 
 import pytest
-from conftest import need
 
+from conftest import need
 from robo47.errors import Robo47Error
 from robo47.figures import backends
 

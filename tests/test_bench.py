@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import ROOT
 
-from bench import bench_fk, bench_growth, table, timing
+from bench import bench_dynamics, bench_fk, bench_growth, bench_ik, table, timing
+from conftest import ROOT
 from robo47 import kinematics, panda, verify
 
 RESULTS = ROOT / "bench" / "results.json"
@@ -24,7 +24,9 @@ def test_candidates_take_turns_and_the_warm_up_is_not_counted():
     assert timed["a"]["low"] <= timed["a"]["median"] <= timed["a"]["high"]
 
 
-@pytest.mark.parametrize("name", ["robo47 fk", "plain 4x4 products, NumPy"])
+@pytest.mark.parametrize(
+    "name", ["robo47 fk", "robo47 fk_space, screws", "plain 4x4 products, NumPy"]
+)
 def test_a_rival_that_is_timed_gives_mujocos_poses(name, twin):
     rival = bench_fk.RIVALS[name]()
     model = panda.load("panda_nohand")
@@ -52,6 +54,51 @@ def test_a_rival_that_is_not_installed_is_left_out_and_named(monkeypatch, twin):
     assert results["left_out"] == {"gone": "No module named 'pinocchio'"}
     assert set(results["rows"]) == {"ours"}
     assert results["rows"]["ours"]["error"] < 1e-14
+
+
+def test_answers_of_inverse_kinematics_are_judged_not_believed(monkeypatch, twin):
+    def liar():  # answers at once, and says that all is well
+        return bench_ik.Rival(lambda T: (np.full((len(T), 7), 9.0), 0), 5)
+
+    def missing():
+        raise ImportError("No module named 'mink'")
+
+    rivals = {"robo47 solve_ik": bench_ik.ours, "liar": liar, "gone": missing}
+    monkeypatch.setattr(bench_ik, "RIVALS", rivals)
+    results = bench_ik.run(rounds=1, n=20)
+    ours, lies = results["rows"]["robo47 solve_ik"], results["rows"]["liar"]
+    assert (ours["targets"], ours["solved"], ours["within"]) == (20, 20, 20)
+    assert 1 < ours["steps"] < 500
+    assert (lies["targets"], lies["solved"], lies["within"]) == (5, 0, 0)
+    assert results["left_out"] == {"gone": "No module named 'mink'"}
+    recorded = json.loads(RESULTS.read_text("utf-8"))
+    text = table.render({"about": recorded["about"], "ik": results})
+    assert "left out: gone" in text
+    assert max(map(len, text.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("name", ["robo47 batch", "MuJoCo, loop"])
+def test_a_rival_in_dynamics_gives_mujocos_answers(name, twin):
+    motion = bench_dynamics._motion(20)
+    rival, truth = bench_dynamics.RIVALS[name](), bench_dynamics.truths(motion)
+    for question in bench_dynamics.QUESTIONS:
+        assert_same(rival.solve(question, motion), truth[question], 1e-12)
+
+
+def test_the_dynamics_table_has_a_row_for_every_rival_and_names_the_missing(
+    monkeypatch, twin
+):
+    def missing():
+        raise ImportError("No module named 'pinocchio'")
+
+    monkeypatch.setitem(bench_dynamics.RIVALS, "Pinocchio, loop", missing)
+    monkeypatch.setattr(bench_dynamics, "ONE", 10)
+    results = bench_dynamics.run(rounds=1, n=300)
+    lines = "\n".join(table._dynamics(results))
+    assert lines.count("robo47 batch") == lines.count("MuJoCo, loop") == 3
+    assert "left out: Pinocchio, loop (No module named 'pinocchio')" in lines
+    assert max(row["error"] for rows in results["questions"].values()
+               for row in rows.values()) < 1e-11  # fmt: skip
 
 
 def test_memory_beyond_input_and_output_does_not_grow_with_the_batch(twin):
@@ -96,7 +143,8 @@ def test_the_table_is_printed_without_running_anything(run):
 def test_an_unknown_part_is_refused_with_the_ones_there_are(run):
     done = run("scripts/bench.py", "kf")
     assert done.returncode == 2
-    assert "no part kf; there are fk, lab" in done.stderr
+    assert "no part kf; there are fk, ik, lab" in done.stderr
+    assert "no part kf; there are fk, dynamics, lab" in done.stderr
 
 
 def test_the_handouts_script_mended_runs(real_panda):

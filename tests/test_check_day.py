@@ -6,9 +6,9 @@ import sys
 import time
 
 import pytest
-from conftest import environment_of
 from test_deliverables import PICTURE, git, png, worksheet
 
+from conftest import environment_of
 from robo47 import metrics
 from robo47.lesson.day import find_day
 

@@ -1,12 +1,12 @@
-"""Every day of the course: its manifest, starter, questions, catalogue and documents."""
+"""Every day of the course: manifest, starter, questions, catalogue and documents."""
 
 import re
 
 import inprocess
 import pytest
 from catalogue import STATUS, run_as_lab, submissions, told
-from conftest import ROOT, kits_worksheet
 
+from conftest import ROOT, kits_worksheet
 from robo47.checker.deliverables.worksheet import split_sections
 from robo47.checker.library import library_of
 from robo47.lesson import folder

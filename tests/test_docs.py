@@ -4,8 +4,8 @@ import re
 import shutil
 
 import pytest
-from conftest import ROOT, kits_worksheet, need
 
+from conftest import ROOT, kits_worksheet, need
 from robo47.lesson.day import find_day
 
 WEEK = ROOT / "w1-foundations"

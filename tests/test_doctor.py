@@ -18,7 +18,7 @@ def answers(monkeypatch):
 
     def use(given):
         monkeypatch.setattr(
-            doctor, "probe", lambda _, code: given.get(code, (None, "?"))
+            doctor, "probe", lambda _, code, gl=False: given.get(code, (None, "?"))
         )
 
     return use
@@ -33,6 +33,7 @@ def test_it_has_a_line_on_everything_and_no_traceback(run):
         "platform",
         "MuJoCo",
         "robot",
+        "lessons",
         "pictures",
         "display",
         "disk",
@@ -95,7 +96,7 @@ def test_a_missing_numpy_is_not_taken_for_the_broken_upgrade(answers):
 
 def test_a_missing_mujoco_is_told_with_the_set_up(answers):
     answers({doctor.VERSIONS_PROBE: ({"numpy": "2.0"}, "")})
-    assert doctor.check_mujoco("python").remedy == "make day1"
+    assert doctor.check_mujoco("python").remedy == "make setup"
 
 
 def test_an_old_python_is_told(answers):
@@ -119,11 +120,32 @@ def test_the_back_ends_that_draw_are_named(answers):
     assert doctor.check_gl("python").status == "todo"
 
 
+def test_a_mujoco_gl_that_does_not_draw_is_told_with_its_cure(answers, monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "nonsense")
+    answers({doctor.GL_PROBE: ({"nonsense": "invalid value"}, "")})
+    line = doctor.check_gl("python")
+    assert (line.status, "MUJOCO_GL=nonsense" in line.found) == ("todo", True)
+    assert line.remedy == "Unset it: unset MUJOCO_GL"
+
+
+def test_a_wrong_mujoco_gl_is_no_fault_of_mujocos(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "nonsense")
+    assert doctor.check_mujoco(sys.executable).status == "good"
+
+
+def test_a_lab_script_that_is_not_the_kits_is_told(answers):
+    found = {"days": 1, "others": ["w1-foundations/src/day1_transforms.py"]}
+    answers({doctor.LESSONS_PROBE: (found, "")})
+    line = doctor.check_lessons("python")
+    assert (line.status, "not the kit's" in line.found) == ("todo", True)
+    assert line.remedy.endswith("git checkout -- w1-foundations/src/day1_transforms.py")
+
+
 def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
-    assert len(lines) == 8
-    assert "ZeroDivisionError" in lines[6].found
+    assert len(lines) == 9
+    assert "ZeroDivisionError" in lines[7].found
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import subprocess
 import tarfile
 
 import pytest
-from conftest import ROOT
 
+from conftest import ROOT
 from robo47 import menagerie
 
 SCRIPT = "scripts/fetch_menagerie.py"
@@ -57,6 +57,34 @@ def test_without_any_source_it_says_so_leaves_nothing_and_exits_2(fetch, fresh):
     assert "no source of the Panda answered" in done.stderr
     assert "embedded twin" in done.stderr
     assert list((fresh / "mujoco_menagerie").iterdir()) == []
+
+
+def test_make_asks_once_a_day_where_nobody_answers(fetch, fresh):
+    first = fetch("--daily", **no_index())
+    assert (first.returncode, "asking" in first.stdout) == (2, True)
+    again = fetch("--daily", **no_index())
+    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+    asked = fetch(**no_index())
+    assert "asking" in asked.stdout, "somebody who asks gets an answer"
+    (fresh / ".robo47" / "robot-asked").write_text("1999-12-31")
+    assert "asking" in fetch("--daily", **no_index()).stdout
+
+
+@pytest.mark.parametrize("content", ["[]", "{}", '{"source": 1}', "", '{"sour', "nul"])
+def test_a_broken_record_is_written_anew(fetch, fresh, real_panda, content):
+    shutil.copytree(real_panda, robot(fresh / "mujoco_menagerie"))
+    record = fresh / "mujoco_menagerie/PROVENANCE.json"
+    record.write_text(content)
+    done = fetch(**no_index())
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(record.read_text())["source"] == "a copy of the Menagerie"
+
+
+def test_what_a_killed_run_left_behind_is_cleared_away(fetch, fresh):
+    left = fresh / "mujoco_menagerie" / ".fetch-1234"
+    left.mkdir(parents=True)
+    fetch(**no_index())
+    assert not left.exists()
 
 
 def test_a_copy_that_is_there_is_kept_and_recorded(fetch, fresh, real_panda):
@@ -133,7 +161,7 @@ def test_show_and_verify_without_a_robot_say_what_to_do(fetch):
     for option in ("--show", "--verify"):
         done = fetch(option)
         assert done.returncode == 2
-        assert "run this without options first" in done.stderr
+        assert "first: make robot" in done.stderr
 
 
 @pytest.fixture

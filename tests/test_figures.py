@@ -6,9 +6,9 @@ import sys
 import mujoco
 import numpy as np
 import pytest
-from conftest import need
 from pictures import count, differing, pixels
 
+from conftest import need
 from robo47 import figures, panda
 from robo47.errors import Robo47Error
 from robo47.figures import backends
@@ -68,11 +68,30 @@ def test_the_hand_is_drawn_where_its_frame_says_it_is():
     tinted = Scene(q, SMALL, camera, (Ghost("hand", np.eye(4)),), fast=True)
     plain = client.draw(Scene(q, SMALL, camera, fast=True)).astype(int)
     y, x = np.nonzero(np.abs(client.draw(tinted) - plain).max(axis=2) > 30)
-    T_world_hand = portrait.link_frames(q)["hand"]
-    p_world_middle = T_world_hand[:3, 3] + 0.05 * T_world_hand[:3, 2]
+    T_world_ee = portrait.link_frames(q)["ee"]  # the hand's origin and z axis too
+    p_world_middle = T_world_ee[:3, 3] + 0.05 * T_world_ee[:3, 2]
     expected = camera.project(p_world_middle, SMALL)[:2]
     assert len(x) > 100
     assert np.linalg.norm([x.mean(), y.mean()] - expected) < 5  # of 300 pixels
+
+
+def test_the_frame_that_is_drawn_is_the_one_whose_matrix_the_lab_prints(run):
+    T_world_ee = portrait.link_frames(portrait.with_fingers(panda.READY_Q))["ee"]
+    said = run("w1-foundations/src/day1_transforms.py", "--no-log").stdout
+    step = said.split("\n2. ")[1].split("\n3. ")[0]
+    printed = [line.split() for line in step.splitlines() if line.startswith("    ")]
+    np.testing.assert_allclose(T_world_ee, np.float64(printed[:4]), atol=1e-6)
+
+
+@pytest.mark.parametrize("q", [panda.READY_Q, np.zeros(7), np.full(7, 0.5)])
+@pytest.mark.parametrize("azimuth", [118.0, 58.0, -30.0])
+def test_the_whole_arm_is_in_the_picture(q, azimuth):
+    poses = portrait.link_frames(portrait.with_fingers(q))
+    points = portrait.corners(poses)
+    camera = Camera(azimuth=np.radians(azimuth)).stepped_back(points, SMALL)
+    pixels = camera.project(points, SMALL)[:, :2]
+    assert (pixels > 0).all()
+    assert (pixels < SMALL).all()
 
 
 @pytest.mark.gl

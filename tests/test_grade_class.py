@@ -383,8 +383,9 @@ def test_a_class_of_200_gives_the_same_bytes_however_it_is_graded(tmp_path, run)
 def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, width):
     import html
 
-    from conftest import need
     from test_report import MEASURE, dom
+
+    from conftest import need
 
     names = ("chromium", "chromium-browser", "google-chrome")
     browser = next(filter(None, map(shutil.which, names)), None)

@@ -9,10 +9,10 @@ import sys
 import time
 
 import pytest
-from conftest import need
 from make_class import KINDS, make_class
 from test_grade_class import SCRIPT, grade, journalled, outputs, rows
 
+from conftest import need
 from robo47.paths import ROOT
 
 DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")

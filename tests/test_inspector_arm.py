@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from conftest import need
 
+from conftest import need
 from robo47 import panda, se3, verify
 from robo47.inspector import words
 from robo47.inspector.arm import AGREES, END, Arm, extra

@@ -7,8 +7,9 @@ import urllib.request
 from queue import Queue
 
 import pytest
-from conftest import need
 from inspection import SECONDS, Served
+
+from conftest import need
 
 
 def here(module: str) -> bool:

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import need
 from inspection import Served
 
+from conftest import need
 from robo47 import panda, se3, verify
 from robo47.checks import Array
 

@@ -1,5 +1,8 @@
 """Jacobians against MuJoCo, finite differences and the textbook; logs against SciPy."""
 
+import json
+from pathlib import Path
+
 import hypothesis.extra.numpy as hnp
 import mujoco
 import numpy as np
@@ -25,6 +28,8 @@ from test_screws import (
 from robo47 import jacobian, panda, screws, se3, verify
 
 READY = panda.READY_Q
+# What Pinocchio and the textbook's own package said; scripts/make_oracle.py asks them.
+ORACLE = Path(__file__).parent / "data" / "kinematics_oracle.json"
 matrices = hnp.arrays(np.float64, (6, 7), elements=st.floats(-2, 2))
 steps = hnp.arrays(np.float64, 7, elements=st.floats(-2, 2))
 
@@ -139,6 +144,36 @@ def test_the_zero_pose_is_singular_and_ready_is_not():
     assert jacobian.manipulability(at_zero) < 1e-16
     assert jacobian.manipulability(at_ready) > 0.05
     assert jacobian.manipulability(np.ones((3, 2))) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("theirs", "ours"),
+    [
+        ("WORLD", "J_space"),
+        ("LOCAL", "J_body"),
+        ("LOCAL_WORLD_ALIGNED", "J_site"),
+        ("JacobianSpace", "J_space"),
+        ("JacobianBody", "J_body"),
+        ("FKinSpace", "T"),
+        ("FKinBody", "T"),
+    ],
+)
+def test_whose_jacobian_is_which(either_panda, theirs, ours):
+    oracle = json.loads(ORACLE.read_text("utf-8"))
+    S, M = arm(either_panda)
+    q = np.array(oracle["q"])
+    T, J = screws.fk_space(S, M, q), jacobian.space_jacobian(S, q)
+    answers = {
+        "T": T[:, :3],
+        "J_space": J,
+        "J_site": jacobian.site_jacobian(J, T[:, :3, 3]),
+        "J_body": jacobian.body_jacobian(J, T),
+    }
+    rows = oracle["answers"][theirs]
+    assert_same(answers.pop(ours).reshape(len(q), -1), rows, 3e-14)
+    for other in answers.values():  # and no other one of ours would do
+        if other.size == np.size(rows):
+            assert np.abs(other.reshape(len(q), -1) - rows).max() > 0.1
 
 
 # --- the logarithm ---

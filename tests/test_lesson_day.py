@@ -4,13 +4,13 @@ import re
 import tomllib
 
 import pytest
-from conftest import kits_worksheet
 
+from conftest import kits_worksheet
 from robo47.checker.deliverables.worksheet import split_sections
 from robo47.errors import Robo47Error
-from robo47.paths import ROOT
-from robo47.lesson.starter import find_regions
 from robo47.lesson.day import find_day, find_task, load_week
+from robo47.lesson.starter import find_regions
+from robo47.paths import ROOT
 
 MANIFESTS = sorted(ROOT.glob("w*/week.toml"))
 DAYS = [day for manifest in MANIFESTS for day in load_week(manifest)]

@@ -1,16 +1,18 @@
 """What the lab's end does with the rows of its run."""
 
-import subprocess
+import hashlib
 import sys
 from pathlib import Path
 
 import pytest
 
 from robo47.errors import Robo47Error
+from robo47.lesson.day import find_day
 from robo47.lesson.lab import Lab
 from robo47.metrics import read_rows
 from robo47.metrics.header import LINE
-from robo47.paths import ROOT
+
+SCRIPT = find_day(1).source
 
 
 @pytest.fixture
@@ -22,43 +24,66 @@ def log(monkeypatch, tmp_path) -> Path:
     return path
 
 
-def lab_with(*values: float) -> Lab:
-    lab = Lab(1, "test_lab", "")
+def lab_with(*values) -> Lab:
+    lab = Lab(str(SCRIPT), "A lab.")
     for value in values:
-        lab.record("fk", "err", value, 1e-8)
+        lab.record("fk_by_hand", value)
     return lab
 
 
 def test_the_rows_of_a_run_are_logged_together(log, capsys):
-    assert lab_with(1e-9, float("nan")).finish() == 0
-    assert [row["n_failures"] for row in read_rows(log)] == [0, 1]
-    assert "logged 2 rows to" in capsys.readouterr().out
-    lab_with(1e-9).finish()
+    assert lab_with(1e-9).finish() == 0
     assert "logged 1 row to" in capsys.readouterr().out
+    assert lab_with(1e-9, float("nan")).finish() == 1
+    assert [row["n_failures"] for row in read_rows(log)] == [0, 0, 1]
+    assert "logged 2 rows to" in capsys.readouterr().out
 
 
-def test_a_log_that_refuses_costs_no_row_of_the_run(log):
+def test_checking_and_recording_is_one_call_with_the_manifests_limit(log, capsys):
+    lab_with(2e-8).finish()
+    out = capsys.readouterr().out
+    assert "FAIL  fk by hand: 2.0e-08 (limit 1e-08)" in out
+    (row,) = read_rows(log)
+    assert (row["value"], row["n_failures"]) == (2e-8, 1)
+
+
+def test_the_absolute_value_is_judged(log, capsys):
+    lab = lab_with([-0.5, 1e-9])
+    lab.check("e", [-0.5, -0.3])
+    assert lab.finish() == 1
+    out = capsys.readouterr().out
+    assert "FAIL  e: 0.5" in out
+    (row,) = read_rows(log)
+    assert (row["value"], row["n_trials"], row["n_failures"]) == (0.5, 2, 1)
+
+
+def test_a_number_at_its_limit_fails_as_the_week_and_the_check_say(log):
+    assert lab_with(1e-8).finish() == 1
+
+
+def test_a_row_says_which_file_wrote_it(log):
+    lab_with(1e-9).finish()
+    (row,) = read_rows(log)
+    digest = hashlib.sha256(SCRIPT.read_bytes()).hexdigest()
+    assert row["notes"] == f"limit 1e-08; file {digest[:8]}"
+
+
+def test_a_number_that_the_manifest_does_not_know_is_refused(log):
+    lab = Lab(str(SCRIPT), "A lab.")
+    with pytest.raises(Robo47Error, match=r"has 0 metrics fk; it has fk_identity"):
+        lab.record("fk", 0.0)
+
+
+def test_a_script_that_is_no_lab_is_refused(log):
+    with pytest.raises(Robo47Error, match=r"helpers\.py is no lab"):
+        Lab("helpers.py", "")
+
+
+def test_a_log_that_refuses_costs_no_row_and_no_word_of_how_it_went(log, capsys):
     log.write_text(LINE.replace("value", "val") + "\n")
     with pytest.raises(Robo47Error) as caught:
-        lab_with(1e-9, 2e-9, 3e-9).finish()
+        lab_with(1e-9, 2.0, 3e-9).finish()
     kept = Path(f"{log}.unsaved").read_text().splitlines()
     assert len(kept) == 3
     assert all(f"  row: {text}\n" in str(caught.value) for text in kept)
-
-
-def test_the_day_itself_keeps_both_its_rows_when_the_log_refuses(tmp_path):
-    log = tmp_path / "m.csv"
-    log.write_text(LINE.replace("value", "val") + "\n")
-    script = (
-        "import os, runpy, sys; os.environ['ROBO47_METRICS'] = sys.argv.pop(1)\n"
-        "runpy.run_path('w1-foundations/src/day1_transforms.py', run_name='__main__')"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script, str(log)],
-        cwd=ROOT,
-        capture_output=True,
-        encoding="utf-8",
-    )
-    assert done.returncode == 2
-    assert done.stderr.count("  row: day1_transforms,") == 2
-    assert Path(f"{log}.unsaved").read_text().count("\n") == 2
+    assert "FAILED: fk by hand is 2" in capsys.readouterr().out

@@ -4,9 +4,9 @@ import os
 
 import numpy as np
 import pytest
-from conftest import ROOT
 from pictures import count, differing
 
+from conftest import ROOT
 from robo47 import panda
 
 if not os.environ.get("ROBO47_CI"):
@@ -49,9 +49,10 @@ def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
-    monkeypatch.syspath_prepend(str(ROOT / "w1-foundations" / "src"))
-    import day1_figures
-    from day1_transforms import HOME_Q, compose_fk
+    from robo47.figures.lessons import lesson_figures
+
+    draw = lesson_figures(1)["day1_order"]
+    from day1_transforms import READY_Q, compose_fk
 
     seen = {}
 
@@ -60,9 +61,9 @@ def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
         return Image.new("RGB", scene.size)
 
     monkeypatch.setattr(portrait, "draw", note)
-    day1_figures.order()
+    draw()
     lab = run("w1-foundations/src/day1_transforms.py", "--no-log").stdout
-    T_world_ee = compose_fk(panda.load("panda_nohand"), HOME_Q)
+    T_world_ee = compose_fk(panda.load("panda_nohand"), READY_Q)
     np.testing.assert_allclose(seen["T_world_ee"], T_world_ee)
     for name in ("T_world_ee @ T_extra", "T_extra @ T_world_ee"):
         printed = lab.split(f"  {name}: ")[1].split("\n")[1].split()
@@ -82,7 +83,14 @@ def test_without_a_backend_the_command_says_so_in_one_line(run, choice):
 def test_the_command_names_the_pictures_that_there_are(run):
     done = run("scripts/make_figures.py", "mona_lisa")
     assert done.returncode == 2
-    assert "day1_reference, day1_order, day1_fk_error" in done.stderr
+    assert "day 1 has: day1_reference, day1_order, day1_fk_error" in done.stderr
+
+
+def test_a_day_without_pictures_has_none(monkeypatch):
+    from robo47.figures import lessons
+
+    monkeypatch.setattr(lessons.folder, "has", lambda day, name: False)
+    assert lessons.lesson_figures(1) == {}
 
 
 @pytest.mark.gl

@@ -1,11 +1,14 @@
 """The notebook: made from the script, never stale, and it runs from top to bottom."""
 
+import dataclasses
 import importlib.util
 import json
 import os
+import shutil
 import sys
 
 import pytest
+
 from conftest import ROOT
 
 if not os.environ.get("ROBO47_CI"):
@@ -13,8 +16,13 @@ if not os.environ.get("ROBO47_CI"):
         pytest.importorskip(package, reason=f"needs {package}: make notebook")
 import nbclient
 import nbformat
+import numpy as np
+
+from robo47.errors import Robo47Error
+from robo47.lesson.day import find_day
 
 NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
+DAY = find_day(1)
 LOGGING = 'sys.argv = ["day1_transforms"]'
 
 
@@ -25,8 +33,9 @@ def generator(monkeypatch, tmp_path):
     spec = importlib.util.spec_from_file_location("make_notebook", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    monkeypatch.setattr(module, "NOTEBOOK", tmp_path / "notebooks" / "day1.ipynb")
-    monkeypatch.setattr(sys, "argv", ["make_notebook.py"])
+    path = tmp_path / "notebooks" / "day1.ipynb"
+    monkeypatch.setattr(module, "notebook_of", lambda day: path)
+    monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--day", "1"])
     return module
 
 
@@ -48,19 +57,37 @@ def test_the_committed_notebook_is_what_the_script_makes(run):
 
 def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
     assert generator.main() == 0
-    changed = tmp_path / "day1_transforms.py"
-    source = generator.SCRIPT.read_text("utf-8")
+    before = generator.notebook_of(DAY).read_bytes()
+    source = DAY.source.read_text("utf-8")
+    changed = tmp_path / "src" / DAY.script
+    changed.parent.mkdir()
     changed.write_text(source.replace("np.pi / 4", "np.pi / 3"), "utf-8")
-    assert source != changed.read_text("utf-8")
-    monkeypatch.setattr(generator, "SCRIPT", changed)
+    shutil.copytree(DAY.own, tmp_path / DAY.own.name)
+    moved = dataclasses.replace(DAY, folder=tmp_path)
+    monkeypatch.setattr(generator, "find_day", lambda number: moved)
     monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--check"])
-    before = generator.NOTEBOOK.read_bytes()
     assert generator.main() == 1
-    assert generator.NOTEBOOK.read_bytes() == before
+    assert generator.notebook_of(DAY).read_bytes() == before
+
+
+def test_every_heading_carries_its_functions_own_task():
+    headings = [cell.source for cell in cells("markdown")]
+    named = [tuple(h[4:-1].split(" `")) for h in headings if h.endswith("`")]
+    wanted = [(task.id, name) for task in DAY.tasks for name in task.functions]
+    assert [(task, name) for task, name in named if task[:1].isdigit()] == wanted
+
+
+@pytest.mark.parametrize("text", ["cells = 1", "[[cells]]\nafter = 1", "x = ", ""])
+def test_a_notebook_toml_that_is_not_right_is_named(generator, tmp_path, text):
+    moved = dataclasses.replace(DAY, folder=tmp_path)
+    moved.own.mkdir()
+    (moved.own / "notebook.toml").write_text(text, "utf-8")
+    with pytest.raises(Robo47Error, match=r"notebook\.toml: .*expected \[\[cells\]\]"):
+        generator.extras(moved)
 
 
 def test_every_function_and_step_of_the_script_is_there(generator):
-    source = generator.SCRIPT.read_text("utf-8")
+    source = DAY.source.read_text("utf-8")
     code = "\n".join(cell.source for cell in cells("code"))
     text = "\n".join(cell.source for cell in cells("markdown"))
     functions = [line for line in source.splitlines() if line.startswith("def ")]
@@ -96,6 +123,7 @@ def test_it_runs_from_top_to_bottom(tmp_path):
     assert "FAIL" not in printed
     shown = [out.data for out in outputs(notebook, "execute_result")]
     assert sum("image/png" in data for data in shown) == 2
+    assert not any(data.get("text/plain") == "0" for data in shown)
     widget = "application/vnd.jupyter.widget-view+json"
     assert sum(widget in data for data in shown) == 1
 
@@ -119,5 +147,19 @@ def test_a_slider_moves_the_arm_and_the_matrix():
     assert picture.value != before[0]
     assert numbers.value != before[1]
     assert "color:green" in numbers.value
-    assert [s.description for s in sliders] == [f"joint{i}" for i in range(1, 8)]
+    assert "robo47.kinematics" in numbers.value, "what computed it is named"
+    assert "T_world_ee, MuJoCo" in numbers.value
+    assert "-0.0000" not in numbers.value
+    wanted = [f"joint{i}, rad" for i in range(1, 8)]
+    assert [s.description for s in sliders] == wanted
     assert sliders[3].max < 0  # joint4's limits, so that 0 cannot be chosen
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_the_sliders_show_the_function_that_they_are_given():
+    from robo47.figures.sliders import joint_sliders
+
+    left, _ = joint_sliders(lambda model, q: np.eye(4)).children
+    assert "T_world_ee, compose_fk" in left.children[-1].value
+    assert "color:crimson" in left.children[-1].value

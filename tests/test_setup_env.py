@@ -1,39 +1,55 @@
 """Set-up: does nothing when nothing changed, and names the missing thing."""
 
+import errno
 import importlib.util
+import os
+import subprocess
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import pythons
 from conftest import ROOT
+
+NOW = sys.version_info[:2]
+
+
+def load():
+    path = ROOT / "scripts" / "setup_env.py"
+    spec = importlib.util.spec_from_file_location("setup_env", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @pytest.fixture
 def setup(monkeypatch, tmp_path):
     """The script as a module, pointed at an empty folder, running no real command."""
-    path = ROOT / "scripts" / "setup_env.py"
-    spec = importlib.util.spec_from_file_location("setup_env", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = load()
     for name in ("pyproject.toml", "constraints.txt"):
         (tmp_path / name).write_text((ROOT / name).read_text("utf-8"), "utf-8")
-    monkeypatch.setattr(module, "ROOT", tmp_path)
+    monkeypatch.setattr(module, "ROOT", str(tmp_path))
+    monkeypatch.setattr(sys.modules["alone"], "ROOT", str(tmp_path))
     monkeypatch.setattr(module.shutil, "which", lambda name: None)
     module.commands = []
     module.answers = {}
+    module.version = NOW
 
     def run(command, doing):
         module.commands.append([str(part) for part in command])
         if "venv" in module.commands[-1]:
-            Path(module.commands[-1][-1]).mkdir(exist_ok=True)
+            inside = os.path.join(module.commands[-1][-1], module.PYTHON_IN_VENV)
+            os.makedirs(os.path.dirname(inside), exist_ok=True)
+            open(inside, "w").close()
         for word, answer in module.answers.items():
             if word in module.commands[-1]:
+                if isinstance(answer, BaseException):
+                    raise answer
                 return answer
         return 0, ""
 
     monkeypatch.setattr(module, "run", run)
-    monkeypatch.setattr(module, "works", lambda venv, version: venv.exists())
+    monkeypatch.setattr(module, "ask", lambda python, imports: module.version)
     return module
 
 
@@ -61,7 +77,7 @@ def test_a_changed_list_is_installed_again_into_the_same_environment(
     setup, monkeypatch, name
 ):
     call(setup, monkeypatch)
-    with (setup.ROOT / name).open("a") as file:
+    with open(os.path.join(setup.ROOT, name), "a") as file:
         file.write("# new\n")
     assert len(call(setup, monkeypatch)) == 1
 
@@ -80,16 +96,107 @@ def test_another_folder_is_another_environment(setup, monkeypatch):
     assert install[-1] == ".[bench]"
 
 
-def test_an_environment_that_does_not_start_or_is_too_old_is_made_anew(setup, tmp_path):
-    spec = importlib.util.spec_from_file_location("real", ROOT / "scripts/setup_env.py")
-    real = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(real)
-    python = tmp_path / "v" / real.PYTHON_IN_VENV
-    assert not real.works(tmp_path / "v", sys.version_info[:2])
+def test_an_environment_without_a_stamp_or_a_python_is_not_whole(tmp_path):
+    real = load()
+    venv = tmp_path / "v"
+    python = venv / real.PYTHON_IN_VENV
+    assert real.made_with(str(venv)) is None
     python.parent.mkdir(parents=True)
     python.symlink_to(sys.executable)
-    assert real.works(tmp_path / "v", sys.version_info[:2])
-    assert not real.works(tmp_path / "v", (3, 1))
+    assert real.made_with(str(venv)) is None
+    (venv / ".made").write_bytes(b"")
+    assert real.made_with(str(venv)) == NOW
+    python.unlink()
+    assert real.made_with(str(venv)) is None
+
+
+def test_an_environment_without_pip_is_not_whole(tmp_path):
+    real = load()
+    venv = tmp_path / "v"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
+    (venv / ".made").write_bytes(b"")
+    assert real.made_with(str(venv)) is None
+
+
+@pytest.mark.parametrize("step", ["venv", "pip"])
+def test_what_is_killed_halfway_is_healed_by_the_next_run(setup, monkeypatch, step):
+    setup.answers[step] = KeyboardInterrupt()
+    with pytest.raises(KeyboardInterrupt):
+        call(setup, monkeypatch)
+    setup.answers.clear()
+    again = call(setup, monkeypatch)
+    assert len(again) == (2 if step == "venv" else 1)
+    assert ("--force-reinstall" in again[-1]) == (step == "pip")
+    assert call(setup, monkeypatch) == []
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff\xfe", b"old"])
+def test_a_broken_stamp_is_no_stamp(setup, monkeypatch, content):
+    call(setup, monkeypatch)
+    with open(os.path.join(setup.ROOT, ".venv", ".ready-core"), "wb") as file:
+        file.write(content)
+    assert len(call(setup, monkeypatch)) == 1
+    assert call(setup, monkeypatch) == []
+
+
+def test_an_environment_that_works_keeps_its_python_and_says_so(
+    setup, monkeypatch, capsys
+):
+    call(setup, monkeypatch)
+    setup.version = (3, 99)
+    assert call(setup, monkeypatch) == []
+    said = capsys.readouterr().out
+    assert ".venv keeps its Python 3.99; to change that:" in said
+    assert "make setup PYTHON=" in said
+
+
+def test_another_python_is_said_before_anything_is_made_anew(
+    setup, monkeypatch, capsys
+):
+    call(setup, monkeypatch)
+    with open(os.path.join(setup.ROOT, ".venv", "pyvenv.cfg"), "w") as file:
+        file.write("home = /usr/bin\nversion = 3.99.1\n")
+    setup.version = None
+    assert len(call(setup, monkeypatch)) == 2
+    said = capsys.readouterr().out
+    assert ".venv (Python 3.99) is not whole; making it anew" in said
+    assert ".venv had Python 3.99; it gets {}.{} now".format(*NOW) in said
+
+
+def test_a_full_disk_is_told(setup, monkeypatch):
+    full = OSError(errno.ENOSPC, "No space left on device")
+
+    def write(path):
+        raise full
+
+    monkeypatch.setattr(setup, "write_stamp", write)
+    assert "the disk is full" in said(setup, monkeypatch)
+
+
+def test_two_at_once_wait_for_each_other(tmp_path):
+    script = tmp_path / "hold.py"
+    script.write_text(
+        f"import sys, time; sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
+        f"import alone; alone.ROOT = {str(tmp_path)!r}\n"
+        "with alone.alone('setup'):\n"
+        "    print('in', flush=True); sys.stdin.readline(); print('out', flush=True)\n"
+    )
+
+    def start():
+        return subprocess.Popen(
+            [sys.executable, script],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+    with start() as first:
+        assert first.stdout.readline() == "in\n"
+        with start() as second:
+            assert "waiting" in second.stdout.readline()
+            first.kill()  # a killed one lets go
+            assert second.stdout.readline() == "in\n"
+            second.kill()
 
 
 def test_uv_is_used_where_it_is_installed(setup, monkeypatch):
@@ -108,17 +215,17 @@ def said(setup, monkeypatch):
 
 def test_an_old_python_is_told_so(setup, monkeypatch):
     old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(setup, "sys", old)
+    monkeypatch.setattr(pythons, "sys", old)
     with pytest.raises(SystemExit, match=r"this is Python 3\.9; the kit needs 3\.11"):
-        setup.find_python()
+        pythons.find_python()
 
 
 def test_a_shim_that_starts_no_python_is_passed_over(setup, monkeypatch):
     old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(setup, "sys", old)
-    monkeypatch.setattr(setup.shutil, "which", lambda name: "/usr/bin/false")
+    monkeypatch.setattr(pythons, "sys", old)
+    monkeypatch.setattr(pythons.shutil, "which", lambda name: "/usr/bin/false")
     with pytest.raises(SystemExit, match=r"this is Python 3\.9"):
-        setup.find_python()
+        pythons.find_python()
 
 
 def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
@@ -128,11 +235,11 @@ def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
 
 def test_a_newer_python_on_the_path_is_used(setup, monkeypatch):
     old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(setup, "sys", old)
+    monkeypatch.setattr(pythons, "sys", old)
     paths = {"python3.12": "/usr/bin/python3.12"}
-    monkeypatch.setattr(setup.shutil, "which", paths.get)
-    monkeypatch.setattr(setup, "is_version", lambda python, version: True)
-    assert setup.find_python() == ("/usr/bin/python3.12", (3, 12))
+    monkeypatch.setattr(pythons.shutil, "which", paths.get)
+    monkeypatch.setattr(pythons, "is_version", lambda python, version: True)
+    assert pythons.find_python() == ("/usr/bin/python3.12", (3, 12))
 
 
 @pytest.mark.parametrize(

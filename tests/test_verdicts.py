@@ -2,7 +2,7 @@
 
 import pytest
 
-from robo47.checker import process, variant
+from robo47.checker import sandbox
 from robo47.lesson.day import find_day
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -14,21 +14,7 @@ def test_a_general_inverse_gives_the_right_numbers_but_not_the_task(check):
     )
     verdict = check(code, "1.3")["1.3"]
     assert (verdict.status, verdict.mistake) == ("close", "general-inverse")
-    assert "numpy.linalg.inv" in verdict.message
-
-
-def test_typed_in_link_lengths_pass_with_a_note(check):
-    code = REFERENCE.replace(
-        "link_T(body.pos, body.quat)", "link_T(POS[name], body.quat)", 1
-    )
-    model = variant.models()[0]
-    names = ["link0", *(f"link{i}" for i in range(1, 8)), "attachment"]
-    typed = {name: model.body(name).pos.tolist() for name in names}
-    verdict = check(code.replace("HOME_Q =", f"POS = {typed}\nHOME_Q =", 1), "1.6")[
-        "1.6"
-    ]
-    assert verdict.status == "passed"
-    assert "longer links" in verdict.message
+    assert "without" in verdict.message
 
 
 def test_a_task_that_calls_an_unwritten_one_waits_for_it(check):
@@ -44,7 +30,7 @@ def test_a_wrong_task_points_to_the_wrong_one_below_it(check):
     code = REFERENCE.replace("w, x, y, z = quat /", "x, y, z, w = quat /", 1)
     verdicts = check(code)
     assert verdicts["1.4"].status == verdicts["1.6"].status == "wrong"
-    assert "Task 1.4" in verdicts["1.6"].message
+    assert verdicts["1.6"].follows == "1.4"
 
 
 def test_a_missing_function_is_told_with_the_way_to_get_it_back(check):
@@ -89,7 +75,7 @@ def test_a_chain_that_ignores_its_path_is_told_in_its_own_task(check):
     verdicts = check(code)
     assert verdicts["1.6"].mistake == "path-ignored"
     assert "does not look at path" in verdicts["1.6"].message
-    assert "Task 1.6" in verdicts["1.8"].message
+    assert verdicts["1.8"].follows == "1.6"
 
 
 def test_a_chain_that_takes_no_path_at_all_passes(check):
@@ -120,7 +106,7 @@ def test_an_error_inside_a_helper_names_the_lines_that_called_it(check):
 
 
 def test_a_loop_without_an_end_is_told_in_one_sentence(check, monkeypatch):
-    monkeypatch.setattr(process, "CALL_SECONDS", 1.0)
+    monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
     code = REFERENCE.replace("    c, s =", "    while True: pass\n    c, s =", 1)
     message = check(code, "1.2")["1.2"].message
     assert message.startswith("Rz did not return: it runs on and on")

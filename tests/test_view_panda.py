@@ -6,9 +6,11 @@ import socket
 import subprocess
 import sys
 
+import numpy as np
 import pytest
-from conftest import ROOT, need
 from inspection import SCRIPT, Served
+
+from conftest import ROOT, need
 
 VIEW = "scripts/view_panda.py"
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
@@ -155,29 +157,46 @@ def test_without_a_display_the_browser_is_the_default(run):
     assert "the inspector needs viser" in done.stderr
 
 
-FIGURES = """
-import types
-figures = types.ModuleType("robo47.figures")
-class Picture:
-    def __init__(self, q): self.q = q
-    def save(self, path): path.write_text(repr(self.q.tolist()))
-figures.render_panda = Picture
-sys.modules["robo47.figures"] = figures
-"""
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone):
+    from robo47.checker.deliverables.figure import check_figure
+    from robo47.lesson.day import find_day
+
+    need(importlib.util.find_spec("PIL") is not None, "Pillow: make report")
+    day = find_day(1, clone)
+    done = run_in(VIEW, "--screenshot")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"wrote w1-foundations/{day.figure}" in done.stdout
+    found = check_figure(day, day.folder)
+    assert found.passed, found.message
 
 
-def test_a_screenshot_is_of_the_configuration_that_was_asked_for(tmp_path):
+@pytest.mark.gl
+@pytest.mark.usefixtures("gl")
+@pytest.mark.parametrize("start", ["ready", "home", "zero"])
+def test_a_screenshot_cuts_nothing_off(run, tmp_path, start):
+    image = pytest.importorskip("PIL.Image")
     path = tmp_path / "new" / "arm.png"
-    done = run_after(FIGURES, "--screenshot", path, "--start", "zero")
+    done = run(VIEW, "--screenshot", path, "--start", start)
     assert done.returncode == 0, done.stderr
-    assert path.read_text() == repr([0.0] * 7)
-    assert "wrote " in done.stdout
+    picture = np.asarray(image.open(path).convert("L"))
+    edges = [picture[:5], picture[-5:], picture[:, :5], picture[:, -5:]]
+    assert picture.min() < 60
+    assert min(int(edge.min()) for edge in edges) > 150  # floor and sky alone
+
+
+def test_a_screenshot_refuses_the_option_that_it_cannot_honour(run, tmp_path):
+    done = run(VIEW, "--screenshot", tmp_path / "a.png", "--entry", "panda")
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert "--entry is for --web" in done.stderr
 
 
 def test_a_screenshot_never_replaces_a_file(tmp_path):
     path = tmp_path / "mine.png"
     path.write_text("mine")
-    done = run_after(FIGURES, "--screenshot", path)
+    done = run_after("", "--screenshot", path)
     assert done.returncode == 2
     assert is_one_line(done.stderr)
     assert path.read_text() == "mine"
@@ -185,7 +204,8 @@ def test_a_screenshot_never_replaces_a_file(tmp_path):
 
 def test_without_the_means_to_draw_a_screenshot_says_what_installs_them(tmp_path):
     path = tmp_path / "arm.png"
-    done = run_after("sys.modules['robo47.figures'] = None", "--screenshot", path)
+    done = run_after("sys.modules['PIL'] = None", "--screenshot", path)
     assert done.returncode == 2
     assert is_one_line(done.stderr)
+    assert "make view ARGS=--screenshot" in done.stderr
     assert not path.exists()

@@ -48,23 +48,23 @@ def test_macos_is_told_of_mjpython(monkeypatch):
 
 
 @pytest.mark.meshes
-def test_the_arm_starts_at_home_and_does_not_sag(real_panda):
+def test_the_arm_starts_at_ready_and_does_not_sag(real_panda):
     model = panda.load("scene")
-    data = window.at_home(model)
-    key = model.key("home")
-    np.testing.assert_array_equal(data.qpos, key.qpos)
-    np.testing.assert_array_equal(data.ctrl, key.ctrl)
-    assert np.abs(data.ctrl).max() > 0
+    data = window.at_ready(model)
+    np.testing.assert_array_equal(data.qpos[:7], panda.READY_Q)
+    np.testing.assert_array_equal(data.ctrl[:7], panda.READY_Q)
+    start = data.qpos.copy()
     mujoco.mj_step(model, data, nstep=round(2.0 / model.opt.timestep))
-    assert np.abs(data.qpos - key.qpos).max() < 0.01  # radians
+    assert np.abs(data.qpos - start).max() < 0.01  # radians
 
 
 def test_the_twin_has_no_motors_and_stays_up_all_the_same(twin):
     model = panda.load("scene")
-    data = window.at_home(model)
+    data = window.at_ready(model)
     start = data.qpos.copy()
+    np.testing.assert_array_equal(start[:7], panda.READY_Q)
     mujoco.mj_step(model, data, nstep=500)
-    np.testing.assert_array_equal(data.qpos, start)
+    np.testing.assert_allclose(data.qpos, start, atol=1e-12)
 
 
 @pytest.mark.parametrize("ctrl_c", [False, True])
@@ -83,13 +83,14 @@ def test_the_window_is_closed_and_given_a_second_before_the_end(
 
     handle = SimpleNamespace(
         opt=mujoco.MjvOption(),
+        cam=mujoco.MjvCamera(),
         is_running=is_running,
         lock=nullcontext,
         sync=lambda: happened.append("shown"),
     )
 
     @contextmanager
-    def launch_passive(model, data):
+    def launch_passive(model, data, show_left_ui):
         happened.append(float(data.ctrl[3]) if model.nu else "no motors")
         try:
             yield handle
@@ -101,5 +102,6 @@ def test_the_window_is_closed_and_given_a_second_before_the_end(
     assert window.show() == 0
     assert happened[-2:] == ["closed", 1.0]
     assert happened.count("shown") == (0 if ctrl_c else 2)
+    assert handle.cam.distance == 2.6
     assert handle.opt.frame == mujoco.mjtFrame.mjFRAME_BODY
     assert ("window closed" in capsys.readouterr().out) == ctrl_c

@@ -78,8 +78,8 @@ class Process:
             raise Robo47Error(
                 f"the checker's process does not start: {error}"
             ) from None
-        if self.wall.name == "landlock" and ready.get("landlock") is not True:
-            raise Robo47Error("the kernel's Landlock did not close; nothing was run")
+        if self.wall.name == "landlock" and ready.get("fenced") is not True:
+            raise Robo47Error("Linux's Landlock did not close; nothing was run")
         try:
             message = self._message(LOAD_SECONDS)
             if message.get("loaded") is not True:

@@ -57,14 +57,14 @@ def check_tasks(
         script: the student's file.
         sandbox: where to run it.
         only: one task's id; what it needs is run too, since it may call it.
-        seed: of the fresh inputs, for a grade that can be repeated; it must not be known
-            to the student.
+        seed: of the fresh inputs, for a grade that can be repeated; it must not be
+            known to the student.
 
     Returns:
         One result per task, in the manifest's order.
 
     Raises:
-        Robo47Error: there is no such file or task, or the day's questions are not right.
+        Robo47Error: there is no such file or task, or a row of questions is missing.
     """
     wanted = [day.task(only)] if only else list(day.tasks)
     needed = {need for task in wanted for need in day.needs(task.id)}

@@ -4,7 +4,8 @@ Three kinds, the first that works here:
 
     bubblewrap   a tool of every Linux distribution: its own processes, no network, and
                  of the file system Python and NumPy alone, read-only
-    landlock     Linux's own rules for a process, where bubblewrap is not to be had
+    landlock     Linux's own rules and its filter of system calls, where bubblewrap
+                 is not to be had
     none         other systems: the code runs with the rights of whoever checks it
 
 ROBO47_WALL=bubblewrap, landlock or none asks for one by name, for tests. The commands
@@ -20,13 +21,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from robo47.checker import bubblewrap
-from robo47.checker.inside import landlock
+from robo47.checker.inside import landlock, seccomp
 from robo47.errors import Robo47Error
 
 INSIDE = Path(__file__).parent / "inside"
 FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
 PROBE_SECONDS = 20.0
-SCOPED = 6  # the version of Landlock that also closes signals
 _SAYS = {
     "bubblewrap": "student code runs behind bubblewrap: Python and NumPy, read-only, "
     "and nothing else of this machine",
@@ -83,7 +83,7 @@ def command(chosen: Wall) -> list[str]:
 
 
 def _landlock_works() -> bool:
-    return landlock.version() >= SCOPED
+    return landlock.version() > 0 and seccomp.known()
 
 
 def _bubblewrap_works() -> bool:

@@ -72,8 +72,8 @@ def shared_memory(replies: Sequence[Reply]) -> Finding | None:
     if shared:
         return Finding(
             "shares-its-argument",
-            f"Its answer is (a part of) its argument {shared[0]} itself, so changing one "
-            f"changes the other; return a copy: {shared[0]}.copy().",
+            f"Its answer is (a part of) its argument {shared[0]} itself, so changing "
+            f"one changes the other; return a copy: {shared[0]}.copy().",
         )
     return None
 

@@ -1,4 +1,4 @@
-"""Where along a serial chain a product of poses goes wrong: in one factor, or from where.
+"""Where along a serial chain a product of poses goes wrong.
 
 The right product, cut before or after a factor, is A @ F @ B. If the student's pose is
 A @ X @ B, then all but that place is right, and X is what stands in F's place. Any task
@@ -78,8 +78,8 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
             f"q. {rest}",
         )
     for factor, X in found:
-        if factor.unnamed and (finding := factor.unnamed(X)):
-            return Finding(finding.slug, f"{finding.message}. {rest}")
+        if factor.unnamed and (wrong := factor.unnamed(X)):
+            return Finding(wrong.slug, f"{wrong.message}. {rest}")
     return None
 
 

@@ -26,7 +26,7 @@ def numbers(rng: np.random.Generator, low: float, high: float, *shape: int) -> A
 
 
 def units(rng: np.random.Generator, n: int) -> Array:
-    """Return unit vectors, (n, 3); of full precision, since rounded ones are not unit."""
+    """Return unit vectors, (n, 3), not rounded: they would not be unit then."""
     v = rng.normal(size=(n, 3))
     return v / np.linalg.norm(v, axis=1, keepdims=True)
 
@@ -37,7 +37,7 @@ def rotations(rng: np.random.Generator, n: int) -> Array:
 
 
 def poses(rng: np.random.Generator, n: int, reach: float = 1.0) -> Array:
-    """Return random poses, (n, 4, 4), with translations up to `reach` metres an axis."""
+    """Return random poses, (n, 4, 4), each axis up to `reach` metres away."""
     return se3.make_T(rotations(rng, n), numbers(rng, -reach, reach, n, 3))
 
 
@@ -48,5 +48,5 @@ def configurations(rng: np.random.Generator, n: int) -> Array:
 
 
 @cache
-def _arm():  # noqa: ANN202 (an MjModel)
+def _arm():
     return panda.load("panda_nohand")

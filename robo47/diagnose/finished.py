@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.kinds import TRUNCATED
+from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake
 
 Change = Callable[[Array], Array]

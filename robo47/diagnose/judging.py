@@ -15,7 +15,6 @@ from robo47.diagnose.rounds import (
     Round,
     held_out_answers,
     in_words,
-    parts,
     right_answers,
     stacked,
 )
@@ -83,7 +82,7 @@ def _second_look(
         if off > ask.near:
             says = (
                 "Right for the inputs that are always asked, but off by "
-                f"{off:.3g} for fresh ones: the answers are not computed from the input."
+                f"{off:.3g} for fresh ones: the answers are not computed from it."
             )
             return Verdict("wrong", "looked-up", says, measured)
     at += len(asked.fresh)
@@ -116,7 +115,8 @@ def _judge_accepted(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     questions = [*asked.main, *asked.fresh]
-    rows = list(zip(*(np.concatenate(pair) for pair in zip(S, fresh, strict=True))))
+    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
+    rows = list(zip(*columns, strict=True))
     wrong: list[tuple[int, Finding]] = []
     for i, (question, row) in enumerate(zip(questions, rows, strict=True)):
         answer = row[0] if len(row) == 1 else row

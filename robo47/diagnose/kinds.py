@@ -118,7 +118,7 @@ class Vector(Kind):
         off = np.abs(S - T).max(axis=0) > NEAR * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return None
-        where = " and ".join(self.name(i) for i in np.flatnonzero(off))
+        where = " and ".join(self.name(int(i)) for i in np.flatnonzero(off))
         return Finding(
             "few-entries-off",
             f"All entries are right but {where}: up to {self.apart(S, T)} off.",
@@ -137,10 +137,10 @@ class _Halves(Kind):
     halves = ("first half", "second half")
 
     @property
-    def expected(self) -> str:  # noqa: D102
+    def expected(self) -> str:
         return f"six numbers ({'; '.join(self.halves)})"
 
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
+    def general(self) -> Sequence[Mistake]:
         first, second = self.halves
         return (
             Mistake(
@@ -153,7 +153,7 @@ class _Halves(Kind):
             TRUNCATED,
         )
 
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:
         first, second = (
             float(np.abs(S[:, half] - T[:, half]).max()) / self.scale
             for half in (slice(0, 3), slice(3, 6))

@@ -71,7 +71,7 @@ class Jacobian(Matrix):
         rows = gap.any(axis=1)
         where = (
             ""
-            if rows.all() or rows[:3].any() and rows[3:].any()
+            if rows.all() or (rows[:3].any() and rows[3:].any())
             else (" in its omega rows" if rows[:3].any() else " in its v rows")
         )
         if found := one_factor(self, S, T):
@@ -100,8 +100,8 @@ class Symmetric(Matrix):
         if skew > NEAR * self.scale:
             return Finding(
                 "not-symmetric",
-                f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is off "
-                f"by up to {self.apart(S, T)}.",
+                f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
+                f"off by up to {self.apart(S, T)}.",
             )
         diagonal = np.eye(self.shape[0], dtype=bool)
         if difference(S[:, ~diagonal], T[:, ~diagonal]).max() <= NEAR * self.scale:
@@ -134,8 +134,8 @@ def few_entries(
     if not len(rows):
         return None
     one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    own_name = one_column and columns[0] == ignored or one_row and rows[0] == ignored
-    if own_name and len(rows) > 1:
+    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
+    if last and len(rows) > 1:
         return None
     names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
     if len(rows) <= 2:

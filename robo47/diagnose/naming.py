@@ -9,7 +9,6 @@ from robo47.checks import Array
 from robo47.diagnose import near_miss
 from robo47.diagnose.ask import Ask, Case
 from robo47.diagnose.compare import difference, matches
-from robo47.diagnose.kinds import Kind
 from robo47.diagnose.mistake import Finding, Mistake
 from robo47.diagnose.rounds import parts
 

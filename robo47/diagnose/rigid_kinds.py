@@ -35,10 +35,11 @@ class Rotation(Kind):
         return "a 3x3 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        return {
+        known: dict[tuple[int, ...], str] = {
             (2, 2): "it is a rotation in space, so z is there too",
             (4, 4): "only the rotation is asked for",
-        }.get(got, "")
+        }
+        return known.get(got, "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return OF_A_ROTATION
@@ -77,10 +78,11 @@ class Pose(Kind):
         return "a 4x4 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        return {
+        known: dict[tuple[int, ...], str] = {
             (3, 4): "the bottom row (0, 0, 0, 1) is missing",
             (3, 3): "this is the rotation alone",
-        }.get(got, "")
+        }
+        return known.get(got, "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return of_a_pose(self.wrong_way)

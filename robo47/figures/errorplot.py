@@ -21,7 +21,7 @@ def ridges(errors: Mapping[str, Array], limit: float) -> Image.Image:
     """Return the picture: a row of bars per frame, the first at the bottom.
 
     Args:
-        errors: {frame: largest entry of |T_by_hand - T_true| per configuration, (n,)}.
+        errors: {frame: largest entry of |T - T_mujoco| per configuration, (n,)}.
         limit: the error that is still accepted, drawn as a line.
     """
     figure = Figure(figsize=(12, 8), dpi=100, layout="constrained")
@@ -60,12 +60,12 @@ def _guide(axes: Axes, x: float, words: str, style: str) -> None:
 
 
 def _dress(axes: Axes, names: list[str], n: int) -> None:
-    axes.set_title(f"By hand against MuJoCo: {n:,} random configurations", pad=44)
+    axes.set_title(f"robo47.kinematics against MuJoCo: {n:,} configurations", pad=44)
     axes.set_xscale("log")
     axes.set_xlim(1e-17, 1e-7)
     axes.set_ylim(-0.15, len(names))
     axes.set_yticks(range(len(names)), names)
-    axes.set_xlabel("largest entry of |T_by_hand − T_mujoco|  (m, or no unit)")
+    axes.set_xlabel("largest entry of |T − T_mujoco|  (m, or no unit)")
     axes.tick_params(axis="y", length=0)
     axes.spines[["top", "right", "left"]].set_visible(False)
 

@@ -31,15 +31,21 @@ def draw_frames(
         frames: {name: T_world_frame (4, 4)}.
     """
     layer = Layer(picture.size)
+    if not frames:
+        return picture
     seen = {
         name: camera.project(axis_ends(T, length), picture.size)
         for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True)
     }
-    widths = {name: layer.width(name) for name in seen}
-    for name, at in place_labels(seen, widths, layer.text_height, picture.size).items():
-        layer.label(name, at, (float(seen[name][0, 0]), float(seen[name][0, 1])))
     for ends in seen.values():
         layer.triad(ends)
+    widths = {name: layer.width(name) for name in seen}
+    places = place_labels(seen, widths, layer.text_height, picture.size)
+    for name, at in places.items():  # over the triads: a leader ends at its origin
+        layer.label(name, at, (float(seen[name][0, 0]), float(seen[name][0, 1])))
+    first, *_, last = [*seen.values()] * 2
+    for ends in (first, last):
+        layer.letters(ends)
     layer.legend()
     return layer.over(picture)
 
@@ -169,6 +175,18 @@ class Layer:
             self.arrow(origin, tip, colour, 0)
         self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
 
+    def letters(self, ends: Array) -> None:
+        """Write x, y and z at a frame's tips: red and green are one hue to many eyes.
+
+        Args:
+            ends: pixels of the origin and the three tips, and their depth, (4, 3).
+        """
+        for name, tip in zip("xyz", ends[1:, :2], strict=True):
+            away = tip - ends[0, :2]
+            away = away / max(float(np.linalg.norm(away)), 1e-9)
+            x, y = (tip + 0.6 * self.text_height * away) * SMOOTH
+            self.text((float(x), float(y)), name, "mm")
+
     def arrow(
         self, start: Pixel, tip: Pixel, colour: tuple[int, ...], more: float
     ) -> None:
@@ -197,6 +215,7 @@ class Layer:
         left = at[0] < origin[0]
         self.line([at, origin], HALO, 4)
         self.line([at, origin], LEADER, 1.5)
+        self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
         gap = 8 * self.unit * (-1 if left else 1)
         self.text((at[0] * SMOOTH + gap, at[1] * SMOOTH), name, "rm" if left else "lm")
 

@@ -11,7 +11,8 @@ from robo47.checks import Array
 from robo47.figures import client, overlay
 from robo47.figures.scene import Camera, Scene
 
-FRAMES = [*(f"link{i}" for i in range(8)), "hand"]
+LINKS = [f"link{i}" for i in range(8)]
+REACH = 0.12  # metres: how far the arm's shapes go beyond their frames' origins
 OPEN = (0.04, 0.04)  # the fingers of a configuration that is the arm's alone, metres
 
 
@@ -26,8 +27,7 @@ def portrait(
     q = with_fingers(qpos)
     poses = link_frames(q)
     if camera is None:
-        origins = np.array([T[:3, 3] for T in poses.values()])
-        camera = Camera().stepped_back(origins, size)
+        camera = Camera().stepped_back(corners(poses), size)
     return draw(Scene(q, size, camera, fast=fast), poses if frames else {})
 
 
@@ -61,13 +61,28 @@ def with_fingers(qpos: ArrayLike) -> Array:
 
 
 def link_frames(qpos: Array) -> dict[str, Array]:
-    """Return the pose of every link's frame, composed by hand.
+    """Return the pose of every link's frame and of the end effector's.
+
+    They come from `robo47.kinematics`. `ee` is the frame whose matrix the lessons
+    print, `attachment_site`: the hand's origin, turned by 180 degrees about z.
 
     Args:
         qpos: (9,).
 
     Returns:
-        {"link0": T_world_link0, ..., "hand": T_world_hand}.
+        {"link0": T_world_link0, ..., "ee": T_world_ee}.
     """
-    poses = kinematics.fk_all(panda.load("panda"), qpos)
-    return {name: poses[f"body:{name}"] for name in FRAMES}
+    poses = kinematics.fk_all(panda.load("panda_nohand"), qpos[: len(panda.READY_Q)])
+    found = {name: poses[f"body:{name}"] for name in LINKS}
+    return {**found, "ee": poses[panda.END_FRAME["panda_nohand"]]}
+
+
+def corners(poses: Mapping[str, Array]) -> Array:
+    """Return points that the whole arm lies between, (n, 3), metres.
+
+    Args:
+        poses: {name: T_world_frame (4, 4)}.
+    """
+    origins = np.array([T[:3, 3] for T in poses.values()])
+    sides = REACH * np.vstack([np.eye(3), -np.eye(3)])
+    return (origins[:, None] + sides).reshape(-1, 3)

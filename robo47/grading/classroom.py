@@ -20,9 +20,9 @@ from robo47.grading.result import Result, ungraded
 from robo47.grading.roster import Student
 from robo47.grading.sheet import Graded, as_csv, write
 from robo47.grading.similar import Group
-from robo47.paths import shown
-from robo47.lesson.starter import make_starter, read_script
 from robo47.lesson.day import Day
+from robo47.lesson.starter import make_starter, read_script
+from robo47.paths import shown
 
 LOST = "the workers that graded it were lost; run the same command again"
 

@@ -20,8 +20,8 @@ from robo47.errors import Robo47Error
 from robo47.grading import kit
 from robo47.grading.package import Package
 from robo47.grading.result import Result, from_json, ungraded
-from robo47.paths import ROOT
 from robo47.lesson.day import find_day
+from robo47.paths import ROOT
 
 # For one package. The sandbox stops eight tasks that hang after 20 s each at most, so
 # only a file that keeps the checker itself busy gets here.

@@ -11,8 +11,8 @@ from pathlib import Path
 from robo47.errors import Robo47Error
 from robo47.grading.result import ITEMS, Result
 from robo47.grading.roster import Student
-from robo47.paths import shown
 from robo47.lesson.day import Day
+from robo47.paths import shown
 
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")

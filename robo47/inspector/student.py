@@ -163,44 +163,59 @@ class Student(threading.Thread):
             return None
         if self._asker is None:
             return Seen(q, problem=self._problem)
-        start, ghost = time.perf_counter(), self.ghost
-        poses, problem = self._poses(ghost.frames, ghost.questions(self.model, q))
-        if not poses and ghost.whole is not None and self._asker is not None:
-            end = ghost.frames[-1:]
-            poses, why = self._poses(end, [ghost.whole(self.model, q)])
-            note = f"Only {end[0]} is drawn: {problem}"
-            problem = why or note
+        start, asker = time.perf_counter(), self._asker
+        poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
+        if not asker.alive:
+            problem = self._give_up(problem)
         return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
-
-    def _poses(
-        self, frames: Sequence[str], asked: Sequence[tuple[Any, ...]]
-    ) -> tuple[dict[str, Array], str]:
-        """Return the poses that the student's function gives, and the first problem."""
-        function = self.ghost.function
-        questions = [Question("ghost", function, tuple(args)) for args in asked]
-        poses, problem = {}, ""
-        for name, reply in zip(frames, self._ask(questions), strict=True):
-            said = self.source.describe(function, reply)
-            if not said and not (said := no_pose(function, reply.value)):
-                poses[name] = np.array(reply.value, dtype=np.float64)
-            problem = problem or said
-        return poses, problem
 
     def _one(self, question: Question) -> Reply:
         if self._asker is None:
             return Reply(kind="missing", error=self._problem)
-        return self._ask([question])[0]
-
-    def _ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask; after a loop without an end, not again before the file is saved."""
-        assert self._asker is not None
-        replies = self._asker.ask(questions, seconds=ASK_SECONDS)
+        (reply,) = self._asker.ask([question], seconds=ASK_SECONDS)
         if not self._asker.alive:
-            last = next((r for r in replies if r.kind == "stopped"), Reply())
-            said = self.source.describe(self.ghost.function, last)
-            self._shut()
-            self._problem = f"{said} Save the file to have it asked again."
-        return replies
+            self._give_up(self.source.describe(question.function, reply))
+        return reply
+
+    def _give_up(self, why: str) -> str:
+        """Ask nothing more before the file is saved; return what to say meanwhile."""
+        self._shut()
+        self._problem = f"{why} Save the file to have it asked again."
+        return self._problem
+
+
+def poses_of(
+    asker: Asker, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
+) -> tuple[dict[str, Array], str]:
+    """Return the poses that a student's function gives, and the first problem or "".
+
+    Args:
+        asker: the file, loaded.
+        source: says what a reply that is no answer means.
+        ghost: which function, and what to ask it.
+        model: the robot.
+        q: (nq,).
+    """
+
+    def asked(
+        frames: Sequence[str], some: Sequence[tuple[Any, ...]]
+    ) -> tuple[dict[str, Array], str]:
+        questions = [Question("ghost", ghost.function, tuple(args)) for args in some]
+        replies = asker.ask(questions, seconds=ASK_SECONDS)
+        poses, problem = {}, ""
+        for name, reply in zip(frames, replies, strict=True):
+            said = source.describe(ghost.function, reply)
+            if not said and not (said := no_pose(ghost.function, reply.value)):
+                poses[name] = np.array(reply.value, dtype=np.float64)
+            problem = problem or said
+        return poses, problem
+
+    poses, problem = asked(ghost.frames, ghost.questions(model, q))
+    if not poses and ghost.whole is not None and asker.alive:
+        end = ghost.frames[-1:]
+        poses, why = asked(end, [ghost.whole(model, q)])
+        problem = why or f"Only {end[0]} is drawn: {problem}"
+    return poses, problem
 
 
 def stamp_of(script: Path) -> tuple[int, ...] | None:

@@ -50,15 +50,15 @@ class Metric:
 
     @property
     def limit(self) -> str:
-        """The range as people write it: "at most 1e-08"."""
-        parts = [] if self.min is None else [f"at least {self.min:g}"]
-        parts += [] if self.max is None else [f"at most {self.max:g}"]
+        """The range as people write it: "under 1e-08"."""
+        parts = [] if self.min is None else [f"over {self.min:g}"]
+        parts += [] if self.max is None else [f"under {self.max:g}"]
         return " and ".join(parts)
 
     def passes(self, value: float) -> bool:
         """Return whether a value is within the range; NaN never is."""
-        high = self.max is None or value <= self.max
-        return value == value and high and (self.min is None or value >= self.min)
+        high = self.max is None or value < self.max
+        return value == value and high and (self.min is None or value > self.min)
 
 
 @dataclass(frozen=True)
@@ -274,7 +274,7 @@ def load_day(manifest: Path) -> Day:
 
 
 def _manifests(root: Path) -> dict[int, Path]:
-    found = {}
+    found: dict[int, Path] = {}
     for path in sorted(root.glob("w*/day*/day.toml")):
         if number := re.fullmatch(r"day(\d+)", path.parent.name):
             other = found.setdefault(int(number[1]), path)

@@ -121,21 +121,19 @@ class Lab:
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
-        if self.log:
-            try:
-                # A failed check is recorded too: NaN is its value.
-                metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
-                print(
-                    f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}"
-                )
-            except (
-                Robo47Error
-            ) as error:  # how the lab went is worth saying all the same
-                print()
-                cli.complain(f"error: {error}")
-                self.failed.append("the rows are not in the log; see above")
-        else:
+        if not self.log:
             print("\nnothing logged (--no-log)")
+            return self._conclude()
+        try:
+            # A failed check is recorded too: NaN is its value.
+            metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
+        except Robo47Error:  # how the lab went is worth saying all the same
+            self._conclude()
+            raise
+        print(f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}")
+        return self._conclude()
+
+    def _conclude(self) -> int:
         for failure in self.failed:
             print(cli.wrapped(f"FAILED: {failure}", "  "))
         if self.failed:
@@ -144,14 +142,13 @@ class Lab:
         return cli.EXIT_OK
 
     def _judge(self, name: str, wanted: Metric, value: float, bound: float) -> None:
-        strict = value < bound if wanted.min is None else value > bound
-        side = "limit" if wanted.min is None else "at least"
-        verdict = cli.paint("PASS", "good") if strict else cli.paint("FAIL", "bad")
+        good = wanted.passes(value)
+        side = "limit" if wanted.min is None else "over"
+        verdict = cli.paint("PASS", "good") if good else cli.paint("FAIL", "bad")
         number, limit = number_of(value), f"{bound:g}"
         print(f"  {verdict}  {name}: {number} ({side} {limit})")
-        if not strict:
-            must = "under" if wanted.min is None else "over"
-            self.failed.append(f"{name} is {number}; it must be {must} {limit}")
+        if not good:
+            self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
 
 
 def day_of(script: Path) -> Day:

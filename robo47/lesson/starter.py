@@ -105,7 +105,7 @@ def make_starter(text: str, name: str, day: int) -> str:
             f'"task {region.task}: write {region.function}")',
         ]
     head = [
-        "# Yours to complete: write the body of each TODO. Tell me how I am doing:",
+        "# Yours to complete: write the body of each TODO. How it stands:",
         f"#     make check DAY={day}        (add ARGS=--watch to check at every save)",
     ]
     return "\n".join(head + lines) + "\n"

@@ -8,8 +8,19 @@ import numpy as np
 from robo47 import se3, verify
 from robo47.checker.replies import Path
 from robo47.checks import Array
-from robo47.diagnose import Ask, Case, Finding, HeldOut, Points, Pose, Probe, Robot
-from robo47.diagnose import Rotation, Slip, draw
+from robo47.diagnose import (
+    Ask,
+    Case,
+    Finding,
+    HeldOut,
+    Points,
+    Pose,
+    Probe,
+    Robot,
+    Rotation,
+    Slip,
+    draw,
+)
 from robo47.diagnose.compare import difference
 from robo47.diagnose.matrices import pose
 
@@ -138,8 +149,8 @@ def _flange(case: Case) -> Finding | None:
 
 TYPED_IN = HeldOut(
     "typed-in",
-    "Right for this Panda. On one whose links are longer and turned it would not be: it "
-    "does not take every pos and quat, link0's included, from the model it is given.",
+    "Right for this Panda. On one whose links are longer and turned it would not be: "
+    "it does not take every pos and quat, link0's included, from the given model.",
     _on(OTHER, count=2),
 )
 NO_INDEX = Slip(
@@ -184,8 +195,8 @@ QUESTIONS = {
         held_out=[
             HeldOut(
                 "general-inverse",
-                "The numbers are right, by way of a matrix inverse. The task asks to do "
-                "without: what is special about the columns of R?",
+                "The numbers are right, by way of a matrix inverse. The task asks to "
+                "do without: what is special about the columns of R?",
                 _scaled,
                 mistaken=np.linalg.inv,
                 status="close",
@@ -208,8 +219,8 @@ QUESTIONS = {
         held_out=[
             HeldOut(
                 "by-4x4-products",
-                "The numbers are right, by way of 4x4 products. The docstring asks for R "
-                "and t alone: which of them acts on which?",
+                "The numbers are right, by way of 4x4 products. The docstring asks for "
+                "R and t alone: which of them acts on which?",
                 _odd_bottom_rows,
                 mistaken=_by_4x4,
                 status="close",
@@ -224,4 +235,19 @@ QUESTIONS = {
         near_miss=_flange,
     ),
     "link4_to_world": _chain(whole().upto(4), "body:link4", held_out=[TYPED_IN]),
+}
+# One thing with two names: the numbers are the same, and what is said of either is true
+# of both. A joint's pose has no translation, so its inverse is its transpose.
+_BACKWARDS = {"turns-backwards", "R-transposed", "inverse-returned", "T-transposed"}
+_CHAIN = [_BACKWARDS, {"joints-left-out", "R-lost"}]
+ALIKE = {
+    "Rz": [_BACKWARDS],
+    "joint_T": [_BACKWARDS],
+    "compose_fk": [*_CHAIN, {"stops-at-link7", "stops-early"}],
+    "link4_to_world": _CHAIN,
+    "inverse": [
+        {"R-kept", "R-transposed"},
+        {"unchanged", "inverse-returned"},
+        {"t-not-negated", "t-negated"},
+    ],
 }

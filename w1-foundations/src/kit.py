@@ -4,9 +4,9 @@
 """
 
 import os
-import runpy
 
 _folder = os.path.dirname(os.path.abspath(__file__))
 _script = os.path.join(_folder, os.pardir, os.pardir, "scripts", "kit.py")
 if os.path.exists(_script):  # a copy outside the clone, as a checker's, needs no help
-    runpy.run_path(_script)
+    with open(_script) as _file:
+        exec(compile(_file.read(), _script, "exec"), {"__file__": _script})

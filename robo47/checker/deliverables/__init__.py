@@ -15,8 +15,8 @@ from robo47.checker.deliverables.figure import check_figure
 from robo47.checker.deliverables.item import Item
 from robo47.checker.deliverables.rows import check_rows
 from robo47.checker.deliverables.worksheet import check_worksheet
-from robo47.paths import ROOT
 from robo47.lesson.day import Day
+from robo47.paths import ROOT
 
 __all__ = ["Item", "check_deliverables"]
 

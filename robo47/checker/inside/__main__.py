@@ -46,6 +46,7 @@ def main() -> None:
     import guard
     import imports
     import landlock
+    import seccomp
     import wire
 
     sys.path[:] = PYTHON  # NumPy finds its own parts without
@@ -69,9 +70,10 @@ def main() -> None:
         sys.modules.pop(name, None)  # names that a student may want for their own files
     limits.tighten(request["cpu_seconds"])
     shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
-    held = fences and landlock.fence([*readable, shared])
+    fenced = fences and landlock.fence([*readable, shared])
+    closed = fences and seccomp.close()
     watch.arm()
-    send(ready=True, landlock=held)
+    send(ready=True, fenced=fenced and closed)
     module = _load(request, send, watch.refused, answers.describe)
     if module:
         answering = answers.Answers(module, makers, request["keep"])

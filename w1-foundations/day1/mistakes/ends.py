@@ -9,9 +9,10 @@ import numpy as np
 
 from robo47 import se3
 from robo47.checks import Array
-from .arm import Arm
 from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake
+
+from .arm import Arm
 
 FINGER_Z, FINGERTIP_Z = 0.0584, 0.1034  # metres from `hand`, along its z
 

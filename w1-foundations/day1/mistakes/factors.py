@@ -8,9 +8,10 @@ import numpy as np
 
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose
 from robo47.diagnose.finished import of_a_pose
+from robo47.diagnose.matrices import pose
 from robo47.diagnose.mistake import Mistake, applied, lifted
+
 from .poses import MAKE_T
 from .rotations import QUAT_TO_R, RZ
 
@@ -36,6 +37,9 @@ LINK_T = [
     *lifted(QUAT_TO_R, "", lambda redo: lambda pos, quat: pose(redo(quat), pos)),
 ]
 
+# A joint does not move its body, so these change nothing.
+_NO_MOVE = ("t-in-last-row", "t-lost", "t-negated", "millimetres")
+
 JOINT_T = [
     Mistake(
         "slides-along-z",
@@ -44,5 +48,8 @@ JOINT_T = [
         "a slide by q",
     ),
     *lifted(RZ, "", lambda redo: lambda q: pose(redo(q), np.zeros(3))),
-    *applied(of_a_pose("maps the parent to the body"), turn),
+    *applied(
+        (m for m in of_a_pose("maps the parent to the body") if m.slug not in _NO_MOVE),
+        turn,
+    ),
 ]

@@ -11,13 +11,13 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.diagnose.chain import product
+from robo47.diagnose.finished import of_a_pose
+from robo47.diagnose.matrices import pose, split, times
+from robo47.diagnose.mistake import Mistake, applied, lifted
+from robo47.panda import READY_Q
 
 from .arm import Arm, base, inertial_frames
-from robo47.panda import READY_Q
-from robo47.diagnose.matrices import pose, split, times
 from .factors import JOINT_T, LINK_T, link
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.mistake import Mistake, applied, lifted
 
 # Of the Panda's links, turned by 0 or 90 degrees, these two mistakes make
 # the same matrix. Task 1.4 tells them apart.
@@ -142,8 +142,7 @@ def _in_the_angles(arm: Arm) -> list[Mistake]:
         ),
         Mistake(
             "ready-subtracted",
-            "the ready pose's angles are subtracted from q; q itself is what each joint "
-            "turns by",
+            "the ready pose's angles are subtracted; each joint turns by q itself",
             lambda q: arm.fk(q - READY_Q),
             "the pose at q minus those angles",
         ),
@@ -204,8 +203,8 @@ def _in_the_offsets(arm: Arm) -> list[Mistake]:
     return [
         Mistake(
             "last-step-in-the-world",
-            f"the step to {last} is added along the world's axes; it belongs to the axes "
-            f"of the body before it",
+            f"the step to {last} is added along the world's axes; it belongs to those "
+            "of the body before it",
             added_in_the_world,
             "the right one with that step in the world",
         ),

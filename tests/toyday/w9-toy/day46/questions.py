@@ -115,7 +115,7 @@ QUESTIONS = {
     ),
     "normal": Ask(_vectors, Vector((3,)), accept=_is_normal),
     "seen_from": Ask(
-        lambda rng: list(zip(draw.poses(rng, 6), draw.numbers(rng, -1, 1, 6, 3))),
+        lambda rng: [(T, draw.numbers(rng, -1, 1, 3)) for T in draw.poses(rng, 6)],
         Vector((3,), "m"),
         truth=lambda T, p: (
             se3.inverse(T) @ np.append(p, np.ones((len(p), 1)), 1)[..., None]

@@ -2,7 +2,6 @@
 # One array at the top of the file is filled anew.
 import numpy as np
 
-
 OUT = np.eye(3)
 
 

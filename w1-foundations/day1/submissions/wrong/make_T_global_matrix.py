@@ -2,7 +2,6 @@
 # One matrix at the top of the file is filled anew.
 import numpy as np
 
-
 EYE = np.eye(4)
 
 

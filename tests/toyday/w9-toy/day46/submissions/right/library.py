@@ -2,7 +2,6 @@
 # By the library of day 1.
 import numpy as np
 
-
 from robo47.se3 import inverse
 
 

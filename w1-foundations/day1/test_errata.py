@@ -1,15 +1,16 @@
 """The handout's mistakes, each reproduced, and the numbers that errata.md gives."""
 
 import re
+import subprocess
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import ROOT
 from test_day1 import lab
 
+from conftest import ROOT
 from robo47 import kinematics, panda, se3
 
 ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -28,7 +29,7 @@ def orders_apart(q):
 
 def test_every_row_names_a_test_of_this_file():
     rows = [line for line in ERRATA.splitlines() if line.startswith("| ")][1:]
-    assert len(rows) == 9
+    assert len(rows) == 13
     for row in rows:
         name = row.rstrip("| ").split("`")[-1 if row.endswith("`") else -2]
         assert name in globals(), row
@@ -55,7 +56,7 @@ def test_the_expected_height_is_that_of_the_zero_configuration(either_panda):
 
 
 def test_the_distance_between_the_two_orders(either_panda):
-    assert f"{orders_apart(panda.READY_Q):.4f} m at home" in ERRATA
+    assert f"{orders_apart(panda.READY_Q):.4f} m at ready" in ERRATA
     assert f"{orders_apart(np.zeros(7)):.4f} m at zero" in ERRATA
     assert abs(orders_apart(panda.READY_Q) - 0.1414) > 0.1
 
@@ -89,7 +90,7 @@ def test_a_local_pos_is_not_a_world_position(either_panda):
     mujoco.mj_forward(either_panda, data)
     assert_same(either_panda.body("link4").pos, [0.0825, 0.0, 0.0], 0.0)
     x, y, z = data.body("link4").xpos
-    assert f"(0.0825, 0, 0) and ({x:.4f}, {y:.0f}, {z:.4f}) at home" in ERRATA
+    assert f"(0.0825, 0, 0) and ({x:.4f}, {y:.0f}, {z:.4f}) at ready" in ERRATA
 
 
 def test_the_viewer_never_reads_mujoco_gl():
@@ -108,3 +109,50 @@ def test_the_panda_alone_is_a_small_download():
 
     size = mujoco_menagerie.get("franka_emika_panda").download_size
     assert f"{size / 1e6:.1f} MB" in ERRATA
+
+
+@pytest.mark.meshes
+def test_the_handouts_path_starts_at_the_top_of_the_clone(real_panda, monkeypatch):
+    monkeypatch.chdir(ROOT / "w1-foundations")
+    with pytest.raises(ValueError, match="ParseXML: Error opening file"):
+        mujoco.MjModel.from_xml_path("mujoco_menagerie/franka_emika_panda/scene.xml")
+
+
+def test_the_identity_check_is_not_that_small(either_panda):
+    data = mujoco.MjData(either_panda)
+    data.qpos[:] = panda.READY_Q
+    mujoco.mj_forward(either_panda, data)
+    site = data.site("attachment_site")
+    T = se3.make_T(site.xmat.reshape(3, 3), site.xpos)
+    error = np.linalg.norm(T @ np.linalg.inv(T) - np.eye(4))
+    assert 2.78e-17 < error < 1e-14
+
+
+@pytest.mark.meshes
+def test_there_is_no_table(real_panda):
+    scene = mujoco.MjModel.from_xml_path(str(real_panda / "scene.xml"))
+    on_the_world = [
+        scene.body(i).name for i in range(1, scene.nbody) if scene.body_parentid[i] == 0
+    ]
+    assert on_the_world == ["link0"]
+    assert scene.body("link0").pos[2] == 0
+    assert [scene.geom(i).name for i in np.nonzero(scene.geom_bodyid == 0)[0]] == [
+        "floor"
+    ]
+
+
+def test_the_robots_folder_is_no_repository(tmp_path):
+    """Git looks for a repository upwards, so it finds the clone's."""
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b"]
+    subprocess.run([*git, "init", "-q"], check=True)
+    subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", "kit"], check=True)
+    (tmp_path / "mujoco_menagerie").mkdir()
+    heads = [
+        subprocess.run(
+            ["git", "-C", str(tmp_path / folder), "rev-parse", "HEAD"],
+            capture_output=True,
+            check=True,
+        ).stdout
+        for folder in (".", "mujoco_menagerie")
+    ]
+    assert heads[0] == heads[1]

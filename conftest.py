@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import types
 from pathlib import Path
 
 import mujoco
@@ -14,8 +15,7 @@ from robo47 import menagerie, panda
 from robo47.errors import Robo47Error
 from robo47.figures import backends
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.append(str(ROOT / "scripts"))  # tests that load a script as a module
+ROOT = Path(__file__).resolve().parent
 
 
 def need(available: bool, what: str) -> None:
@@ -24,6 +24,15 @@ def need(available: bool, what: str) -> None:
         if os.environ.get("ROBO47_CI"):
             pytest.fail(f"CI must provide {what}")
         pytest.skip(f"needs {what}")
+
+
+def load_script(path):
+    """Return a lab script as a module, without handing on to the kit's own Python."""
+    module = types.ModuleType(path.stem)
+    module.__file__ = str(path)
+    source = path.read_text("utf-8").replace("\nimport kit ", "\n# ")
+    exec(compile(source, str(path), "exec"), vars(module))
+    return module
 
 
 @pytest.fixture

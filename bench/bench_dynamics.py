@@ -1,0 +1,247 @@
+"""Dynamics of the Panda: ours beside the tools people would pick instead.
+
+Three questions for many configurations (mass matrix, torque of a motion, Jacobian of
+the end), each asked of our batch, of MuJoCo and of Pinocchio in plain Python loops that
+keep no answers; and what a control loop asks, one configuration at a time, of `Arm`.
+Every rival is checked against MuJoCo's own answers before it is timed.
+"""
+
+import importlib
+from collections.abc import Callable
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from bench.timing import take_turns
+from robo47 import dynamics_batch, kinematics, menagerie, panda, verify
+from robo47.checks import Array
+
+N = 100_000
+ONE = 2_000  # configurations for what is asked one at a time
+CHECKED = 200
+SITE = "attachment_site"
+QUESTIONS = ("mass matrix", "inverse dynamics", "site Jacobian")
+
+
+class Motion(NamedTuple):
+    """Configurations, velocities and accelerations, each (n, 7)."""
+
+    q: Array
+    qd: Array
+    qdd: Array
+
+
+class Rival(NamedTuple):
+    """A way to answer the questions.
+
+    Attributes:
+        solve: question and motion to the answers, for the check.
+        time: the same work without collecting the answers.
+    """
+
+    solve: Callable[[str, Motion], Array]
+    time: Callable[[str, Motion], object]
+
+
+def ours() -> Rival:
+    """robo47.dynamics_batch, one call."""
+    arm = panda.arm(_model())
+    calls: dict[str, Callable[[Motion], Array]] = {
+        "mass matrix": lambda m: dynamics_batch.mass_matrix(arm, m.q),
+        "inverse dynamics": lambda m: dynamics_batch.inverse_dynamics(arm, *m),
+        "site Jacobian": lambda m: dynamics_batch.site_jacobian(arm, m.q),
+    }
+    answer = lambda question, m: calls[question](m)  # noqa: E731
+    return Rival(answer, answer)
+
+
+def one_by_one(
+    asks: dict[str, Callable[..., object]], read: dict[str, Callable[[], Array]]
+) -> Rival:
+    """Return a rival that takes one (q, qd, qdd) at a time, in a Python loop."""
+
+    def time(question: str, motion: Motion) -> None:
+        ask = asks[question]
+        for q, qd, qdd in zip(*motion, strict=True):
+            ask(q, qd, qdd)
+
+    def solve(question: str, motion: Motion) -> Array:
+        answers = []
+        for row in zip(*motion, strict=True):
+            asks[question](*row)
+            answers.append(read[question]().copy())
+        return np.array(answers)
+
+    return Rival(solve, time)
+
+
+def mujoco_loop() -> Rival:
+    """Only what each question needs: no collisions, no constraints."""
+    model = _model()
+    data, site = mujoco.MjData(model), model.site(SITE).id
+    J, tau = np.zeros((6, 7)), np.zeros(7)
+
+    def places(q: Array) -> None:
+        data.qpos[:] = q
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+
+    def mass_matrix(q: Array, qd: Array, qdd: Array) -> None:
+        places(q)
+        mujoco.mj_crb(model, data)
+
+    def inverse_dynamics(q: Array, qd: Array, qdd: Array) -> None:
+        places(q)
+        data.qvel[:] = qd
+        data.qacc[:] = qdd
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 1, tau)
+
+    def site_jacobian(q: Array, qd: Array, qdd: Array) -> None:
+        places(q)
+        mujoco.mj_jacSite(model, data, J[3:], J[:3], site)
+
+    def read_M() -> Array:
+        M = np.empty((7, 7))
+        for column, unit in zip(M, np.eye(7), strict=True):
+            mujoco.mj_mulM(model, data, column, unit)
+        return M
+
+    return one_by_one(
+        dict(
+            zip(QUESTIONS, (mass_matrix, inverse_dynamics, site_jacobian), strict=True)
+        ),
+        dict(zip(QUESTIONS, (read_M, lambda: tau, lambda: J), strict=True)),
+    )
+
+
+def pinocchio_loop() -> Rival:
+    """Pinocchio's C++; it takes the armature into rnea, and writes v before omega."""
+    pin = importlib.import_module("pinocchio")
+    folder = menagerie.panda_folder()
+    if folder is None:
+        raise ImportError("the real Panda is not here")
+    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
+    data, frame = model.createData(), model.getFrameId(SITE)
+    without = model.copy()
+    without.armature = np.zeros(7)
+    world = pin.LOCAL_WORLD_ALIGNED
+    J = np.zeros((6, 7))
+
+    def site_jacobian(q: Array, qd: Array, qdd: Array) -> None:
+        J[:] = pin.computeFrameJacobian(model, data, q, frame, world)
+
+    def read_M() -> Array:
+        upper = np.triu(data.M)
+        return upper + np.triu(upper, 1).T
+
+    reads = (read_M, lambda: data.tau, lambda: J[[3, 4, 5, 0, 1, 2]])
+
+    return one_by_one(
+        {
+            "mass matrix": lambda q, qd, qdd: pin.crba(model, data, q),
+            "inverse dynamics": lambda q, qd, qdd: pin.rnea(without, data, q, qd, qdd),
+            "site Jacobian": site_jacobian,
+        },
+        dict(zip(QUESTIONS, reads, strict=True)),
+    )
+
+
+RIVALS: dict[str, Callable[[], Rival]] = {
+    "robo47 batch": ours,
+    "MuJoCo, loop": mujoco_loop,
+    "Pinocchio, loop": pinocchio_loop,
+}
+
+
+def truths(motion: Motion) -> dict[str, Array]:
+    """Return MuJoCo's answers, each by the kit's oracle."""
+    model, (q, qd, qdd) = _model(), motion
+    tau = verify.mujoco_inverse_dynamics(model, q, qd, qdd)
+    return {
+        "mass matrix": verify.mujoco_mass_matrix(model, q),
+        "inverse dynamics": tau - model.dof_armature * qdd - model.dof_damping * qd,
+        "site Jacobian": verify.mujoco_site_jacobian(model, q),
+    }
+
+
+def run(rounds: int = 7, n: int = N) -> dict:
+    """Check every rival against MuJoCo, then time them all, taking turns.
+
+    Args:
+        rounds: timed calls of each.
+        n: configurations.
+
+    Returns:
+        {"n", "questions": {question: {rival: {"us", "low", "high", "error"}}},
+        "one": {what: microseconds}, "left_out": {rival: why}}; errors are relative.
+    """
+    motion = _motion(n)
+    few = Motion(*(part[:CHECKED] for part in motion))
+    truth, left_out = truths(few), {}
+    rivals: dict[str, Rival] = {}
+    for name, make in RIVALS.items():
+        try:
+            rivals[name] = make()
+        except ImportError as missing:
+            left_out[name] = str(missing)
+    questions = {}
+    for question in QUESTIONS:
+        timed = take_turns(
+            {
+                name: lambda r=rival, x=question: r.time(x, motion)
+                for name, rival in rivals.items()
+            },
+            rounds,
+        )
+        scale = np.abs(truth[question]).max()
+        questions[question] = {
+            name: {
+                "us": t["median"] / n * 1e6,
+                "low": t["low"] / n * 1e6,
+                "high": t["high"] / n * 1e6,
+                "error": float(
+                    np.abs(rivals[name].solve(question, few) - truth[question]).max()
+                    / scale
+                ),
+            }
+            for name, t in timed.items()
+        }
+    one = one_at_a_time(rounds)
+    return {"n": n, "questions": questions, "one": one, "left_out": left_out}
+
+
+def one_at_a_time(rounds: int = 7) -> dict[str, float]:
+    """Return microseconds for what a control loop asks of one configuration."""
+    model = _model()
+    arm, data = panda.arm(model), mujoco.MjData(model)
+    chain = kinematics.chain_to(model, SITE)
+    motion = _motion(ONE)
+
+    def all_at_once() -> None:
+        for q, qd, _ in zip(*motion, strict=True):
+            now = arm.at(q)
+            _ = now.T_world_ee, now.J_site, now.M, now.bias(qd)
+
+    def fk() -> None:
+        for q in motion.q:
+            kinematics.fk(chain, q)
+
+    def step() -> None:
+        for _ in range(ONE):
+            mujoco.mj_step(model, data)
+
+    whats = {"Arm: pose, J, M, bias": all_at_once, "kinematics.fk": fk, "mj_step": step}
+    timed = take_turns(whats, rounds)
+    return {what: t["low"] / ONE * 1e6 for what, t in timed.items()}
+
+
+def _motion(n: int) -> Motion:
+    rng = np.random.default_rng(47)
+    q = verify.random_q(_model(), n, seed=47)
+    return Motion(q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
+
+
+def _model() -> mujoco.MjModel:
+    return panda.load("panda_nohand", drive="torque")

@@ -1,0 +1,210 @@
+"""Inverse kinematics of random reachable targets: ours beside what people would pick.
+
+Everyone starts at the ready pose, may start again at random, and has to bring the
+Panda to the target to 1e-8 within its joint limits. How many it solved stands beside
+its time; that is judged here, by MuJoCo's poses, whatever a rival says of itself.
+"""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bench.timing import take_turns
+from robo47 import ik, jacobian, menagerie, panda, se3, verify
+from robo47.checks import Array
+
+N = 1000
+FRAME = "site:attachment_site"
+RESTARTS = 20
+STEPS = 60  # of one try
+SEED = 15
+
+
+@dataclass
+class Rival:
+    """A way to solve inverse kinematics.
+
+    Attributes:
+        solve: targets (n, 4, 4) to configurations (n, 7) and the steps that it took.
+        n: how many targets it is given.
+    """
+
+    solve: Callable[[Array], tuple[Array, int]]
+    n: int = N
+
+
+def ours() -> Rival:
+    """robo47.jacobian.solve_ik, one call."""
+    model = panda.load("panda_nohand")
+    S, M = panda.screws(model), panda.home_pose(model)
+    steps = [0]
+    downhill = ik._downhill
+
+    def counted(problem: Any, q: Array, target: Array) -> tuple[Array, Array]:
+        steps[0] += q.shape[1]
+        return downhill(problem, q, target)
+
+    def solve(T: Array) -> tuple[Array, int]:
+        steps[0], ik._downhill = 0, counted
+        try:
+            q = jacobian.solve_ik(S, M, T, panda.READY_Q, model.jnt_range)
+        finally:
+            ik._downhill = downhill
+        return q, steps[0]
+
+    return Rival(solve)
+
+
+def toolbox() -> Rival:
+    """Robotics Toolbox's C code, its own restarts; models.DH.Panda has the limits."""
+    rtb = importlib.import_module("roboticstoolbox")
+    ets, start = rtb.models.DH.Panda().ets(), panda.READY_Q.copy()
+    # Its Panda ends elsewhere: the same fixed pose at every q (0.103 m, 180 degrees).
+    here = verify.mujoco_poses(panda.load("panda_nohand"), start[None])[FRAME][0]
+    T_site_tip = se3.inverse(here) @ ets.eval(start)
+
+    def solve(T: Array) -> tuple[Array, int]:
+        # Its tolerance is on half of the squared error; everyone here stops at 1e-9.
+        found = [ets.ik_LM(goal, q0=start, tol=0.5e-18) for goal in T @ T_site_tip]
+        q = np.array([np.ravel(answer.q) for answer in found])
+        return q, sum(answer.iterations for answer in found)
+
+    return Rival(solve)
+
+
+def pinocchio_loop() -> Rival:
+    """The lesson's damped least squares in a Python loop over Pinocchio's C++."""
+    pin = importlib.import_module("pinocchio")
+    folder = menagerie.panda_folder()
+    if folder is None:
+        raise ImportError("the real Panda is not here")
+    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
+    data, index = model.createData(), model.getFrameId("attachment_site")
+    low, high = model.lowerPositionLimit, model.upperPositionLimit
+    axes, none = pin.LOCAL_WORLD_ALIGNED, np.eye(6)
+
+    def one_try(goal: Any, q: Array) -> tuple[Array, float, int]:
+        for step in range(1, STEPS + 1):  # noqa: B007 (returned below)
+            J = pin.computeFrameJacobian(model, data, q, index, axes)
+            here = data.oMf[index]
+            turn = pin.log3(goal.rotation @ here.rotation.T)
+            e = np.concatenate([goal.translation - here.translation, turn])
+            ee = e @ e
+            if ee < 1e-18:
+                break
+            A = J @ J.T + (0.5 * ee + 1e-6) * none
+            q = np.clip(q + J.T @ np.linalg.solve(A, e), low, high)
+        return q, ee, step
+
+    def solve(T: Array) -> tuple[Array, int]:
+        return _with_restarts(one_try, [pin.SE3(goal) for goal in T], low, high)
+
+    return Rival(solve)
+
+
+def mink_loop() -> Rival:
+    """mink: a quadratic program in each step, with the limits in it."""
+    mink = importlib.import_module("mink")
+    model = panda.load("panda_nohand")
+    configuration = mink.Configuration(model)
+    task = mink.FrameTask("attachment_site", "site", 1.0, 1.0, lm_damping=1e-3)
+    limits = [mink.ConfigurationLimit(model)]
+
+    def one_try(goal: Any, q: Array) -> tuple[Array, float, int]:
+        task.set_target(goal)
+        configuration.update(q)
+        for step in range(1, STEPS + 1):  # noqa: B007 (returned below)
+            e = task.compute_error(configuration)
+            ee = float(e @ e)
+            if ee < 1e-18:
+                break
+            v = mink.solve_ik(configuration, [task], 1.0, "daqp", 1e-9, limits=limits)
+            configuration.integrate_inplace(v, 1.0)
+        return configuration.q.copy(), ee, step
+
+    def solve(T: Array) -> tuple[Array, int]:
+        goals = [mink.SE3.from_matrix(goal) for goal in T]
+        return _with_restarts(one_try, goals, *model.jnt_range.T)
+
+    return Rival(solve, 50)
+
+
+def _with_restarts(
+    one_try: Callable[[Any, Array], tuple[Array, float, int]],
+    goals: list[Any],
+    low: Array,
+    high: Array,
+) -> tuple[Array, int]:
+    """Return the best q for every goal, and the steps of all tries together."""
+    rng, found, steps = np.random.default_rng(SEED), [], 0
+    for goal in goals:
+        best, least = panda.READY_Q, np.inf
+        for k in range(1 + RESTARTS):
+            start = rng.uniform(low, high) if k else panda.READY_Q.copy()
+            q, ee, taken = one_try(goal, start)
+            steps += taken
+            if ee < least:
+                best, least = q, ee
+            if least < 1e-18:
+                break
+        found.append(best)
+    return np.array(found), steps
+
+
+RIVALS: dict[str, Callable[[], Rival]] = {
+    "robo47 solve_ik": ours,
+    "Robotics Toolbox ik_LM, C": toolbox,
+    "Pinocchio, damped steps in a loop": pinocchio_loop,
+    "mink, in a loop": mink_loop,
+}
+
+
+def judge(rival: Rival, T: Array) -> dict[str, float]:
+    """Return what a rival's answers are worth, by MuJoCo's poses."""
+    model = panda.load("panda_nohand")
+    q, steps = rival.solve(T)
+    metres, radians = se3.pose_error(verify.mujoco_poses(model, q)[FRAME], T)
+    there = np.hypot(metres, radians) < ik.REACHED
+    inside = ((q >= model.jnt_range[:, 0]) & (q <= model.jnt_range[:, 1])).all(axis=1)
+    return {
+        "targets": len(T),
+        "solved": int((there & inside).sum()),
+        "within": int(inside.sum()),
+        "steps": steps / len(T),
+    }
+
+
+def run(rounds: int = 5, n: int = N) -> dict[str, Any]:
+    """Judge every rival's answers, then time them all, taking turns.
+
+    Args:
+        rounds: timed calls of each.
+        n: targets, for those that are fast enough.
+
+    Returns:
+        {"n", "rows": {name: {"us", "low", "high", "targets", "solved", "within",
+        "steps"}}, "left_out": {name: why}}.
+    """
+    model = panda.load("panda_nohand")
+    T = verify.mujoco_poses(model, verify.random_q(model, n, SEED))[FRAME]
+    left_out: dict[str, str] = {}
+    rivals: dict[str, Rival] = {}
+    for name, make in RIVALS.items():
+        try:
+            rivals[name] = make()
+        except ImportError as missing:
+            left_out[name] = str(missing)
+    used = {name: T[: rival.n] for name, rival in rivals.items()}
+    rows = {name: judge(rival, used[name]) for name, rival in rivals.items()}
+    timed = take_turns(
+        {name: lambda r=r, T=used[name]: r.solve(T) for name, r in rivals.items()},
+        rounds,
+    )
+    for name, t in timed.items():
+        each = 1e6 / len(used[name])
+        rows[name] |= {"us": t["median"] * each}
+        rows[name] |= {"low": t["low"] * each, "high": t["high"] * each}
+    return {"n": n, "rows": rows, "left_out": left_out}

@@ -1,0 +1,103 @@
+"""Mass matrices of one arm at many configurations: the method of composite bodies.
+
+From the tip inwards, all links that a joint carries become one body. What a unit
+acceleration of the joint makes of it is a wrench, and what each joint further in feels
+of that wrench is an entry of M (Featherstone, *Rigid Body Dynamics Algorithms*, section
+6.2). A body is m, h and Q: the integrals of 1, r and r r^T over its mass, which a turn
+and a move change in few operations. Units: metres, kilograms.
+"""
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.components import Vector, combined, turned
+from robo47.links import Link, Links
+
+
+def mass_matrices(links: Links, cos: Array, sin: Array) -> Array:
+    """Return M, (n, n, count): composite bodies, from the tip inwards."""
+    n, count = cos.shape
+    M = np.empty((n, n, count))
+    body = Body()
+    # Moments and forces, x y z each (2, joints, count): slot 0 is the next joint's.
+    F = [np.empty((2, 1, count)) for _ in range(3)]
+    for row in reversed(range(n)):
+        link = links.links[row]
+        k, i, j = link.axes
+        body.add(link)
+        h, Q = body.h, body.Q
+        F[k][0, 0], F[i][0, 0], F[j][0, 0] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
+        F[k][1, 0], F[i][1, 0], F[j][1, 0] = 0.0, -h[j], h[i]
+        np.multiply(F[k][0], links.signs[row] * links.signs[row:, None], M[row, row:])
+        M[row, row] += link.armature
+        M[row:, row] = M[row, row:]
+        if row:
+            body.to_parent(link, cos[row], sin[row])
+            F = _wrenches_to_parent(F, link, cos[row], sin[row])
+    return M
+
+
+class Body:
+    """What hangs on a joint, as one body: m, h and Q about the frame's origin."""
+
+    def __init__(self) -> None:
+        """Start with nothing."""
+        self.m = 0.0
+        self.h: Vector = [0.0] * 3
+        self.Q: list[Vector] = [[0.0] * 3 for _ in range(3)]
+
+    def add(self, link: Link) -> None:
+        """Add a link's own, seen from its frame."""
+        self.m += link.m
+        for a in range(3):
+            self.h[a] = self.h[a] + link.h[a]
+            for b in range(a, 3):
+                self.Q[a][b] = self.Q[b][a] = self.Q[a][b] + link.Q[a, b]
+
+    def to_parent(self, link: Link, c: Array, s: Array) -> None:
+        """See it from the frame of the link before: turn, then move by t."""
+        k, i, j = link.axes
+        m, h, Q, t = self.m, self.h, self.Q, link.t
+        mean, half = 0.5 * (Q[i][i] + Q[j][j]), 0.5 * (Q[i][i] - Q[j][j])
+        c2, s2 = 1.0 - 2.0 * s * s, 2.0 * s * c  # of twice the angle
+        half, cross = half * c2 - Q[i][j] * s2, half * s2 + Q[i][j] * c2
+        Q[i][i], Q[j][j], Q[i][j] = mean + half, mean - half, cross
+        Q[i][k], Q[j][k] = turned(Q[i][k], Q[j][k], c, s)
+        Q[j][i], Q[k][i], Q[k][j] = Q[i][j], Q[i][k], Q[j][k]
+        h[i], h[j] = turned(h[i], h[j], c, s)
+        if link.R is not None:
+            h[:] = combined(link.R, h)
+            self.Q = Q = _both_sides(link.R, Q)
+        for a in np.flatnonzero(t).tolist():  # one after the other: moves add up
+            for b in range(3):
+                Q[a][b] = Q[b][a] = Q[a][b] + t[a] * h[b] * (1.0 + (a == b))
+            Q[a][a] = Q[a][a] + m * t[a] * t[a]
+            h[a] = h[a] + m * t[a]
+
+
+def _both_sides(R: Array, Q: list[Vector]) -> list[Vector]:
+    """Return R Q R^T."""
+    QR = [combined(R, row) for row in Q]  # Q is symmetric: row i of Q R^T
+    columns = [combined(R, [QR[a][b] for a in range(3)]) for b in range(3)]
+    return [[columns[b][a] for b in range(3)] for a in range(3)]
+
+
+def _wrenches_to_parent(F: list[Array], link: Link, c: Array, s: Array) -> list[Array]:
+    """Return wrenches seen from the link before, with room for one more in slot 0."""
+    k, i, j = link.axes
+    old, (_, m, count) = F, F[0].shape
+    F = [np.empty((2, m + 1, count)) for _ in range(3)]
+    x, y, z = F[i][:, 1:], F[j][:, 1:], F[k][:, 1:]
+    np.multiply(old[i], c, out=x)
+    x -= old[j] * s
+    np.multiply(old[i], s, out=y)
+    y += old[j] * c
+    z[:] = old[k]
+    if link.R is not None:
+        for a, turned in enumerate(combined(link.R, [f[:, 1:].copy() for f in F])):
+            F[a][:, 1:] = turned
+    for a in np.flatnonzero(link.t).tolist():  # the moment of the force that acts at t
+        b, d = (a + 1) % 3, (a + 2) % 3
+        F[b][0, 1:] -= link.t[a] * F[d][1, 1:]
+        F[d][0, 1:] += link.t[a] * F[b][1, 1:]
+    return F

@@ -1,0 +1,116 @@
+"""The judge on every day's questions: each mistake is found, none is claimed unduly."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from judged import judged, right, round_of
+
+from robo47.diagnose.compare import matches
+from robo47.diagnose.naming import off_by
+from robo47.diagnose.rounds import parts, stacked
+from robo47.lesson import folder
+from robo47.lesson.day import all_days
+
+MODULES = {day.number: folder.load(day, "questions") for day in all_days()}
+ROWS = [
+    pytest.param(number, name, ask, id=f"day{number}/{name}")
+    for number, module in MODULES.items()
+    for name, ask in module.QUESTIONS.items()
+]
+WITH_TRUTH = [row for row in ROWS if row.values[2].truth]
+every = pytest.mark.parametrize(("number", "name", "ask"), WITH_TRUTH)
+
+
+def one_thing(number, name, slug, other):
+    """Return whether two names are allowed for the same numbers: `ALIKE` of the day."""
+    alike = getattr(MODULES[number], "ALIKE", {}).get(name, [])
+    return slug == other or any({slug, other} <= names for names in alike)
+
+
+def redone(ask):
+    """Return (mistake, its answers) for each that differs from the right answer."""
+    arguments, T = stacked(round_of(ask).main), right(ask)
+    found = []
+    for mistake in ask.named:
+        with np.errstate(all="ignore"):
+            S = parts(mistake.redo(*arguments))
+            if off_by(ask, S, T) > ask.near:
+                found.append((mistake, S))
+    return found
+
+
+def as_answers(S):
+    return S[0] if len(S) == 1 else S
+
+
+@every
+def test_every_mistake_made_on_purpose_is_found_by_its_name(number, name, ask):
+    for mistake, S in redone(ask):
+        verdict = judged(ask, as_answers(S))
+        assert verdict.status == "wrong", mistake.slug
+        assert one_thing(number, name, verdict.mistake, mistake.slug), (
+            mistake.slug,
+            verdict.mistake,
+        )
+
+
+@every
+def test_no_mistake_is_there_that_no_question_shows(number, name, ask):
+    shown = {mistake.slug for mistake, _ in redone(ask)}
+    assert {mistake.slug for mistake in ask.named} == shown
+
+
+@every
+def test_no_two_mistakes_look_alike_on_the_questions_asked(number, name, ask):
+    found = redone(ask)
+    for i, (a, S_a) in enumerate(found):
+        for b, S_b in found[:i]:
+            if all(matches(x, y) for x, y in zip(S_a, S_b, strict=True)):
+                assert one_thing(number, name, a.slug, b.slug), (a.slug, b.slug)
+
+
+@every
+def test_numbers_at_random_get_no_name(number, name, ask):
+    rng = np.random.default_rng(5)
+    S = tuple(
+        kind.scale * rng.normal(size=part.shape)
+        for kind, part in zip(ask.kinds, right(ask), strict=True)
+    )
+    verdict = judged(ask, as_answers(S))
+    assert verdict.status == "wrong"
+    assert verdict.mistake not in {mistake.slug for mistake in ask.named}
+    assert any(character.isdigit() for character in verdict.message)
+
+
+@every
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), exponent=st.floats(-16, -9))
+def test_a_right_answer_with_rounding_noise_passes(number, name, ask, seed, exponent):
+    rng = np.random.default_rng(seed)
+    S = tuple(
+        part + kind.scale * 10.0**exponent * rng.uniform(-1, 1, part.shape)
+        for kind, part in zip(ask.kinds, right(ask), strict=True)
+    )
+    assert judged(ask, as_answers(S)).status == "passed"
+
+
+@every
+def test_a_nearly_right_answer_is_close_and_never_a_mistake(number, name, ask):
+    rng = np.random.default_rng(8)
+    S = tuple(
+        part + kind.scale * 0.3 * ask.near * rng.uniform(0.5, 1, part.shape)
+        for kind, part in zip(ask.kinds, right(ask), strict=True)
+    )
+    verdict = judged(ask, as_answers(S))
+    assert (verdict.status, verdict.mistake) == ("close", "rounded-somewhere")
+
+
+@every
+def test_questions_are_the_same_every_time_and_of_one_shape(number, name, ask):
+    first, again = round_of(ask), round_of(ask)
+    for question, same in zip(first.questions, again.questions, strict=True):
+        for arg, equal in zip(question.args, same.args, strict=True):
+            np.testing.assert_equal(arg, equal)
+    shapes = {tuple(np.shape(arg) for arg in q.args) for q in first.main}
+    assert len(shapes) == 1

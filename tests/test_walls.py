@@ -1,0 +1,306 @@
+"""What each wall keeps student code from, once that code has switched the guard off."""
+
+import contextlib
+import os
+import socket
+import subprocess
+import sys
+import textwrap
+import time
+
+import mujoco
+import pytest
+from conftest import need
+
+from robo47.checker import wall
+from robo47.checker.model_copy import facts
+from robo47.checker.replies import Question
+from robo47.checker.sandbox import Sandbox
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+LINUX = sys.platform.startswith("linux")
+SITE = os.path.dirname(os.path.dirname(mujoco.__file__))
+# Walks up to the checker's own frame and empties the guard: four lines, no trick.
+DISARM = """
+import sys
+import os
+def disarm():
+    frame = sys._getframe()
+    while "watch" not in frame.f_locals:
+        frame = frame.f_back
+    watch = frame.f_locals["watch"]
+    watch._check_path = lambda *a: None
+    type(watch)._check.__globals__["_REFUSED"].clear()
+    type(watch)._check.__globals__["_CHANGES"].clear()
+disarm()
+def libc(name, *args):
+    import ctypes
+    call = ctypes.CDLL(None, use_errno=True)[name]
+    if call(*args) < 0:
+        raise OSError(ctypes.get_errno(), name)
+"""
+
+
+@contextlib.contextmanager
+def standing(name):
+    """Put up a wall by name."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROBO47_WALL", name)
+        wall.wall.cache_clear()
+        try:
+            found = wall.wall()
+        except Robo47Error:
+            need(False, f"the wall {name}")
+        yield found
+    wall.wall.cache_clear()
+
+
+ATTACKS = {
+    "read a file of the system": "open('/etc/hostname').read()",
+    "read the reference solution": "open({reference!r}).read()",
+    "read a file of the kit": "open({kit!r}).read()",
+    "list the kit": "os.listdir({root!r})",
+    "write a file": "open({new!r}, 'w')",
+    "write into memory that looks like a file": """
+        os.write(os.memfd_create('x'), b'x')""",
+    "write where it stands": "open('was-here', 'w').write('x')",
+    "write to shared memory": """
+        import _posixshmem
+        os.ftruncate(_posixshmem.shm_open('/r47', os.O_CREAT | os.O_RDWR, 0o600), 9)""",
+    "take System V memory": "libc('shmget', 0, 4096, 0o1600)",
+    "make a pipe with a name": "os.mkfifo({new!r})",
+    "change who may read a file": "os.chmod({victim!r}, 0o777)",
+    "change a file's times": "os.utime({victim!r}, (0, 0))",
+    "cut a file": "os.truncate({victim!r}, 0)",
+    "remove a file": "os.remove({victim!r})",
+    "signal a process": "os.kill({other}, 0)",
+    "signal everybody": "os.kill(-1, 0)",
+    "signal a process by a handle": """
+        import signal
+        signal.pidfd_send_signal(os.pidfd_open({other}), 0)""",
+    "signal a process by a pipe": """
+        import fcntl
+        r, w = os.pipe()
+        fcntl.fcntl(r, fcntl.F_SETOWN, {other})
+        assert fcntl.fcntl(r, fcntl.F_GETOWN) == {other}
+        fcntl.fcntl(r, 10, 23)  # F_SETSIG, SIGURG""",
+    "limit a process": """
+        import resource
+        resource.prlimit({other}, resource.RLIMIT_CORE, (0, 0))""",
+    "slow a process down": "os.setpriority(os.PRIO_PROCESS, {other}, 19)",
+    "read a process's environment": "open('/proc/{other}/environ').read()",
+    "read a process's memory": "open('/proc/{other}/mem', 'rb')",
+    "trace a process": "libc('ptrace', 16, {other}, 0, 0)",
+    "start a program": "os.posix_spawn('/bin/sh', ['sh', '-c', 'true'], {{}})",
+    "become another program": "os.execv({python!r}, ['python', '-c', 'pass'])",
+    "fork": "os._exit(0) if os.fork() == 0 else None",
+    "start a process below Python": """
+        import _posixsubprocess as p
+        r, w = os.pipe()
+        p.fork_exec([b'x'], [{python!r}.encode()], True, (w,), None, None, -1, -1, -1,
+            -1, -1, -1, r, w, False, False, -1, None, None, None, -1, None, True)""",
+    "start a thread": """
+        import threading
+        threading.Thread(target=print).start()""",
+    "connect to a socket with a path": """
+        import socket
+        socket.socket(socket.AF_UNIX).connect({unix!r})""",
+    "connect to a socket without one": """
+        import socket
+        socket.socket(socket.AF_UNIX).connect({abstract!r})""",
+    "connect to a port": """
+        import socket
+        socket.create_connection(('127.0.0.1', {port}))""",
+    "look up a name": "__import__('socket').getaddrinfo('localhost', 80)",
+    "find the real mujoco": """
+        sys.path.append({site!r})
+        for name in [n for n in sys.modules if n.startswith('mujoco')]:
+            del sys.modules[name]
+        sys.meta_path[:] = [m for m in sys.meta_path if isinstance(m, type)]
+        import mujoco
+        mujoco.mj_forward""",
+    "find the real kit": """
+        import importlib.util
+        spec = importlib.util.spec_from_file_location('dyn', {kit!r})
+        spec.loader.exec_module(importlib.util.module_from_spec(spec))""",
+    "make a world of its own": "libc('unshare', 0x10000000)",
+    "mount something": "libc('mount', b'none', {folder!r}.encode(), b'tmpfs', 0, 0)",
+    "use the other way to the kernel": "libc('syscall', 425, 8, 0)",
+    "use the terminal": "open('/dev/tty', 'w')",
+    "read a disk": "open('/dev/vda', 'rb')",
+    "move to another folder and back out": """
+        fd = os.open('/', os.O_RDONLY)
+        os.fchdir(fd)
+        open(os.path.join({root!r}.lstrip('/'), 'README.md'))""",
+}
+
+
+@pytest.fixture(scope="module")
+def places(tmp_path_factory):
+    """Fill in what the attacks aim at; none would do harm if it got through."""
+    folder = tmp_path_factory.mktemp("places")
+    (folder / "victim.txt").write_text("mine")
+    sleep = [sys.executable, "-c", "import time; time.sleep(300)"]
+    with contextlib.ExitStack() as stack:
+        other = stack.enter_context(subprocess.Popen(sleep))
+        stack.callback(other.kill)
+        listening = [socket.socket(socket.AF_UNIX) for _ in range(2)]
+        listening.append(socket.socket())
+        path, name = str(folder / "s"), f"\0robo47-{os.getpid()}"
+        for one, at in zip(listening, (path, name, ("127.0.0.1", 0)), strict=True):
+            stack.enter_context(one).bind(at)
+            one.listen()
+        yield {
+            "reference": str(
+                next((ROOT / "w1-foundations" / "src").glob("day1_t*.py"))
+            ),
+            "kit": str(ROOT / "robo47" / "se3.py"),
+            "root": str(ROOT),
+            "site": SITE,
+            "victim": str(folder / "victim.txt"),
+            "other": other.pid,
+            "new": str(folder / "new"),
+            "folder": str(folder),
+            "python": os.path.realpath(sys.executable),
+            "unix": path,
+            "abstract": name,
+            "port": listening[2].getsockname()[1],
+        }
+
+
+@pytest.fixture(scope="module", params=["bubblewrap", "landlock"])
+def attacked(request, places, tmp_path_factory):
+    """Run every attack behind a wall; return {attack: reply}."""
+    script = tmp_path_factory.mktemp("attacks") / "attacks.py"
+    names = {what: f"attack_{i}" for i, what in enumerate(ATTACKS)}
+    code = DISARM
+    for what, name in names.items():
+        body = textwrap.dedent(ATTACKS[what].format(**places)).strip()
+        code += f"def {name}():\n{textwrap.indent(body, '    ')}\n    return 47.0\n"
+    script.write_text(code)
+    replies = {}
+    with standing(request.param), Sandbox() as box:
+        session = box.session(script, [], facts())
+        for what, name in names.items():
+            if not session.alive:
+                session = box.session(script, [], facts())
+            (replies[what],) = session.ask([Question("", name, ())])
+    return replies
+
+
+@pytest.mark.skipif(not LINUX, reason="needs Linux: elsewhere there is no wall")
+class TestAWall:
+    @pytest.mark.parametrize("what", ATTACKS)
+    def test_keeps_student_code_from(self, attacked, what):
+        reply = attacked[what]
+        assert reply.kind in (
+            *("PermissionError", "FileNotFoundError", "OSError", "gaierror"),
+            *("ModuleNotFoundError", "RuntimeError"),
+        ), reply
+
+    def test_leaves_every_target_as_it_was(self, attacked, places):
+        with open(places["victim"]) as victim:
+            assert victim.read() == "mine"
+            status = os.fstat(victim.fileno())
+        assert status.st_mode & 0o777 == 0o644
+        assert status.st_mtime > 0
+        assert not os.path.exists(places["new"])
+        assert os.getpriority(os.PRIO_PROCESS, places["other"]) == 0
+
+    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    def test_goes_down_with_the_checker(self, name, tmp_path):
+        script = tmp_path / "sleeps.py"
+        script.write_text(f"import time\n# {tmp_path}\ndef f(): time.sleep(600)")
+        code = (
+            "import sys, pathlib\n"
+            "from robo47.checker.sandbox import *\n"
+            "from robo47.checker.model_copy import facts\n"
+            "box = Sandbox()\n"
+            "session = box.session(pathlib.Path(sys.argv[1]), [], facts())\n"
+            "print(session._process.process.pid, flush=True)\n"
+            "session.ask([Question('', 'f', ())], seconds=600)\n"
+        )
+        with standing(name):
+            checker = subprocess.Popen(
+                [sys.executable, "-c", code, str(script)],
+                stdout=subprocess.PIPE,
+                cwd=ROOT,
+            )
+        with checker:
+            pid = int(checker.stdout.readline())
+            family = [pid, *children_of(pid)]
+            checker.kill()
+        deadline = time.monotonic() + 20
+        while any(map(is_there, family)) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not any(map(is_there, family))
+
+    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    def test_lets_a_task_use_all_of_python_and_numpy(self, name, tmp_path):
+        script = tmp_path / "late.py"
+        script.write_text(
+            "def f():\n"
+            "    import decimal, fractions, random, sqlite3, zoneinfo, ctypes, uuid\n"
+            "    import numpy.random, numpy.fft, numpy.polynomial, numpy.testing\n"
+            "    return numpy.random.default_rng(0).normal(size=(30, 30)) @ "
+            "numpy.linalg.inv(numpy.eye(30) * 2)\n"
+        )
+        with standing(name), Sandbox() as box:
+            (reply,) = box.run(script, [Question("", "f", ())], [], facts())
+        assert reply.error == ""
+        assert reply.value.shape == (30, 30)
+
+
+def children_of(pid):
+    """Return the processes that a process started."""
+    with open(f"/proc/{pid}/task/{pid}/children") as children:
+        found = [int(child) for child in children.read().split()]
+    return found + [other for child in found for other in children_of(child)]
+
+
+def is_there(pid):
+    """Return whether a process lives (a zombie does not)."""
+    try:
+        with open(f"/proc/{pid}/stat") as stat:
+            return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+class TestTheNameOfTheWall:
+    def test_is_the_first_that_works(self, monkeypatch):
+        monkeypatch.delenv("ROBO47_WALL", raising=False)
+        for works, found in (
+            ((True, True), "bubblewrap"),
+            ((False, True), "landlock"),
+            ((False, False), "none"),
+        ):
+            monkeypatch.setattr(wall, "_bubblewrap_works", lambda w=works: w[0])
+            monkeypatch.setattr(wall, "_landlock_works", lambda w=works: w[1])
+            wall.wall.cache_clear()
+            assert wall.wall().name == found
+        assert "with your rights" in wall.wall().says
+        wall.wall.cache_clear()
+
+    def test_says_when_it_was_asked_for(self):
+        with standing("none") as found:
+            assert "ROBO47_WALL asks for it" in found.says
+
+    @pytest.mark.parametrize("name", ["granite", "landlock"])
+    def test_is_an_error_where_there_is_no_such_wall(self, name, monkeypatch):
+        monkeypatch.setenv("ROBO47_WALL", name)
+        monkeypatch.setattr(wall, "_landlock_works", lambda: False)
+        wall.wall.cache_clear()
+        with pytest.raises(Robo47Error, match=name):
+            wall.wall()
+        wall.wall.cache_clear()
+
+    def test_does_not_pass_for_one_that_did_not_close(self, monkeypatch, student):
+        need(LINUX, "Linux")
+        with standing("none"), Sandbox() as box:
+            process = box._warm
+            monkeypatch.setattr(process, "wall", wall.Wall("landlock", ""))
+            with pytest.raises(Robo47Error, match="did not close"):
+                box.run(student("def f(): 0"), [Question("", "f", ())], [], facts())
+            process.close()
