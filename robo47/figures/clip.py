@@ -19,9 +19,8 @@ from robo47 import se3
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.figures import client
-from robo47.figures.portrait import link_frames, with_fingers
+from robo47.figures.portrait import LINKS, link_frames, with_fingers
 from robo47.figures.scene import Camera, Ghost, Scene
-
 
 SIZE, SECONDS = (480, 420), 5.0  # of a clip
 LARGEST = 1_000_000  # bytes: what a page shows at once
@@ -64,7 +63,7 @@ def arm_clip(
     Raises:
         Robo47Error: nothing draws here; the line names what to install.
     """
-    seen_from = camera or Camera(distance=2.3, lookat=(0.12, 0.0, 0.38))
+    seen_from = camera or Camera(distance=2.0, lookat=(0.17, 0.0, 0.36))
     pictures = []
     for q in tqdm(np.asarray(qs, dtype=float), "drawing", delay=1, leave=False):
         full = with_fingers(q)
@@ -72,7 +71,7 @@ def arm_clip(
         ghosts = tuple(
             Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
             for link, T in ghost_of(q).items()
-            if link in true
+            if link in LINKS
         )
         scene = Scene(full, SIZE, seen_from, ghosts, fast=True)
         pictures.append(_captioned(Image.fromarray(client.draw(scene)), caption_of(q)))

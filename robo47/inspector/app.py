@@ -261,4 +261,3 @@ class Inspector:
         if isinstance(self.tab, Tasks):
             self.tab.show(standing)
         self.schedule()
-

@@ -47,7 +47,9 @@ def standing(tasks: Sequence[TaskState]) -> Standing:
     wrong = [t for t in tasks if t.status not in ("passed", "todo")]
     if not wrong:
         first = next(t for t in tasks if t.status != "passed")
-        return Standing(f"{says}; next is {first.id} {first.title}", "quiet", tuple(tasks))
+        return Standing(
+            f"{says}; next is {first.id} {first.title}", "quiet", tuple(tasks)
+        )
     return Standing(f"✗ {says}. {wrong[0].id}: {wrong[0].message}", "bad", tuple(tasks))
 
 

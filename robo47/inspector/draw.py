@@ -119,9 +119,7 @@ class Sketch:
             position=np.asarray(at, dtype=np.float64),
         )  # fmt: skip
 
-    def ellipsoid(
-        self, colour: Colour = "purple", opacity: float = 0.4
-    ) -> "Ellipsoid":
+    def ellipsoid(self, colour: Colour = "purple", opacity: float = 0.4) -> "Ellipsoid":
         """Draw an ellipsoid; `show(matrix, at, scale)` gives it its shape.
 
         Args:

@@ -19,7 +19,9 @@ from robo47.inspector.tab import day_tabs
 from robo47.lesson.day import Day
 
 ENTRY, FRAMES = "panda_nohand", 40
-REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # where the arm goes and back
+REACH_Q = np.array(
+    [0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6]
+)  # where the arm goes and back
 
 
 def film(path: Path, day: Day, file: Path | None = None) -> int:

@@ -133,7 +133,9 @@ class Door:
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
-        response = viser_answers(connection, replace(request, path=path or "/", headers=plain))
+        response = viser_answers(
+            connection, replace(request, path=path or "/", headers=plain)
+        )
         return response and _protected(response, page=not path)
 
     def _do(self, query: str) -> None:

@@ -95,7 +95,14 @@ class Hover:
         wanted = np.array([g in groups for g in range(6)], dtype=np.uint8)
         geom = np.array([-1], dtype=np.int32)
         mujoco.mj_ray(
-            self.model, self.data, np.array(camera.position), ray, wanted, True, -1, geom
+            self.model,
+            self.data,
+            np.array(camera.position),
+            ray,
+            wanted,
+            True,
+            -1,
+            geom,
         )
         return int(self.model.geom_bodyid[geom[0]]) if geom[0] >= 0 else 0
 

@@ -44,9 +44,7 @@ class Bars:
         mark = ' class="over"' if over else ""
         bar = f'<u{mark} style="left:{left:.1f}%;width:{share:.1f}%"></u>'
         text = f"{value:.4g} {self.unit}{' !' if over else ''}"
-        return (
-            f"<div><span>{escape(label)}</span><s>{bar}</s><em>{escape(text)}</em></div>"
-        )
+        return f"<div><span>{escape(label)}</span><s>{bar}</s><em>{escape(text)}</em></div>"
 
 
 class Plot:

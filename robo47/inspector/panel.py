@@ -15,9 +15,7 @@ LAST = 1e15  # below whatever a tab adds
 class Panel:
     """What stands above the open tab."""
 
-    def __init__(
-        self, gui: viser.GuiApi, arm: Arm, about: str, made: Controls
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, arm: Arm, about: str, made: Controls) -> None:
         """Build it.
 
         Args:
@@ -77,7 +75,9 @@ class Panel:
             wide: leave the two matrices out; the tab needs the room.
         """
         if apart is None:
-            self.yours.content = words.said(self.no_file, "yours", "quiet") if self.no_file else ""
+            self.yours.content = (
+                words.said(self.no_file, "yours", "quiet") if self.no_file else ""
+            )
         else:
             kind = "good" if apart.good else "bad"
             text = f"{'✓' if apart.good else '✗'} {apart.sentence}"

@@ -47,9 +47,7 @@ class Triad:
             for name in "xyz"
         ]  # fmt: skip
         if text:
-            scene.add_label(
-                f"{path}/name", text, anchor=anchor, font_screen_scale=0.75
-            )
+            scene.add_label(f"{path}/name", text, anchor=anchor, font_screen_scale=0.75)
         self.state: tuple[bool, bool] | None = None
         self.show(visible=True, chosen=False)
 

@@ -162,10 +162,11 @@ def main() -> int:
     lab.check("largest |by hand - MuJoCo|", T_world_ee - T_mujoco)
 
     lab.step("3. It is a rigid transform: true of any pose, also of a wrong one")
-    R = T_world_ee[:3, :3]
-    inv_err = T_world_ee @ inverse(T_world_ee) - np.eye(4)
-    lab.record("fk_identity_check", np.abs(inv_err).max(), label="largest |T @ inv(T) - I|",
-               config="panda_ready")  # fmt: skip
+    T_hand_ee = make_T(Rz(1.0), np.array([0.1, 0.2, 0.3]))  # R.T == R when ready
+    poses = [T_world_ee, T_hand_ee, T_world_ee @ T_hand_ee]
+    inv_err = [np.abs(T @ inverse(T) - np.eye(4)).max() for T in poses]
+    lab.record("fk_identity_check", inv_err, label="largest |T @ inv(T) - I|")
+    R = quat_to_R(np.array([1.0, -1.0, 0.5, 0.0]))  # of length 1.5, as files may write
     lab.check("largest |R @ R.T - I|", R @ R.T - np.eye(3))
     lab.check("|det R - 1|", np.linalg.det(R) - 1)
 
@@ -192,8 +193,8 @@ def main() -> int:
     lab.show("in the file: T_link3_link4", link_T(link4.pos, link4.quat))
     lab.show("data.xpos, in the world", data.body("link4").xpos)
     lab.show("composed up to the world: T_world_link4", T_world_link4)
-    lab.check("largest |by hand - data.xpos|",
-              T_world_link4[:3, 3] - data.body("link4").xpos)  # fmt: skip
+    xmat, xpos = data.body("link4").xmat.reshape(3, 3), data.body("link4").xpos
+    lab.check("largest |by hand - MuJoCo|", T_world_link4 - make_T(xmat, xpos))
     return lab.finish()
 
 
