@@ -9,7 +9,11 @@ A document asks for an output between two comments:
     <!-- run: python src/day1_transforms.py --no-log | step 2 -->
     <!-- end -->
 
-`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends.
+`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for the
+table of a week's days, from their manifests:
+
+    <!-- days: w1-foundations -->
+    <!-- end -->
 """
 
 import functools
@@ -25,10 +29,11 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
 from robo47.errors import Robo47Error
+from robo47.lesson.day import all_days
 from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "w1-foundations").rglob("*.md"))]
-BLOCK = re.compile(r"(<!-- run: (.+?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- (run|days): (.+?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 # What depends on where the robot came from, and where among equals the worst was.
@@ -83,13 +88,38 @@ def same(old: str, new: str) -> bool:
     )
 
 
-def rebuilt(document: str) -> tuple[str, list[str]]:
-    """Return the document with fresh outputs, and the requests that had drifted."""
+def days_table(week: str, folder: Path) -> str:
+    """Return the table of a week's days, with links from a folder.
+
+    Args:
+        week: the name of its folder.
+        folder: of the document.
+    """
+    lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
+    for day in all_days():
+        if day.folder.name == week:
+            guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
+            title = f"[{day.number}: {day.title.lower()}]({guide})"
+            command = f"`make day{day.number}`"
+            lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
+    return "\n".join(lines) + "\n"
+
+
+def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
+    """Return the document with fresh outputs, and the requests that had drifted.
+
+    Args:
+        document: its text.
+        folder: where it is, for the links in it.
+    """
     drifted = []
 
     def fresh(block: re.Match) -> str:
-        opening, request, old, closing = block.groups()
-        body = f"```text\n{wanted(request).rstrip()}\n```\n"
+        opening, kind, request, old, closing = block.groups()
+        if kind == "days":
+            body = days_table(request, folder)
+        else:
+            body = f"```text\n{wanted(request).rstrip()}\n```\n"
         if same(old, body):
             return block.group()
         drifted.append(request)
@@ -105,7 +135,7 @@ def main() -> int:
     options = parser.parse_args()
     drift = 0
     for path in DOCUMENTS:
-        text, drifted = rebuilt(path.read_text("utf-8"))
+        text, drifted = rebuilt(path.read_text("utf-8"), path.parent)
         for request in drifted:
             print(f"{shown(path)}: {'drifted' if options.check else 'new'}: {request}")
         drift += len(drifted)

@@ -20,6 +20,7 @@ DOCUMENTS = [
 ]
 
 
+@pytest.mark.kit
 def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
     need(shutil.which("make") is not None, "make")
     done = run("scripts/build_docs.py", "--check")

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 import pythons
+
 from conftest import ROOT
 
 NOW = sys.version_info[:2]

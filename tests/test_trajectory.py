@@ -7,12 +7,12 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
-from conftest import need
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
+from conftest import need
 from robo47 import panda, se3, trajectory
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 

@@ -10,8 +10,8 @@ import time
 
 import mujoco
 import pytest
-from conftest import need
 
+from conftest import need
 from robo47.checker import wall
 from robo47.checker.model_copy import facts
 from robo47.checker.replies import Question

@@ -1,0 +1,172 @@
+"""A whole invented day, dropped into a copy of the kit: nothing shared is touched.
+
+`tests/toyday/` is the specification of what an author may expect: a scalar, a vector, a
+6x6, a bracket that is no pose, a tuple, a `min` metric, an answer that is not unique, an
+optional task, the library of day 1, and a robot with a hand.
+"""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT, environment_of
+
+pytestmark = pytest.mark.kit
+TOY = ROOT / "tests" / "toyday" / "w9-toy"
+
+
+@pytest.fixture(scope="module")
+def kit(tmp_path_factory):
+    """Return a copy of the kit with the toy day in it."""
+    copy = tmp_path_factory.mktemp("kit") / "clone"
+    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+        skipped = shutil.ignore_patterns("__pycache__", "work")
+        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    shutil.copytree(TOY, copy / "w9-toy")
+    return copy
+
+
+@pytest.fixture
+def run(kit):
+    def run_script(script, *arguments):
+        return subprocess.run(
+            [sys.executable, str(kit / script), *map(str, arguments)],
+            cwd=kit,
+            env=environment_of(kit),
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=120,
+            check=False,
+        )
+
+    return run_script
+
+
+@pytest.fixture
+def begun(kit, run):
+    """Begin the day; return the student's file."""
+    work = kit / "w9-toy" / "work" / "day46_toy.py"
+    work.unlink(missing_ok=True)
+    done = run("scripts/start_day.py", 46)
+    assert done.returncode == 0, done.stderr
+    return work
+
+
+def solve(kit, work):
+    work.write_bytes((kit / "w9-toy" / "src" / work.name).read_bytes())
+
+
+def entries(run, *options):
+    done = run("scripts/check_day.py", 46, "--json", *options)
+    assert done.stderr == ""
+    return {entry["id"]: entry for entry in json.loads(done.stdout)["entries"]}
+
+
+def test_the_starter_has_every_task_to_do(run, begun):
+    found = entries(run)
+    tasks = [entry for entry in found.values() if entry["kind"] == "task"]
+    assert len(tasks) == 8
+    assert {entry["status"] for entry in tasks} == {"todo"}
+
+
+def test_the_last_day_begun_is_the_one_that_is_checked(run, begun):
+    assert "Day 46: A toy" in run("scripts/check_day.py").stdout
+
+
+def test_the_solution_passes_and_a_side_quest_is_not_counted(kit, run, begun):
+    solve(kit, begun)
+    done = run("scripts/check_day.py", 46)
+    assert "46.8  fingers (side quest)  passed" in done.stdout
+    assert "WRONG" not in done.stdout
+    assert entries(run)["46.8"]["status"] == "passed"
+
+
+FILES = sorted(TOY.glob("day46/submissions/*/*.py"))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)
+def test_each_kind_of_answer_has_its_own_words(kit, run, file):
+    tasks, _, slug = file.read_text().splitlines()[0].partition(": ")
+    slug = slug.partition(" ")[0]
+    for task in tasks.split()[2:]:
+        options = ("--task", task, "--file", kit / "w9-toy" / file.relative_to(TOY))
+        entry = entries(run, *options)[task]
+        assert (entry["mistake"] or entry["status"]) == slug
+        assert "rotation" not in entry["message"]
+
+
+def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
+    manifest = kit / "w9-toy" / "day46" / "day.toml"
+    text = manifest.read_text()
+    manifest.write_text(text.replace("minutes = 10", 'minutes = 10\nlibrary = ["poe"]'))
+    solve(kit, begun)
+    code = begun.read_text().replace(
+        "    # region 46.2", "    from robo47.poe import *"
+    )
+    call = "    import robo47.poe\n    return robo47.poe.anything(a, b)\n"
+    begun.write_text(code.replace("    from robo47.poe import *\n", call))
+    entry = entries(run, "--task", "46.2")["46.2"]
+    manifest.write_text(text)
+    assert entry["mistake"] == "not-by-hand"
+    assert "robo47.poe.anything" in entry["message"]
+
+
+def test_its_lab_runs_logs_and_is_judged_by_max_and_min(kit, run, begun):
+    solve(kit, begun)
+    done = run("scripts/run_day.py", 46)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "PASS  toy right share: 1 (over 0.95)" in done.stdout
+    week = run("scripts/run_week.py", 9)
+    assert week.returncode == 0
+    assert week.stdout.count("PASS") == 2
+
+
+def test_a_share_under_its_min_fails(kit, run, begun):
+    solve(kit, begun)
+    code = begun.read_text()
+    begun.write_text(code.replace("return n / np.linalg.norm(n)", "return v"))
+    done = run("scripts/run_day.py", 46, "--no-log")
+    assert done.returncode == 1
+    assert "FAIL  toy right share: 0 (over 0.95)" in done.stdout
+
+
+def test_its_hints_are_given(run, begun):
+    done = run("scripts/hint.py", "46.6")
+    assert "How many are there?" in done.stdout
+
+
+def test_the_report_knows_its_rows(kit, run, begun):
+    solve(kit, begun)
+    run("scripts/run_day.py", 46)
+    done = run("scripts/report_metrics.py", "--out", kit)
+    assert done.returncode == 0, done.stderr
+    page = (kit / "report.html").read_text()
+    assert "toy_right_share" in page
+    assert "toy_cross" in page
+
+
+def test_its_submissions_are_graded(kit, run, tmp_path):
+    work = tmp_path / "class" / "ada" / "w9-toy" / "work"
+    work.mkdir(parents=True)
+    shutil.copyfile(kit / "w9-toy" / "src" / "day46_toy.py", work / "day46_toy.py")
+    folder = tmp_path / "class"
+    done = run("scripts/grade_class.py", folder, "--day", 46, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stdout + done.stderr
+    (grades,) = (tmp_path / "out").glob("*grades.csv")
+    assert "ada" in grades.read_text()
+
+
+def test_its_picture_is_drawn_and_its_notebook_made(kit, run):
+    done = run("scripts/make_figures.py", "--day", 46)
+    assert done.returncode == 0, done.stderr
+    assert (kit / "w9-toy" / "figures" / "day46_square.png").is_file()
+
+
+def test_no_shared_file_was_touched_for_it():
+    for path in (ROOT / "robo47").rglob("*.py"):
+        text = path.read_text("utf-8")
+        assert "day46" not in text
+        assert "toyday" not in text
