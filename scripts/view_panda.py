@@ -167,7 +167,7 @@ def main() -> int:
     day = find_day(options.day or started_day())
     if options.clip:
         return clip(options.clip, day, options.file)
-    return web(day, options.entry, options.start, options.port)
+    return web(day, options.entry or "panda_nohand", options.start, options.port)
 
 
 if __name__ == "__main__":

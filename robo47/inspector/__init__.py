@@ -1,4 +1,4 @@
-"""The inspector: the arm, its frames, the student's own code and the proof, in a browser.
+"""The inspector: the arm, its frames, the student's own code, in a browser.
 
     make view DAY=2
 
@@ -19,7 +19,7 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
             self.scale = page.slider("length", 0, 1, 0.5, self.changed, unit="m")
             page.buttons(["let go"], self.let_go)
 
-        def on_move(self, q: Array) -> None:       # the arm is at q now; also at the start
+        def on_move(self, q: Array) -> None:       # the arm is at q; also at the start
             self.axes.points = ...
 
         def close(self) -> None:                   # left; whatever `page` made is gone
@@ -27,8 +27,8 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
 
     TABS = [Screws]
 
-Both names are optional. `GHOST.questions(model, q)` returns the arguments for each frame
-in `GHOST.frames`: Day 1 asks `compose_fk(model, q, PATH[:k])`, Day 2
+Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
+frame in `GHOST.frames`: Day 1 asks `compose_fk(model, q, PATH[:k])`, Day 2
 `fk_space(screws[:k], M_k, q[:k])`. Where there is no GHOST, no ghost arm is drawn.
 
 What a tab has in `page` (`robo47/inspector/page.py` says the arguments):
@@ -46,9 +46,9 @@ What a tab has in `page` (`robo47/inspector/page.py` says the arguments):
     gui, scene                  viser's own, for what is missing here
 
 Everything a tab makes vanishes when the tab is left: its widgets, its drawings, its
-loops. Make everything anew in `__init__`; keep what should outlive the tab on the class.
-Callbacks run one after the other on the server's event loop: keep them under 20 ms and
-never wait in one. `wide = True` on the class hides the two matrices at the top.
+loops. Make everything anew in `__init__`; keep on the class what should outlive the
+tab. Callbacks run one after the other on the server's event loop: keep them under 20 ms
+and never wait in one. `wide = True` on the class hides the two matrices at the top.
 
 The modules, from the numbers to the page:
 

@@ -5,10 +5,13 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 `update` does the work, at most once in a sixtieth of a second.
 """
 
+import contextlib
 import time
 from collections.abc import Callable, Collection
+from typing import NamedTuple, TypeVar
 
 import mujoco
+import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
@@ -27,11 +30,19 @@ from robo47.inspector.page import Page
 from robo47.inspector.scene import ArmScene
 from robo47.inspector.shapes import Shape
 from robo47.inspector.student import Student
-from robo47.inspector.tab import DayTabs, Tab
+from robo47.inspector.tab import DayTabs, Opened
 from robo47.inspector.tasks import Tasks
 
+T = TypeVar("T")
 PERIOD = 1 / 60
 UNDO_SECONDS, UNDO_STEPS = 0.7, 100  # moves closer together than that are one move
+
+
+class Meshes(NamedTuple):
+    """An arm's meshes; `ghosts` has other arms drawn with them, too."""
+
+    shapes: list[Shape]
+    ghosts: bool
 
 
 class Inspector:
@@ -58,9 +69,7 @@ class Inspector:
         self.pointer: Pointer | None = None
         self.panel = panel.Panel(server.gui, arm, about, self.controls)
         self.scene, self.hover = ArmScene(server, arm), Hover(server, arm)
-        self.tabs = {tab.title: tab for tab in (Joints, Chain, *day.tabs, Tasks)}
-        self.title, self.page = "", None  # type: str, Page | None
-        self.tab: Tab | None = None
+        self.opened = Opened([Joints, Chain, *day.tabs, Tasks])
         for name, listener in {
             "frame": self.choose_frame, "solid": self.make_solid, "tab": self.open_tab,
             "address": self.go_to, "hover": self.point,
@@ -107,7 +116,7 @@ class Inspector:
     def update(self) -> None:
         """Bring everything that is shown to what is wanted."""
         self.scheduled = False
-        moved = (self.wanted != self.arm.q).any() or self.tab is None
+        moved = (self.wanted != self.arm.q).any() or self.opened.tab is None
         if moved:
             self.arm.move(self.wanted)
         with self.server.atomic():
@@ -115,35 +124,47 @@ class Inspector:
                 self.student.want(self.arm.q)
             self.scene.update()
             if moved:
-                self.tell_tab()
+                self.opened.tell(self.arm.q)
             self.hover.show(self.pointer)
             self.show()
 
-    def dress(self, model: mujoco.MjModel, meshes: list[Shape], ghost: bool) -> None:
+    def dress(self, model: mujoco.MjModel, meshes: Meshes) -> None:
         """Put meshes on the arm.
 
         Args:
             model: the arm's, with its shapes.
             meshes: what to draw.
-            ghost: draw other arms with them, too: the student's, and a tab's.
         """
+        ghost = meshes.ghosts
         with self.server.atomic():
-            self.scene.dress(meshes, ghost)
+            self.scene.dress(meshes.shapes, ghost)
             self.hover.watch(model)
             if ghost and self.seen is not None:
                 self.hear(self.seen)
         if ghost:
-            self.open_tab(self.title)  # a tab's own ghosts have no meshes yet
+            self.open_tab(
+                self.opened.kind.title
+            )  # a tab's own ghosts have no meshes yet
 
     def show(self) -> None:
         """Show the numbers, and what every control shows."""
         frame = self.controls.values["frame"]
-        tells = self.tab is not None and self.tab.wide
-        self.panel.show(frame, self.seen, self.apart, self.standing, wide=tells)
-        where = address.write(self.wanted, frame, self.title)
+        wide = self.opened.kind.wide
+        self.panel.show(frame, self.seen, self.apart, self.standing, wide)
+        where = address.write(self.wanted, frame, self.opened.kind.title)
         self.panel.state.content = self.controls.state(where)
 
     refresh = schedule
+
+    def on_loop(self, call: Callable[[T], None]) -> Callable[[T], None]:
+        """Return a function for other threads that has the event loop call this one."""
+        loop = self.server.get_event_loop()
+
+        def soon(value: T) -> None:
+            with contextlib.suppress(RuntimeError):  # the page is closed already
+                loop.call_soon_threadsafe(call, value)
+
+        return soon
 
     # What a tab asks for
 
@@ -157,19 +178,17 @@ class Inspector:
 
     def ask(self, question: Question, done: Callable[[Reply], None]) -> None:
         """Ask the student's file; the answer comes back on the event loop."""
-        loop, page = self.server.get_event_loop(), self.page
+        loop, page = self.server.get_event_loop(), self.opened.page
 
         def still_open(reply: Reply) -> None:
-            if self.page is page:  # the tab may have been left meanwhile
+            if self.opened.page is page:  # the tab may have been left meanwhile
                 done(reply)
                 self.schedule()
 
         if self.student is None:
             loop.call_soon(still_open, Reply(kind="missing", error="no file yet"))
         else:
-            self.student.request(
-                question, lambda r: loop.call_soon_threadsafe(still_open, r)
-            )
+            self.student.request(question, self.on_loop(still_open))
 
     # What the browsers and the student's file say
 
@@ -177,7 +196,7 @@ class Inspector:
         """Show another frame's matrices."""
         if name in self.arm.names:
             self.controls.values["frame"] = name
-            if self.title == Joints.title:
+            if self.opened.kind is Joints:
                 self.scene.light(name, None)
             self.schedule()
 
@@ -195,7 +214,7 @@ class Inspector:
     def go_to(self, query: str) -> None:
         """Go where an address says, as far as that is somewhere."""
         q, frame, title = address.read(query, self.arm.model.nq)
-        if title in self.tabs and title != self.title:
+        if title != self.opened.kind.title:
             self.open_tab(title)
         self.choose_frame(frame)
         if q is not None:
@@ -203,41 +222,15 @@ class Inspector:
 
     def open_tab(self, title: str) -> None:
         """Leave the open tab with all that it made, and open another."""
-        if title not in self.tabs:
-            return
-        with self.server.atomic():
-            if self.tab is not None:
-                self.guarded(self.tab.close)
-            if self.page is not None:
-                self.page.close()
-            self.panel.open(list(self.tabs), title)
-            self.scene.light(self.controls.values["frame"], None)
-            self.scene.trace(self.arm.q[:0].reshape(0, 3))
-            self.title, self.tab = title, None
-            self.page = Page(self, Sketch(self.server, self.scene.coarse))
-            self.guarded(self.make_tab)
-            self.tell_tab()
-        self.schedule()
-
-    def make_tab(self) -> None:
-        """Open the tab that was chosen."""
-        assert self.page is not None
-        self.tab = self.tabs[self.title](self.page)
-
-    def tell_tab(self) -> None:
-        """Tell the open tab where the arm is."""
-        if self.tab is not None:
-            tab = self.tab
-            self.guarded(lambda: tab.on_move(self.arm.q.copy()))
-
-    def guarded(self, call: Callable[[], None]) -> None:
-        """Call a day's code; where it fails the page says so and goes on."""
-        try:
-            call()
-        except Exception as error:
-            assert self.page is not None
-            what = f"{type(error).__name__}: {error}"
-            self.page.say(f"the tab {self.title} stopped with {what}", "bad")
+        if title in self.opened.kinds:
+            with self.server.atomic():
+                self.opened.leave()
+                self.panel.open(list(self.opened.kinds), title)
+                self.scene.light(self.controls.values["frame"], None)
+                self.scene.trace(np.zeros((0, 3)))
+                page = Page(self, Sketch(self.server, self.scene.coarse))
+                self.opened.enter(title, page)
+            self.schedule()
 
     def hear(self, seen: Seen | None) -> None:
         """Show what the student's function said; None where there is no file."""
@@ -258,6 +251,6 @@ class Inspector:
     def judge(self, standing: Standing) -> None:
         """Show how the tasks stand."""
         self.standing = standing
-        if isinstance(self.tab, Tasks):
-            self.tab.show(standing)
+        if isinstance(self.opened.tab, Tasks):
+            self.opened.tab.show(standing)
         self.schedule()

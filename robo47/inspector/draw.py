@@ -193,7 +193,8 @@ class Ellipsoid:
         squares, axes = np.linalg.eigh(np.asarray(A, dtype=np.float64))
         axes[:, 2] *= np.sign(np.linalg.det(axes))  # a rotation, not a reflection
         half = scale * np.sqrt(np.maximum(squares, 0.0))
-        self.ball.scale = tuple(float(max(h, 1e-4)) for h in half)
+        x, y, z = (float(max(h, 1e-4)) for h in half)
+        self.ball.scale = (x, y, z)
         place(self.ball, se3.make_T(axes, at))
         self.ball.visible = True
 

@@ -30,7 +30,7 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     Args:
         path: ends in .gif or .webp.
         day: whose function draws the second arm.
-        file: the student's; the one in work/ unless given. Without one the arm is alone.
+        file: the student's; the one in work/ unless given. Without it the arm is alone.
 
     Returns:
         Its size, bytes.

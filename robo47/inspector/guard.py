@@ -163,7 +163,7 @@ def foreign(headers: Headers) -> str | None:
 
 def _protected(response: Response, page: bool) -> Response:
     """Return viser's response with our headers, and its page with our client."""
-    body = with_client(response.body or b"") if page else response.body or b""
+    body = with_client(bytes(response.body)) if page else response.body
     headers = Headers(response.headers)
     for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
         with contextlib.suppress(KeyError):

@@ -44,7 +44,8 @@ class Bars:
         mark = ' class="over"' if over else ""
         bar = f'<u{mark} style="left:{left:.1f}%;width:{share:.1f}%"></u>'
         text = f"{value:.4g} {self.unit}{' !' if over else ''}"
-        return f"<div><span>{escape(label)}</span><s>{bar}</s><em>{escape(text)}</em></div>"
+        name, number = escape(label), escape(text)
+        return f"<div><span>{name}</span><s>{bar}</s><em>{number}</em></div>"
 
 
 class Plot:

@@ -30,8 +30,12 @@ class Page(Widgets):
 
     @property
     def q(self) -> Array:
-        """The arm's configuration, (nq,), a copy."""
-        return self.arm.q.copy()
+        """The configuration that was asked for last, (nq,), a copy.
+
+        The numbers in `arm` and what `pose` returns follow a moment later, before
+        `on_move` is called.
+        """
+        return self.host.q.copy()
 
     def pose(self, name: str) -> Array:
         """Return MuJoCo's T_world_NAME, (4, 4); "ee" is the end effector."""

@@ -57,12 +57,12 @@ class Skin:
                 self.bodies[shape.body] = self.server.scene.add_frame(
                     path, show_axes=False
                 )
-            rgb = tuple(int(255 * c) for c in shape.rgba[:3])
+            r, g, b = (int(255 * c) for c in shape.rgba[:3])
             mesh = self.server.scene.add_mesh_simple(
                 f"{path}/{len(shapes)}_{i}",
                 shape.vertices.astype(np.float32),
                 shape.faces,
-                color=colour or rgb,
+                color=colour or (r, g, b),
             )
             self.meshes.append((mesh, shape))
         for mesh, _ in old:  # after the new ones: no moment without an arm

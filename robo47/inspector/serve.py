@@ -24,7 +24,7 @@ from robo47 import cli
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.inspector import behind
-from robo47.inspector.app import Inspector
+from robo47.inspector.app import Inspector, Meshes
 from robo47.inspector.arm import Arm
 from robo47.inspector.checks import Checks
 from robo47.inspector.guard import LOOPBACK, LocalServer
@@ -112,9 +112,8 @@ def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
         ends: what is to be closed in the end.
     """
     assert page.day.ghost is not None
-    hears = page.server.get_event_loop().call_soon_threadsafe
     sandbox = ends.enter_context(Sandbox())
-    checks = Checks(partial(behind.verdicts, show.day), partial(hears, page.judge))
+    checks = Checks(partial(behind.verdicts, show.day), page.on_loop(page.judge))
 
     def saved() -> None:
         if show.day.work.is_file():
@@ -122,7 +121,7 @@ def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
 
     student = Student(
         behind.source_of(show.day, show.arm.model, sandbox), page.day.ghost,
-        show.arm.model, partial(hears, page.hear), saved,
+        show.arm.model, page.on_loop(page.hear), saved,
     )  # fmt: skip
 
     def begin() -> None:
@@ -145,12 +144,11 @@ def dress(page: Inspector, show: Show) -> None:
     except Robo47Error as error:
         print(f"the arm stays without its meshes: {error}", flush=True)
         return
-    hears = page.server.get_event_loop().call_soon_threadsafe
+    put_on = page.on_loop(partial(page.dress, model))
     coarse = shapes(model, COLLISION_GROUPS)
     if coarse:
-        hears(page.dress, model, coarse, True)
-    fine = shapes(model)
-    hears(page.dress, model, fine, not coarse)
+        put_on(Meshes(coarse, True))
+    put_on(Meshes(shapes(model), not coarse))
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:

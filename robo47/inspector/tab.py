@@ -1,5 +1,7 @@
 """What a tab is, and how the tabs of a day are found in its own folder."""
 
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from robo47.checks import Array
@@ -56,6 +58,61 @@ class DayTabs:
     def __init__(self, ghost: Ghost | None, tabs: list[type[Tab]]) -> None:
         """Keep both."""
         self.ghost, self.tabs = ghost, tabs
+
+
+class Opened:
+    """The one tab that is open, among those that can be.
+
+    Attributes:
+        kinds: {title: class}, in the order of the row of tabs.
+        kind: of the open one.
+        tab: the open one; None where it failed to open.
+        page: what it made its widgets with.
+    """
+
+    def __init__(self, kinds: Sequence[type[Tab]]) -> None:
+        """Open none yet."""
+        self.kinds = {kind.title: kind for kind in kinds}
+        self.kind = kinds[0]
+        self.tab: Tab | None = None
+        self.page: Page | None = None
+
+    def enter(self, title: str, page: "Page") -> None:
+        """Open a tab.
+
+        Args:
+            title: a key of `kinds`.
+            page: what it makes its widgets and drawings with.
+        """
+        self.kind, self.page = self.kinds[title], page
+
+        def make() -> None:
+            self.tab = self.kind(page)
+
+        self._guarded(make)
+        self.tell(page.q)
+
+    def leave(self) -> None:
+        """Close the open tab, and remove all that it made."""
+        if self.tab is not None:
+            self._guarded(self.tab.close)
+        if self.page is not None:
+            self.page.close()
+        self.tab = self.page = None
+
+    def tell(self, q: Array) -> None:
+        """Tell the open tab where the arm is."""
+        if self.tab is not None:
+            self._guarded(partial(self.tab.on_move, q.copy()))
+
+    def _guarded(self, call: Callable[[], None]) -> None:
+        """Call a day's code; where it fails the page says so and goes on."""
+        try:
+            call()
+        except Exception as error:
+            assert self.page is not None
+            what = f"{type(error).__name__}: {error}"
+            self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
 
 
 def day_tabs(day: Day) -> DayTabs:

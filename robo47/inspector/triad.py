@@ -1,7 +1,6 @@
 """A frame, drawn as three arrows; one of them may stand out, with letters on its axes.
 
-x is orange-red, y teal, z blue: three lightnesses and hues that stay apart where red and
-green do not. Metres.
+x is orange-red, y teal, z blue: they stay apart where red and green do not. Metres.
 """
 
 from typing import Literal

@@ -40,7 +40,7 @@ def number(text: str) -> float:
 
 def _value(node: ast.expr) -> float:
     """Return the value of a parsed text; only what is listed here is understood."""
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+    if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
         return float(node.value)
     if isinstance(node, ast.Name) and node.id.lower() == "pi":
         return math.pi

@@ -24,6 +24,10 @@ class Host(Protocol):
     controls: Controls
     standing: Standing
 
+    @property
+    def q(self) -> Array:
+        """The configuration that was asked for last."""
+
     def move(self, q: ArrayLike) -> None:
         """Move the arm."""
 

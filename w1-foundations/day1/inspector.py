@@ -11,16 +11,17 @@ from robo47.inspector.ghost import Ghost
 from robo47.inspector.page import Page
 from robo47.inspector.tab import Tab
 
-# From the world to the end effector: each body, and the joint that turns it.
-PATH: list[tuple[str, str | None]] = [("link0", None)]
-PATH += [(f"link{i}", f"joint{i}") for i in range(1, 8)]
-PATH += [("attachment", None)]
+# From the world outwards: each body, and the joint that turns it.
+LINKS = (("link0", None), *((f"link{i}", f"joint{i}") for i in range(1, 8)))
 BOTH, RIGHT, LEFT = "both", "right: T_world_ee @ T_extra", "left: T_extra @ T_world_ee"
 
 
 def ask_compose_fk(model: mujoco.MjModel, q: Array) -> list[tuple]:
     """Return the arguments of compose_fk(model, q, PATH[:k]) for every frame."""
-    return [(Model(0), q, Path(tuple(PATH[:k]))) for k in range(1, len(PATH) + 1)]
+    bodies = {model.body(i).name for i in range(model.nbody)}
+    end = "attachment" if "attachment" in bodies else "hand"  # panda.xml has no site
+    path = (*LINKS, (end, None))
+    return [(Model(0), q, Path(path[:k])) for k in range(1, len(path) + 1)]
 
 
 GHOST = Ghost(
@@ -78,7 +79,7 @@ class Order(Tab):
         T, name = (left, "left") if self.side == LEFT else (right, "right")
         says = {
             RIGHT: "On the right: the tool steps along its own axes.",
-            LEFT: "On the left: the whole arm is turned and moved in the world (purple).",
+            LEFT: "On the left: the whole arm is turned and moved (purple).",
             BOTH: f"The same two factors end {apart:.4f} m apart.",
         }
         self.page.matrix(self.result, f"T_extra on the {name}", T)
