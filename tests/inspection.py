@@ -22,12 +22,12 @@ WITHOUT_ROBOT = (
 
 
 class Served:
-    """`view_panda.py --web` in a process of its own, ready to be looked at."""
+    """`view_panda.py` in a process of its own, ready to be looked at."""
 
     def __init__(self, *arguments: str, robot: bool = True) -> None:
         start = [str(SCRIPT)] if robot else ["-c", WITHOUT_ROBOT]
         self.process = subprocess.Popen(
-            [sys.executable, *start, "--web", *arguments],
+            [sys.executable, *start, *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -51,7 +51,7 @@ class Served:
         assert self.process.stdout is not None
         for line in self.process.stdout:
             self.lines.append(line)
-            if found := re.search(r"http://127\.0\.0\.1:\d+", line):
+            if found := re.search(r"http://127\.0\.0\.1:\d+/\S+/", line):
                 self.ready.put(found[0])
         self.ready.put("")  # it ended
 
@@ -63,7 +63,12 @@ class Served:
     @property
     def port(self) -> int:
         """Where it listens."""
-        return int(self.url.rpartition(":")[2])
+        return int(re.search(r":(\d+)/", self.url)[1])  # type: ignore[index]
+
+    @property
+    def path(self) -> str:
+        """What makes the address a secret, "/.../"."""
+        return "/" + self.url.split("/", 3)[3]
 
     def press_ctrl_c(self) -> int:
         """Do so, and return the exit code."""

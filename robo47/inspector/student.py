@@ -5,6 +5,7 @@ saved, and asks it for the newest configuration; what comes back is delivered on
 server's event loop. Nothing of the student's runs in this process.
 """
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -164,7 +165,10 @@ class Student(threading.Thread):
         if self._asker is None:
             return Seen(q, problem=self._problem)
         start, asker = time.perf_counter(), self._asker
-        poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
+        try:
+            poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
+        except Exception as error:  # ours, or the day's: the page goes on
+            return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
         if not asker.alive:
             problem = self._give_up(problem)
         return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
@@ -220,11 +224,11 @@ def poses_of(
 
 def stamp_of(script: Path) -> tuple[int, ...] | None:
     """Return what changes when a file is saved; None where there is no file."""
-    try:
-        found = script.stat()
-    except OSError:
+    if not script.is_file():
         return None
-    return found.st_mtime_ns, found.st_size
+    with contextlib.suppress(OSError):  # it went away just now
+        return script.stat().st_mtime_ns, script.stat().st_size
+    return None
 
 
 def no_pose(function: str, value: Any) -> str:

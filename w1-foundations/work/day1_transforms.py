@@ -198,5 +198,18 @@ def main() -> int:
     return lab.finish()
 
 
-if __name__ == "__main__":
-    cli.run(main)
+
+# task 1.4: R-transposed
+# The signs of the w terms are the other way round.
+import numpy as np
+
+
+def quat_to_R(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+            [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+            [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
