@@ -38,7 +38,7 @@ def test_a_number_is_read_as_it_is_meant(text, value):
     ],
 )  # fmt: skip
 def test_what_is_no_number_is_refused_with_an_example(text):
-    with pytest.raises(ValueError, match="is no number; write 0.5, pi/2 or 90 deg"):
+    with pytest.raises(ValueError, match=r"is no number; write 0\.5, pi/2 or 90 deg"):
         number(text)
 
 

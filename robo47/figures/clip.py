@@ -98,9 +98,7 @@ def save_clip(
     Raises:
         Robo47Error: another ending.
     """
-    kind = path.suffix.lower().lstrip(".")
-    if kind not in ("gif", "webp"):
-        raise Robo47Error(f"{path.name}: a clip ends in .gif or .webp")
+    kind = kind_of(path)
     each = round(1000 * seconds / len(frames))
     some = list(frames)
     while True:
@@ -111,6 +109,18 @@ def save_clip(
             return len(made)
         size = tuple(max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
         some = [frame.resize(size, Image.Resampling.LANCZOS) for frame in some]  # type: ignore[arg-type]
+
+
+def kind_of(path: Path) -> str:
+    """Return "gif" or "webp".
+
+    Raises:
+        Robo47Error: another ending.
+    """
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in ("gif", "webp"):
+        raise Robo47Error(f"{path.name}: a clip ends in .gif or .webp")
+    return kind
 
 
 def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:

@@ -10,7 +10,7 @@ from robo47.checker.replies import LoadError
 from robo47.checker.sandbox import Sandbox
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.figures.clip import Caption, arm_clip, save_clip, there_and_back
+from robo47.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
 from robo47.inspector import behind
 from robo47.inspector.arm import Arm
 from robo47.inspector.ghost import Difference, Ghost, Seen, compare
@@ -38,6 +38,7 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     Raises:
         Robo47Error: nothing draws here, or another ending.
     """
+    kind_of(path)
     arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
     script = file or day.work
     if file and not file.is_file():

@@ -17,6 +17,8 @@ from robo47.inspector.triad import Anchor, Triad, place
 # Seen from its right and front; aimed beside the arm, since the panel covers the
 # right third of the page.
 CAMERA, LOOK_AT, FOV = (1.75, -1.45, 0.95), (0.42, 0.24, 0.4), 0.72
+# For a page that is higher than wide: from further away, the arm above the panel.
+PHONE_CAMERA, PHONE_LOOK_AT = (2.7, -2.3, 1.2), (0.2, 0.0, -0.1)
 BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
@@ -208,6 +210,12 @@ def _set_stage(server: viser.ViserServer) -> None:
     """Set camera, backdrop and floor."""
     camera = server.initial_camera
     camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
+
+    @server.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        if client.camera.aspect < 1.0:
+            client.camera.position, client.camera.look_at = PHONE_CAMERA, PHONE_LOOK_AT
+
     backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(

@@ -60,7 +60,7 @@ class Slider:
     def set(self, value: float) -> None:
         """Show another value, without a callback."""
         self.value = value
-        self._host.controls.values[self.name] = f"{value:.10g}"
+        self._host.controls.values[self.name] = f"{value:.6g}"
         self._host.refresh()
 
 
@@ -132,7 +132,7 @@ class Widgets:
             self.say("")
             on_change(made.value)
 
-        self.host.controls.listen(name, listen, f"{start:.10g}")
+        self.host.controls.listen(name, listen, f"{start:.6g}")
         return made
 
     def buttons(

@@ -17,7 +17,11 @@ COLUMNS = "xyzp"
 
 
 def matrix(
-    name: str, T: Array, key: str, marked: NDArray[np.bool_] | None = None
+    name: str,
+    T: Array,
+    key: str,
+    marked: NDArray[np.bool_] | None = None,
+    mark: str = "off",
 ) -> str:
     """Return a pose as an aligned block under its name.
 
@@ -26,11 +30,12 @@ def matrix(
         T: (4, 4).
         key: unique in the page, for who looks a matrix up there.
         marked: entries to mark, (4, 4) of bool.
+        mark: how: "off" for wrong ones, "moves" for what q changes.
     """
     off = np.zeros((4, 4), dtype=bool) if marked is None else marked
     head = "".join(f'<span class="{c} head">{c:>10}</span>' for c in COLUMNS)
     rows = "\n".join(
-        "".join(_entry(row[j], COLUMNS[j], bool(bad[j])) for j in range(4))
+        "".join(_entry(row[j], COLUMNS[j], mark if bad[j] else "") for j in range(4))
         for row, bad in zip(np.round(T, 6) + 0.0, off, strict=True)
     )
     return (
@@ -39,11 +44,11 @@ def matrix(
     )
 
 
-def _entry(value: float, column: str, marked: bool) -> str:
+def _entry(value: float, column: str, mark: str) -> str:
     """Return one number, 10 wide; the mark covers the number alone."""
     text = f"{value:.6f}"
     space = " " * (10 - len(text))
-    return f'{space}<span class="{column}{" off" if marked else ""}">{text}</span>'
+    return f'{space}<span class="{f"{column} {mark}".strip()}">{text}</span>'
 
 
 def line(text: str, key: str, kind: str = "") -> str:
@@ -142,7 +147,7 @@ def step(this: Step, number: int, of: int, whole: bool) -> str:
     parts = [
         line(f"factor {number} of {of}, {this.name}: {about}", "step"),
         matrix("so far", this.before, "before"),
-        matrix(f"@ {this.name}", this.factor, "factor", this.moves),
+        matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves"),
         matrix(f"= {product}", this.after, "product"),
     ]
     return "".join(parts)
