@@ -1,12 +1,14 @@
 """The student's poses against MuJoCo's: the sentence, and what is drawn."""
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from robo47 import se3
-from robo47.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose
+from robo47.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose, no_pose
 
 FRAMES = ("link0", "link1", "ee")
 GHOST = Ghost("my_fk", FRAMES, lambda model, q: [()] * 3)
@@ -82,3 +84,19 @@ def test_whatever_the_matrix_what_is_drawn_is_rigid(entries):
 def test_a_rigid_pose_is_its_own_nearest(angle):
     T = se3.make_T(se3.Rx(angle), [1, 2, 3])
     np.testing.assert_allclose(nearest_pose(T), T, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        (None, "nothing"),
+        (np.eye(3), r"shape \(3, 3\)"),
+        (np.full((4, 4), np.nan), "not finite"),
+        (1e9 * np.eye(4)[:, ::-1], "over a kilometre"),
+        (np.eye(4) + 1j, "complex128"),
+        ((np.eye(4), np.eye(4)), "tuple"),
+    ],
+)
+def test_what_is_no_pose_is_said_in_a_line(value, says):
+    assert re.search(says, no_pose("my_fk", value))
+    assert no_pose("my_fk", np.eye(4)) == ""

@@ -27,7 +27,7 @@ FLAGS = [
     "--disable-background-networking",
     "--no-first-run",
 ]
-MILLISECONDS = 60_000  # software rendering on a busy machine
+MILLISECONDS = 120_000  # software rendering on a busy machine
 SHOWN = 6e-7  # a matrix is shown with 6 decimals
 
 

@@ -8,7 +8,7 @@ import pytest
 from robo47 import panda
 from robo47.checker.replies import LoadError, Question, Reply
 from robo47.inspector.ghost import Ghost
-from robo47.inspector.student import Source, Student, no_pose
+from robo47.inspector.student import Source, Student
 
 SECONDS = 20
 GHOST = Ghost(
@@ -157,21 +157,3 @@ def test_a_tab_may_ask_any_function(desk):
     desk.student.request(question, lambda reply: (got.append(reply), done.set()))
     assert done.wait(SECONDS)
     np.testing.assert_array_equal(got[0].value, 2 * np.eye(4))
-
-
-@pytest.mark.parametrize(
-    ("value", "says"),
-    [
-        (None, "nothing"),
-        (np.eye(3), r"shape \(3, 3\)"),
-        (np.full((4, 4), np.nan), "not finite"),
-        (1e9 * np.eye(4)[:, ::-1], "over a kilometre"),
-        (np.eye(4) + 1j, "complex128"),
-        ((np.eye(4), np.eye(4)), "tuple"),
-    ],
-)
-def test_what_is_no_pose_is_said_in_a_line(value, says):
-    import re
-
-    assert re.search(says, no_pose("my_fk", value))
-    assert no_pose("my_fk", np.eye(4)) == ""

@@ -59,6 +59,7 @@ The modules, from the numbers to the page:
     words     numbers as HTML;  typed  numbers as people type them
     shapes    what MuJoCo's model looks like, as triangle meshes
     triad, scene, draw, hover   what is in the picture
+    history   the wanted configuration, and the way back;  address  it, in the URL
     controls, client            sliders, buttons and tabs as HTML, and their script
     page, tab, animate          what a tab gets, what it is, and its loops
     joints, chain, tasks        the tabs that every day has

@@ -6,7 +6,6 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 """
 
 import contextlib
-import time
 from collections.abc import Callable, Collection
 from typing import NamedTuple, TypeVar
 
@@ -24,6 +23,7 @@ from robo47.inspector.checks import Standing
 from robo47.inspector.controls import Controls
 from robo47.inspector.draw import Sketch
 from robo47.inspector.ghost import Difference, Seen, compare
+from robo47.inspector.history import History
 from robo47.inspector.hover import Hover, Pointer, pointer
 from robo47.inspector.joints import Joints
 from robo47.inspector.page import Page
@@ -35,7 +35,6 @@ from robo47.inspector.tasks import Tasks
 
 T = TypeVar("T")
 PERIOD = 1 / 60
-UNDO_SECONDS, UNDO_STEPS = 0.7, 100  # moves closer together than that are one move
 
 
 class Meshes(NamedTuple):
@@ -61,8 +60,7 @@ class Inspector:
         """
         self.server, self.arm, self.day = server, arm, day
         self.controls, self.standing = Controls(), Standing("")
-        self.wanted, self.past, self.moved = arm.q.copy(), [arm.q.copy()], 0.0
-        self.scheduled, self.looked_at = False, False
+        self.history, self.scheduled = History(arm.q), False
         self.student: Student | None = None
         self.seen: Seen | None = None
         self.apart: Difference | None = None
@@ -82,7 +80,7 @@ class Inspector:
     @property
     def q(self) -> Array:
         """The configuration that was asked for last; `arm` follows in `update`."""
-        return self.wanted
+        return self.history.q
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser.
@@ -93,19 +91,13 @@ class Inspector:
         Raises:
             ValueError: wrong shape, or a number that is not finite.
         """
-        before, self.wanted = self.wanted, array(q, "q", (self.arm.model.nq,)).copy()
-        now = time.monotonic()
-        if now - self.moved > UNDO_SECONDS:
-            self.past = [*self.past[-UNDO_STEPS:], before]
-        self.moved = now
+        self.history.go(array(q, "q", (self.arm.model.nq,)))
         self.schedule()
 
     def undo(self) -> None:
         """Take the last move back."""
-        if self.past:
-            self.wanted = self.past.pop()
-            self.moved = 0.0
-            self.schedule()
+        self.history.back()
+        self.schedule()
 
     def schedule(self) -> None:
         """Have `update` run soon, once, however often this is called meanwhile."""
@@ -116,9 +108,9 @@ class Inspector:
     def update(self) -> None:
         """Bring everything that is shown to what is wanted."""
         self.scheduled = False
-        moved = (self.wanted != self.arm.q).any() or self.opened.tab is None
+        moved = (self.q != self.arm.q).any() or self.opened.tab is None
         if moved:
-            self.arm.move(self.wanted)
+            self.arm.move(self.q)
         with self.server.atomic():
             if self.student is not None and (self.seen is None or moved):
                 self.student.want(self.arm.q)
@@ -151,7 +143,7 @@ class Inspector:
         frame = self.controls.values["frame"]
         wide = self.opened.kind.wide
         self.panel.show(frame, self.seen, self.apart, self.standing, wide)
-        where = address.write(self.wanted, frame, self.opened.kind.title)
+        where = address.write(self.q, frame, self.opened.kind.title)
         self.panel.state.content = self.controls.state(where)
 
     refresh = schedule

@@ -19,6 +19,7 @@ from robo47.checks import Array
 from robo47.inspector.arm import AGREES
 
 Arguments = tuple[Any, ...]
+FARTHEST = 1e3  # metres; a frame further away is not drawn
 
 
 @dataclass(frozen=True)
@@ -136,3 +137,24 @@ def nearest_pose(T: Array) -> Array:
     nearest = np.eye(4)
     nearest[:3, :3], nearest[:3, 3] = U @ Vt, T[:3, 3]
     return nearest
+
+
+def no_pose(function: str, value: Any) -> str:
+    """Return why a value cannot be drawn as a pose; "" where it can.
+
+    Args:
+        function: whose value.
+        value: as the sandbox gives it.
+    """
+    if not isinstance(value, np.ndarray):
+        got = "nothing" if value is None else type(value).__name__
+        return f"{function} returned {got}; a pose is an array of shape (4, 4)."
+    if value.dtype.kind not in "fiub":
+        return f"{function} returned {value.dtype}; a pose is made of real numbers."
+    if value.shape != (4, 4):
+        return f"{function} returned shape {value.shape}; a pose has shape (4, 4)."
+    if not np.isfinite(value).all():
+        return f"{function} returned numbers that are not finite."
+    if np.abs(value[:3, 3]).max() > FARTHEST:
+        return f"{function} returned a place over a kilometre away."
+    return ""

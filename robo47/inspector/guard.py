@@ -18,6 +18,7 @@ arm), and opens a public share tunnel for whichever client asks. Here:
 import contextlib
 import hmac
 import http
+import logging
 import re
 import secrets
 import urllib.parse
@@ -63,6 +64,8 @@ class LocalServer(viser.ViserServer):
                 that its doors cannot be watched.
         """
         rich.get_console().quiet = True  # the script says where to look, once
+        # A broken client's message ends its connection; it is no news for the student.
+        logging.getLogger("websockets.server").setLevel(logging.CRITICAL + 1)
         self.door = Door()
         with _watched_doors(self.door) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)

@@ -19,10 +19,9 @@ import numpy as np
 from robo47.checker.replies import LoadError, Question, Reply
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.inspector.ghost import Ghost, Seen
+from robo47.inspector.ghost import Ghost, Seen, no_pose
 
 POLL_SECONDS, ASK_SECONDS = 0.2, 2.0
-FARTHEST = 1e3  # metres; a frame further away is not drawn
 
 
 class Asker(Protocol):
@@ -229,24 +228,3 @@ def stamp_of(script: Path) -> tuple[int, ...] | None:
     with contextlib.suppress(OSError):  # it went away just now
         return script.stat().st_mtime_ns, script.stat().st_size
     return None
-
-
-def no_pose(function: str, value: Any) -> str:
-    """Return why a value cannot be drawn as a pose; "" where it can.
-
-    Args:
-        function: whose value.
-        value: as the sandbox gives it.
-    """
-    if not isinstance(value, np.ndarray):
-        got = "nothing" if value is None else type(value).__name__
-        return f"{function} returned {got}; a pose is an array of shape (4, 4)."
-    if value.dtype.kind not in "fiub":
-        return f"{function} returned {value.dtype}; a pose is made of real numbers."
-    if value.shape != (4, 4):
-        return f"{function} returned shape {value.shape}; a pose has shape (4, 4)."
-    if not np.isfinite(value).all():
-        return f"{function} returned numbers that are not finite."
-    if np.abs(value[:3, 3]).max() > FARTHEST:
-        return f"{function} returned a place over a kilometre away."
-    return ""
