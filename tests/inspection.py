@@ -12,22 +12,36 @@ from queue import Queue
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPT = ROOT / "scripts" / "view_panda.py"
 SECONDS = 60
-# Runs the script as if the robot had never been fetched.
-WITHOUT_ROBOT = (
-    "import runpy, sys; from robo47 import menagerie; "
-    f"menagerie.panda_folder = lambda: None; sys.argv[0] = {str(SCRIPT)!r}; "
-    f"sys.path.insert(0, {str(SCRIPT.parent)!r}); "
-    "runpy.run_path(sys.argv[0], run_name='__main__')"
-)
+NO_ROBOT = "from robo47 import menagerie; menagerie.panda_folder = lambda: None"
+
+
+def prepared(work: Path, robot: bool) -> str:
+    """Return a program that runs the script with another file as the student's.
+
+    Args:
+        work: the student's file, there or not; their real one stays out of the tests.
+        robot: False as if the robot had never been fetched.
+    """
+    lines = [
+        "import pathlib, runpy, sys",
+        f"sys.argv[0] = {str(SCRIPT)!r}",
+        f"sys.path.insert(0, {str(SCRIPT.parent)!r})",
+        "from robo47.lesson.day import Day",
+        f"Day.work = pathlib.Path({str(work)!r})",
+        "" if robot else NO_ROBOT,
+        "runpy.run_path(sys.argv[0], run_name='__main__')",
+    ]
+    return "\n".join(lines)
 
 
 class Served:
     """`view_panda.py` in a process of its own, ready to be looked at."""
 
-    def __init__(self, *arguments: str, robot: bool = True) -> None:
-        start = [str(SCRIPT)] if robot else ["-c", WITHOUT_ROBOT]
+    def __init__(
+        self, *arguments: str, robot: bool = True, work: Path = ROOT / "nobodys.py"
+    ) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, *start, *arguments],
+            [sys.executable, "-c", prepared(work, robot), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

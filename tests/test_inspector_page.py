@@ -73,6 +73,10 @@ class Page:
     def line(self, key: str) -> str:
         return self.tab.locator(f"[data-line={key}]:visible").first.inner_text()
 
+    def said(self, key: str) -> str:
+        found = self.tab.locator(f"[data-line={key}]")
+        return found.first.inner_text() if found.count() else ""
+
     def until(self, true: Callable[[], bool]) -> None:
         """Wait for the page to say so; fail with what it says instead."""
         deadline = time.monotonic() + MILLISECONDS / 1000
@@ -318,6 +322,41 @@ def test_t_extra_on_either_side_is_shown_with_its_product(page, model):
     shown = page.tab.locator("[data-matrix^=tab]").inner_text()
     left = np.array(shown.split(), dtype=float).reshape(4, 4)
     np.testing.assert_allclose(left, T_extra @ T_world_ee, atol=SHOWN)
+
+
+def of_day_1(*functions: str) -> str:
+    """Return Day 1's lab as a right file, or with functions of the catalogue in it."""
+    text = (ROOT / "w1-foundations/src/day1_transforms.py").read_text("utf-8")
+    wrong = ROOT / "w1-foundations/day1/submissions/wrong"
+    own = [(wrong / f"{name}.py").read_text("utf-8") for name in functions]
+    return "\n".join([text.partition("if __name__")[0], *own])
+
+
+def test_ones_own_code_is_drawn_judged_and_reloaded_on_save(browser, tmp_path):
+    work = tmp_path / "day1_transforms.py"
+    kit = ROOT / "w1-foundations/src/kit.py"
+    (tmp_path / "kit.py").write_bytes(kit.read_bytes())
+    work.write_text(of_day_1("Rz_swapped"), "utf-8")
+    server = Served("1", "--port", "0", work=work)
+    try:
+        page = Page(browser, server.url)
+        page.until(lambda: "✗ YOUR compose_fk is off by 744 mm" in page.said("yours"))
+        assert "first frame that differs: link1" in page.said("yours")
+        assert page.tab.locator("[data-matrix=yours] .off").count() >= 10
+        page.until(lambda: "1.2: Sin and cos" in page.said("standing"))
+        work.write_text(of_day_1().replace("T_world_body = np.eye(4)", "while 1: pass"))
+        page.until(lambda: "compose_fk did not return" in page.said("yours"))
+        page.press("zero")  # the page goes on
+        page.until(lambda: page.angle(2) == 0)
+        work.write_text(of_day_1().replace("def Rz", "deff Rz"))
+        page.until(lambda: "SyntaxError" in page.said("yours"))
+        work.write_text(of_day_1(), "utf-8")
+        page.until(lambda: "✓ YOUR compose_fk agrees" in page.said("yours"))
+        page.until(lambda: "tasks pass" in page.said("standing"))
+        assert "Traceback" not in server.said
+        page.tab.close()
+    finally:
+        server.close()
 
 
 def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
