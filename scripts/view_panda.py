@@ -29,7 +29,7 @@ PICTURE = ROOT / "w1-foundations" / "figures" / "day1_panda_viewer.png"
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str, port: int) -> int:
+def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
     """Serve the inspector until Ctrl-C."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
@@ -51,7 +51,7 @@ def web(day: Day, entry: str, start: str, port: int) -> int:
     arm = Arm(panda.load(entry), panda.END_FRAME[entry])
     arm.move(arm.named_q[start])
     dressed = functools.partial(panda.load, entry, meshes=True)
-    return serve(Show(day, arm, about, dressed), port)
+    return serve(Show(day, arm, about, dressed, simple), port)
 
 
 def native() -> int:
@@ -140,6 +140,9 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--file", type=Path, help="with --clip: whose code, in place of your own"
     )
+    parser.add_argument(
+        "--simple", action="store_true", help="simple meshes: a computer without a GPU"
+    )
     parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
     parser.add_argument(
         "--start",
@@ -167,7 +170,8 @@ def main() -> int:
     day = find_day(options.day or started_day())
     if options.clip:
         return clip(options.clip, day, options.file)
-    return web(day, options.entry or "panda_nohand", options.start, options.port)
+    entry = options.entry or "panda_nohand"
+    return web(day, entry, options.start, options.port, options.simple)
 
 
 if __name__ == "__main__":

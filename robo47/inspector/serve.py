@@ -48,12 +48,14 @@ class Show:
         arm: without its looks; the numbers need none.
         about: the line that says which robot this is.
         dressed: loads the same model with its meshes; takes seconds.
+        simple: leave the fine meshes out, for a computer that draws without a GPU.
     """
 
     day: Day
     arm: Arm
     about: str
     dressed: Callable[[], mujoco.MjModel]
+    simple: bool = False
 
 
 def serve(show: Show, port: int) -> int:
@@ -148,7 +150,8 @@ def dress(page: Inspector, show: Show) -> None:
     coarse = shapes(model, COLLISION_GROUPS)
     if coarse:
         put_on(Meshes(coarse, True))
-    put_on(Meshes(shapes(model), not coarse))
+    if not (coarse and show.simple):
+        put_on(Meshes(shapes(model), not coarse))
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:
