@@ -94,7 +94,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "
-            'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py report)'
+            'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py view)'
         ) from None
     size = film(path, day, file)
     print(f"wrote {shown(path)}, {size / 1000:.0f} kB")

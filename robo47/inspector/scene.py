@@ -25,9 +25,9 @@ ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "botto
 SEE_THROUGH = 0.5  # opacity
 # What a see-through arm's colours are multiplied by: white would vanish before the
 # backdrop; it turns green where the student's own code puts every link.
-GREY, GREEN = (0.6, 0.6, 0.63), (0.42, 0.72, 0.6)
+GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
 HIGHLIGHT = (255, 176, 0)
-GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.5
+GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.6
 Colour = tuple[int, int, int]
 
 
