@@ -58,6 +58,17 @@ def ours() -> Rival:
     return Rival(solve)
 
 
+def one_at_a_time() -> Rival:
+    """Ours in a Python loop, as a script with one target calls it."""
+    batch = ours().solve
+
+    def solve(T: Array) -> tuple[Array, int]:
+        found = [batch(goal[None]) for goal in T]
+        return np.concatenate([q for q, _ in found]), sum(n for _, n in found)
+
+    return Rival(solve, 50)
+
+
 def toolbox() -> Rival:
     """Robotics Toolbox's C code, its own restarts; models.DH.Panda has the limits."""
     rtb = importlib.import_module("roboticstoolbox")
@@ -156,6 +167,7 @@ def _with_restarts(
 
 RIVALS: dict[str, Callable[[], Rival]] = {
     "robo47 solve_ik": ours,
+    "robo47 solve_ik, in a loop": one_at_a_time,
     "Robotics Toolbox ik_LM, C": toolbox,
     "Pinocchio, damped steps in a loop": pinocchio_loop,
     "mink, in a loop": mink_loop,

@@ -135,12 +135,11 @@ class Task:
             return Rest(self.arm, q), REST_SECONDS
         if phase.kind == "hold":
             return Line(self.arm, T, T, GRIP_SECONDS, q), GRIP_SECONDS
-        goal = self._tool(phase) if phase.over else None
         if phase.kind == "line":
-            return Line(self.arm, T, goal, LINE_SECONDS, q), LINE_SECONDS
+            return Line(self.arm, T, self._tool(phase), LINE_SECONDS, q), LINE_SECONDS
         q1 = READY_Q.copy()
-        if goal is not None:
-            q1, reach = self.arm.way_point(goal, q)
+        if phase.over:
+            q1, reach = self.arm.way_point(self._tool(phase), q)
             self.manipulability = min(self.manipulability, reach)
         v, a = self.speed * simulate.SPEED_LIMITS, self.speed * simulate.ACC_LIMITS
         seconds = float(self.fns.quintic_duration(q1 - q, v, a))

@@ -107,7 +107,29 @@ def _in_chunks(
 
 
 def _torques(links: Links, cos: Array, sin: Array, qd: Array, qdd: Array) -> Array:
-    """Return the torques, (n, count): velocities outwards, wrenches inwards."""
+    """Return the torques, (n, count): the links' wrenches added up from the tip."""
+    wrenches = _wrenches(links, cos, sin, qd, qdd)
+    tau = np.empty_like(qd)
+    f: Vector = [0.0] * 3
+    n: Vector = [0.0] * 3
+    for row in reversed(range(len(tau))):
+        link = links.links[row]
+        k, i, j = link.axes
+        own_n, own_f = wrenches[row]
+        n, f = plus(n, own_n), plus(f, own_f)
+        np.multiply(n[k], link.sign, out=tau[row])
+        for v in (n, f):
+            v[i], v[j] = turned(v[i], v[j], cos[row], sin[row])
+            if link.R is not None:
+                v[:] = combined(link.R, v)
+        n = plus(n, cross(link.t, f))
+    return tau
+
+
+def _wrenches(
+    links: Links, cos: Array, sin: Array, qd: Array, qdd: Array
+) -> list[tuple[Vector, Vector]]:
+    """Return what each link's motion takes: velocities added up from the base."""
     wrenches = []
     w: Vector = [0.0] * 3
     alpha: Vector = [0.0] * 3
@@ -126,21 +148,7 @@ def _torques(links: Links, cos: Array, sin: Array, qd: Array, qdd: Array) -> Arr
         w[k] = w[k] + qd[row]
         B = _point_accelerations(w, alpha)
         wrenches.append(_wrench(link, a, B))
-    tau = np.empty_like(qd)
-    f: Vector = [0.0] * 3
-    n: Vector = [0.0] * 3
-    for row in reversed(range(len(tau))):
-        link = links.links[row]
-        k, i, j = link.axes
-        own_n, own_f = wrenches[row]
-        n, f = plus(n, own_n), plus(f, own_f)
-        np.multiply(n[k], link.sign, out=tau[row])
-        for v in (n, f):
-            v[i], v[j] = turned(v[i], v[j], cos[row], sin[row])
-            if link.R is not None:
-                v[:] = combined(link.R, v)
-        n = plus(n, cross(link.t, f))
-    return tau
+    return wrenches
 
 
 def _point_accelerations(w: Vector, alpha: Vector) -> list[Vector]:

@@ -26,6 +26,7 @@ from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
 CHUNK = 1024  # configurations at once: what one core's cache holds
+SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
@@ -156,7 +157,11 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
     """
     J = _jacobian(J, "J", rows=None)
     dq = checks.array(dq, "dq", J.shape[-1:])
-    return dq - (np.linalg.pinv(J) @ (J @ dq[..., None]))[..., 0]
+    _, values, Vt = np.linalg.svd(J, full_matrices=False)
+    # J^+ J = V V^T over the directions that the hand feels; no division is needed.
+    felt = values > SINGULAR * values.max(axis=-1, keepdims=True, initial=0.0)
+    along = np.where(felt, (Vt @ dq[..., None])[..., 0], 0.0)
+    return dq - (along[..., None, :] @ Vt)[..., 0, :]
 
 
 def _jacobian(J: ArrayLike, name: str, rows: int | None = 6) -> Array:

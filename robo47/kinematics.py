@@ -7,18 +7,17 @@ The chain from the world to a frame is a product, one factor per link and per jo
 
     T_world_ee = T_world_link1 @ T(q1) @ T_link1_link2 @ T(q2) @ ... @ T_link7_ee
 
-which is how Day 1's lab writes it. A link's factor is fixed; a joint's factor is
+with every joint's own axis. A link's factor is fixed; a joint's factor is
 
     hinge   move to the anchor, turn by q - ref about the axis, move back
     slide   move by q - ref along the axis
     ball    move to the anchor, turn by the quaternion q, move back
     free    the pose (position, quaternion) in q, in place of the body's own offset
 
-(MuJoCo documentation, Computation chapter, "Kinematics"). For many configurations at
-once `robo47.batch` evaluates the same product column by column.
+(MuJoCo documentation, Computation chapter, "Kinematics").
 
-A frame is named "body:link4" or "site:attachment_site"; the bare name serves where
-only one object has it. Units: metres, radians, quaternions (w, x, y, z).
+A frame is named "body:link4"; the bare name serves where only one object has it.
+Units: metres, radians, quaternions (w, x, y, z).
 """
 
 from collections.abc import Iterator
@@ -33,12 +32,7 @@ from robo47 import se3
 from robo47.batch import Cursor, Plan, evaluate
 from robo47.checks import Array
 
-_TYPES = {
-    int(mujoco.mjtJoint.mjJNT_HINGE): "hinge",
-    int(mujoco.mjtJoint.mjJNT_SLIDE): "slide",
-    int(mujoco.mjtJoint.mjJNT_BALL): "ball",
-    int(mujoco.mjtJoint.mjJNT_FREE): "free",
-}
+_TYPES = ("free", "ball", "slide", "hinge")  # in the order of mujoco.mjtJoint
 
 
 @dataclass(frozen=True)
@@ -106,14 +100,11 @@ class Chain:
 
 
 def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
-    """Return the chain from the world to a frame, read from the model.
+    """Return the chain from the world to a frame, a copy of what the model says.
 
     Args:
         model: any compiled MJCF model.
         frame: "body:NAME", "site:NAME", or a name that only one of them has.
-
-    Returns:
-        The chain; it copies what it needs, so the model may be changed or freed.
 
     Raises:
         ValueError: no such frame, or a body and a site share the bare name.
@@ -134,9 +125,8 @@ def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
 def fk(chain: Chain, qpos: ArrayLike) -> Array:
     """Return the pose of the chain's frame: forward kinematics, by hand.
 
-    Reads as the lab does: `T = T_world_link1 @ T(q1) @ T_link1_link2 @ ...`, every
-    joint's own axis in place of z. One vectorised call, whatever the number of
-    configurations; memory beyond input and output does not grow with it.
+    Many configurations go through together (`robo47.batch`); memory beyond input and
+    output does not grow with them. One alone goes in plain floats (`robo47.single`).
 
     Args:
         chain: from `chain_to`.

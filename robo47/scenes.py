@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import checks, panda, se3
+from robo47.checks import Array
 
 TABLE_HEIGHT = 0.2  # m, of the table's top in `table_top`
 TABLE_CENTRE = (0.5, 0.0)  # m, of both tables, x in front of the robot's base
@@ -29,6 +30,7 @@ PAD_POS = (0.0, 0.0055, 0.0445)  # m, on each finger
 
 PRESS_HEIGHT = 0.4  # m, of the table's top in `press_table`
 TIP_RADIUS = 0.02  # m, of the ball whose centre is `attachment_site`
+PRESS_XY = (0.44, 0.0)  # m, a good place to press; how stiff the arm is depends on it
 TOUCH = PRESS_HEIGHT + TIP_RADIUS  # m, height of `attachment_site` at first touch
 
 
@@ -57,15 +59,9 @@ def table_top(
         ValueError: a wrong shape or number, or the cube is not on the table.
         Robo47Error: the robot's files are broken.
     """
-    xy = checks.array(cube_xy, "cube_xy", (2,))
+    xy = on_table(cube_xy, "cube_xy")
     checks.positive(mass, "mass")
     checks.not_negative(friction, "friction")
-    if np.any(np.abs(xy - TABLE_CENTRE) > np.array(TABLE_HALF) - CUBE_HALF):
-        low, high = (np.add(TABLE_CENTRE, k * np.array(TABLE_HALF)) for k in (-1, 1))
-        raise ValueError(
-            f"cube_xy {xy.tolist()} is not on the table, which reaches from"
-            f" {low.tolist()} to {high.tolist()}"
-        )
     pose = [*xy, TABLE_HEIGHT + CUBE_HALF, *se3.R_to_quat(se3.Rz(yaw))]
 
     def edit(spec: mujoco.MjSpec) -> None:
@@ -108,10 +104,32 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
         tip = spec.body("attachment").add_geom(
             name="tip", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[TIP_RADIUS, 0, 0]
         )
+        tip.contype = tip.conaffinity = 1
         tip.mass = 0.0  # what the arm weighs stays as it is
         _add_table(spec, PRESS_HEIGHT)
 
     return panda.load("panda_nohand", drive=drive, meshes=meshes, edit=edit)
+
+
+def on_table(xy: ArrayLike, name: str) -> Array:
+    """Return a place for the cube, (2,), after checking that the table is under it.
+
+    Args:
+        xy: metres, (2,).
+        name: what to call it in the error.
+
+    Raises:
+        ValueError: a wrong shape, or it is not on the table.
+    """
+    xy = checks.array(xy, name, (2,))
+    half = np.array(TABLE_HALF)
+    if np.any(np.abs(xy - TABLE_CENTRE) > half - CUBE_HALF):
+        low, high = (np.round(np.add(TABLE_CENTRE, k * half), 3) for k in (-1, 1))
+        raise ValueError(
+            f"{name} {xy.tolist()} is not on the table, which reaches from"
+            f" {low.tolist()} to {high.tolist()}"
+        )
+    return xy
 
 
 def contact_force(
@@ -147,6 +165,7 @@ def _box(body, name: str, half, pos, friction: float, condim: int = 4):
     geom = body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=half, pos=pos)
     geom.friction[0] = friction
     geom.condim = condim
+    geom.contype = geom.conaffinity = 1  # the twin's own default is 0
     return geom
 
 

@@ -195,12 +195,11 @@ def impedance_torque(
 
 
 def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> Array:
-    """Return how deep to command a soft hand so that it presses with a wanted force.
+    """Return how deep to command a soft hand so that it presses with a force.
 
     Args:
-        force: wanted push in newtons, (...).
-        k: stiffness in N/m, above 0, (...).
-        surface: height of the surface in metres, (...).
+        force, k: wanted push in N and stiffness in N/m, above 0, (...).
+        surface: its height in metres, (...).
 
     Returns:
         Height to command in metres, surface - force / k, (...).
@@ -214,8 +213,8 @@ def hybrid_wrench(
 ) -> Array:
     """Return a wrench that is a spring sideways and a wanted force downwards.
 
-    `spring_wrench`, with the z force replaced by -force + the damper's part (Modern
-    Robotics, section 11.6, for a flat, level surface).
+    `spring_wrench`, but its z force is -force + the damper's part (Modern Robotics,
+    section 11.6, for a level surface).
 
     Args:
         e, V_err, K, D: as in `spring_wrench`, with m = 6.

@@ -32,9 +32,9 @@ from bench.table import render  # noqa: E402
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
 PARTS = (
-    *("fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker"),
+    "fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker",
     "first-minute",
-)
+)  # fmt: skip
 VERSIONS = (
     "mujoco",
     "numpy",

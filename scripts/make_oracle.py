@@ -1,6 +1,6 @@
 """Ask Pinocchio for the Panda's poses and forces and keep its answers for the tests.
 
-    make oracle                      write the two files in tests/data/
+    make oracle                      write the files in tests/data/
     make oracle ARGS=--check         compute anew and compare with them
 
 pinocchio_panda.json holds poses of every frame; dynamics_oracle.json what crba and rnea

@@ -4,7 +4,7 @@ import hypothesis.extra.numpy as hnp
 import numpy as np
 import pytest
 from compare import assert_same
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
@@ -214,6 +214,7 @@ def test_a_dh_link_is_its_four_moves_one_after_the_other(rows):
 # --- any arm, any batch ---
 
 
+@settings(max_examples=50)
 @given(st.lists(any_screws(), min_size=1, max_size=5), poses(), st.data())
 def test_the_batched_pass_is_the_product_of_exponentials_for_any_screws(S, M, data):
     S = np.array(S)

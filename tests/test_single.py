@@ -1,0 +1,61 @@
+"""One configuration in plain floats: the same poses as in a batch, and MuJoCo's."""
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+
+from bench.bench_fk import tilted_panda
+from robo47 import kinematics, panda, verify
+
+EVERY_JOINT = """
+<mujoco><worldbody><body name="a" pos="0.1 0.2 0.3" quat="1 2 3 4">
+  <joint name="s" type="slide" axis="1 1 0" ref="0.2"/>
+  <joint name="h" axis="1 2 3" pos="0.3 0 0.1" ref="0.5"/>
+  <geom size="1"/><site name="tip" pos="0 0 1" quat="1 0 1 0"/>
+  {more}
+</body></worldbody></mujoco>"""
+BALL = '<body name="b" pos="1 0 0"><joint type="ball"/><geom size="1"/></body>'
+
+
+@pytest.mark.parametrize("entry", ["panda", "panda_nohand", "tilted"])
+def test_every_frame_of_one_configuration_is_mujocos_and_the_batchs(entry, twin):
+    model = tilted_panda() if entry == "tilted" else panda.load(entry)
+    q = verify.random_q(model, 30, seed=5)
+    truth, batch = verify.mujoco_poses(model, q), kinematics.fk_all(model, q)
+    for i, row in enumerate(q):
+        for frame, T in kinematics.fk_all(model, row).items():
+            assert_same(T, truth[frame][i], 1e-13)
+            assert_same(T, batch[frame][i], 1e-13)
+
+
+def test_slides_and_references_are_taken_into_account():
+    model = mujoco.MjModel.from_xml_string(EVERY_JOINT.format(more=""))
+    q = verify.random_q(model, 20, seed=5)
+    truth = verify.mujoco_poses(model, q)["site:tip"]
+    chain = kinematics.chain_to(model, "tip")
+    assert chain.plan.single is not None
+    for row, T in zip(q, truth, strict=True):
+        assert_same(kinematics.fk(chain, row), T, 1e-14)
+
+
+def test_a_robot_with_a_ball_joint_is_left_to_the_batch():
+    model = mujoco.MjModel.from_xml_string(EVERY_JOINT.format(more=BALL))
+    chain = kinematics.chain_to(model, "body:b")
+    assert chain.plan.single is None
+    q = np.array([0.3, 0.4, 1.0, 0.0, 0.0, 0.0])
+    assert_same(kinematics.fk(chain, q), kinematics.fk(chain, [q, q])[1], 0.0)
+
+
+def test_the_shape_is_the_callers_and_nothing_is_shared(twin):
+    chain = kinematics.chain_to(panda.load(), "attachment_site")
+    one = kinematics.fk(chain, panda.READY_Q)
+    assert_same(kinematics.fk(chain, panda.READY_Q[None, None]), one[None, None], 0.0)
+    kinematics.fk(chain, panda.READY_Q)[:] = 0.0
+    assert_same(kinematics.fk(chain, panda.READY_Q), one, 0.0)
+
+
+def test_a_number_that_is_not_finite_is_refused_for_one_as_for_many(twin):
+    chain = kinematics.chain_to(panda.load(), "attachment_site")
+    with pytest.raises(ValueError, match="configuration 0 holds NaN"):
+        kinematics.fk(chain, [0.0] * 6 + [np.inf])
