@@ -35,6 +35,7 @@ from robo47.lesson.day import Day
 from robo47.paths import shown
 
 PORTS_TRIED = 100
+WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
 T = TypeVar("T")
 WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
 
@@ -147,7 +148,7 @@ def dress(page: Inspector, show: Show) -> None:
         print(f"the arm stays without its meshes: {error}", flush=True)
         return
     put_on = page.on_loop(partial(page.dress, model))
-    coarse = shapes(model, COLLISION_GROUPS)
+    coarse = [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
     if coarse:
         put_on(Meshes(coarse, True))
     if not (coarse and show.simple):
