@@ -25,6 +25,7 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 .chips { display: flex; flex-wrap: wrap; gap: 8px; }
 .chip { background: var(--card); border: 1px solid var(--grid); border-radius: 99px;
   padding: 3px 12px; font-size: 14px; }
+.last { margin-top: 32px; }
 """
 )
 
@@ -50,7 +51,7 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
             _numbers(facts),
             _days(facts),
             _mistakes(facts),
-            '<p class="muted">Every run as a plot: <a href="report.html">report.html'
+            '<p class="muted last">Every run as a plot: <a href="report.html">report.html'
             "</a>. Hints and mistakes are on your machine alone.</p>",
             "</body></html>\n",
         ]

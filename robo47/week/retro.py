@@ -35,7 +35,10 @@ def fill(facts: Sequence[DayFacts]) -> list[Path]:
 
 def as_markdown(facts: Sequence[DayFacts]) -> str:
     """Return a week's numbers as a table and three lines."""
-    rows = ["| day | number | mine | worst on the way | limit |", "|---|---|---|---|---|"]
+    rows = [
+        "| day | number | mine | worst on the way | limit |",
+        "|---|---|---|---|---|",
+    ]
     for one in facts:
         for number in one.numbers:
             latest, worst = map(_cell, (number.latest, number.worst))
@@ -47,7 +50,9 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
             )
     met = [m for one in facts for m in one.met]
     left = sum(m.left_behind for m in met)
-    passed, tasks = (sum(getattr(f, name) for f in facts) for name in ("passed", "tasks"))
+    passed, tasks = (
+        sum(getattr(f, name) for f in facts) for name in ("passed", "tasks")
+    )
     own, of = (sum(getattr(f, name) for f in facts) for name in ("own", "functions"))
     return "\n".join(
         [
