@@ -57,8 +57,10 @@ def _absolute(week: Path, clone: Path) -> Iterator[str]:
     """Yield the lines that name a place which other machines do not have."""
     for script, tree in _trees(week / "work"):
         for node in ast.walk(tree):
-            text = node.value if isinstance(node, ast.Constant) else None
-            if isinstance(text, str) and _ABSOLUTE.match(text) and "\n" not in text:
+            if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+                continue
+            text = node.value
+            if _ABSOLUTE.match(text) and "\n" not in text:
                 yield _line(script, clone, node.lineno, text)
     for sheet in sorted((week / "docs").glob("*.md")):
         text = sheet.read_text("utf-8", errors="replace")

@@ -51,8 +51,9 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
             _numbers(facts),
             _days(facts),
             _mistakes(facts),
-            '<p class="muted last">Every run as a plot: <a href="report.html">report.html'
-            "</a>. Hints and mistakes are on your machine alone.</p>",
+            '<p class="muted last">Every run as a plot: '
+            '<a href="report.html">report.html</a>. '
+            "Hints and mistakes are on your machine alone.</p>",
             "</body></html>\n",
         ]
     )
@@ -91,8 +92,8 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
         for n, of, label in tiles
     )
     hints = sum(f.hints for f in facts)
-    cells += f'<div class="tile"><b>{hints:,}</b><span class="muted">hints asked</span></div>'
-    return f'<div class="tiles">{cells}</div>'
+    words = f'<b>{hints:,}</b><span class="muted">hints asked</span>'
+    return f'<div class="tiles">{cells}<div class="tile">{words}</div></div>'
 
 
 def _numbers(facts: Sequence[DayFacts]) -> str:
