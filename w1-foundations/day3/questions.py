@@ -22,6 +22,8 @@ from robo47.diagnose import (
     draw,
 )
 
+from .mistakes import errors, jacobians, loops, steps
+
 NEAR = 1e-5
 ROTVEC = ("x", "y", "z")
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
@@ -59,14 +61,21 @@ def _screws_and_q(rng):
     S, _, _ = arm()
     some = [draw.ZERO, draw.READY, *draw.configurations(rng, 4)]
     others = [(_other_arm(rng), q) for q in draw.configurations(rng, 2)]
-    return [*((S, q) for q in some), *others, *((S, q) for q in draw.configurations(rng, 3))]
+    return [
+        *((S, q) for q in some),
+        *others,
+        *((S, q) for q in draw.configurations(rng, 3)),
+    ]
 
 
 def _space_and_p(rng):
     spin = np.zeros((6, 7))
     spin[2] = 1.0
     drawn = draw.numbers(rng, -1, 1, 8, 6, 7)
-    return [(spin, np.array([1.0, 0.0, 0.0])), *zip(drawn, draw.numbers(rng, -1, 1, 8, 3), strict=True)]
+    return [
+        (spin, np.array([1.0, 0.0, 0.0])),
+        *zip(drawn, draw.numbers(rng, -1, 1, 8, 3), strict=True),
+    ]
 
 
 def _turns(rng):
@@ -165,7 +174,9 @@ def _unchanged(q_start: Array, q: Array) -> Finding | None:
     if np.abs(q - q_start).max() <= 1e-8:
         return None
     says = "The start is at its target already, and does not come back unchanged"
-    return Finding("start-not-kept", f"{says}: {np.abs(q - q_start).max():.2g} rad off.")
+    return Finding(
+        "start-not-kept", f"{says}: {np.abs(q - q_start).max():.2g} rad off."
+    )
 
 
 def _as_near_as_can_be(S, M, T_goal, q_start, limits, after) -> Finding | None:
@@ -178,41 +189,75 @@ def _as_near_as_can_be(S, M, T_goal, q_start, limits, after) -> Finding | None:
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Right below pi, but not at exactly pi. There R - R^T is 0, so it knows neither the "
-    "axis nor its sign: the docstring says which sign to return.",
+    "Right below pi, but not at exactly pi. There R - R^T is 0, so it knows neither "
+    "the axis nor its sign: the docstring says which sign to return.",
     _half_turns,
 )
 
 QUESTIONS = {
     "space_jacobian": Ask(
-        _screws_and_q, Jacobian(), truth=jacobian.space_jacobian, near=NEAR
+        _screws_and_q,
+        Jacobian(),
+        truth=jacobian.space_jacobian,
+        mistakes=jacobians.SPACE,
+        near=NEAR,
     ),
     "site_jacobian": Ask(
-        _space_and_p, Jacobian(), truth=jacobian.site_jacobian, near=NEAR
+        _space_and_p,
+        Jacobian(),
+        truth=jacobian.site_jacobian,
+        mistakes=jacobians.SITE,
+        near=NEAR,
     ),
     "log_rotation": Ask(
         _turns,
         Vector((3,), "rad", names=ROTVEC),
         truth=jacobian.log_rotation,
+        mistakes=errors.LOG,
+        unnamed=errors.where_the_angle_fails,
         held_out=[HALF_TURN],
         near=NEAR,
     ),
-    "pose_error": Ask(_two_poses, Gap(), truth=jacobian.pose_error, near=NEAR),
+    "pose_error": Ask(
+        _two_poses,
+        Gap(),
+        truth=jacobian.pose_error,
+        mistakes=errors.POSE_ERROR,
+        near=NEAR,
+    ),
     "dls_step": Ask(
         _steps,
         Vector((7,), "rad", names=JOINTS),
         truth=jacobian.dls_step,
+        mistakes=steps.DLS,
         near=NEAR,
     ),
-    "solve_ik": Ask(_targets, Vector((7,), "rad", names=JOINTS), accept=arrived),
+    "solve_ik": Ask(
+        _targets,
+        Vector((7,), "rad", names=JOINTS),
+        accept=arrived,
+        mistakes=lambda: loops.SOLVE_IK,
+    ),
     "manipulability": Ask(
-        _only_J, Scalar(), truth=jacobian.manipulability, tolerance=1e-6, near=NEAR
+        _only_J,
+        Scalar(),
+        truth=jacobian.manipulability,
+        mistakes=steps.MANIPULABILITY,
+        tolerance=1e-6,
+        near=NEAR,
     ),
     "null_step": Ask(
         _J_and_dq,
         Vector((7,), "rad", names=JOINTS),
         truth=jacobian.null_step,
+        mistakes=steps.NULL,
         near=NEAR,
     ),
-    "body_jacobian": Ask(_J_and_T, Jacobian(), truth=jacobian.body_jacobian, near=NEAR),
+    "body_jacobian": Ask(
+        _J_and_T,
+        Jacobian(),
+        truth=jacobian.body_jacobian,
+        mistakes=jacobians.BODY,
+        near=NEAR,
+    ),
 }
