@@ -1,8 +1,7 @@
-"""Day 2's named mistakes, each made again on purpose, the more general first.
+"""Day 3's named mistakes, each made again on purpose, the more general first.
 
-moves     the formulas without checks, with parts that can be replaced by mistakes
-turns     skew and exp_rotation         lines     screw_axis and joint_screws
-motions   exp_screw                     frames    adjoint and body_screws
-products  fk_space and fk_body          links, tables  dh_link and dh_fk
-places    which single joint or row of a table is wrong
+jacobians  space_jacobian           points  site_jacobian and body_jacobian
+errors     log_rotation, pose_error
+steps      dls_step, manipulability and null_step
+loops      solve_ik, with right and wrong parts
 """

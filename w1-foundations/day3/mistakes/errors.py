@@ -119,7 +119,8 @@ def where_the_angle_fails(case: Case) -> Finding | None:
         )
         return Finding(
             "wrong-near-pi",
-            f"{says} by {np.abs(case.S[i] - case.T[i]).max():.2g}. The sine is nearly 0 "
+            f"{says} by {np.abs(case.S[i] - case.T[i]).max():.2g}. The sine is nearly "
+            f"0 "
             "there, and cannot be divided by.",
         )
     return Finding("wrong-near-0", "It is right, but not for angles near 0.")
@@ -167,15 +168,15 @@ POSE_ERROR = [
     ),
     Mistake(
         "rotation-in-the-hands-axes",
-        "the rotation is in the hand's axes: this is log(R^T R_goal), which does not go "
-        "with J_site",
+        "the rotation is in the hand's axes: this is log(R^T R_goal), which does not "
+        "go with J_site",
         _rotation(lambda R, goal: _log(transposed(R) @ goal)),
         "the error with log(R^T R_goal)",
     ),
     Mistake(
         "rotation-sign",
-        "the rotation leads from the goal to the hand, the translation from the hand to "
-        "the goal",
+        "the rotation leads from the goal to the hand, the translation from the hand "
+        "to the goal",
         _rotation(lambda R, goal: _log(R @ transposed(goal))),
         "the error with log(R R_goal^T)",
     ),
@@ -200,8 +201,8 @@ POSE_ERROR = [
     ),
     Mistake(
         "translation-in-the-hands-axes",
-        "the translation is in the hand's axes (the last column of T^-1 T_goal); here it "
-        "is in the world's",
+        "the translation is in the hand's axes (the last column of T^-1 T_goal); here "
+        "it is in the world's",
         _translation(lambda T, T_goal, d: times(transposed(T[:, :3, :3]), d)),
         "the error with R^T (p_goal - p)",
     ),

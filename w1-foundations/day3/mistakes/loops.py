@@ -145,13 +145,15 @@ PARTS: dict[str, dict[str, Any]] = {
 SOLVE_IK = [
     Mistake(
         "space-jacobian",
-        "the steps are made with J_space: its v is that of another point than the hand's",
+        "the steps are made with J_space: its v is that of another point than the "
+        "hand's",
         _with(**PARTS["space-jacobian"]),
         "what J_space leads to",
     ),
     Mistake(
         "body-jacobian",
-        "the steps are made with J_body, in the hand's axes; the error is in the world's",
+        "the steps are made with J_body, in the hand's axes; the error is in the "
+        "world's",
         _with(**PARTS["body-jacobian"]),
         "what J_body leads to",
     ),
@@ -160,12 +162,6 @@ SOLVE_IK = [
         "the error is in the hand's axes; J_site is in the world's",
         _with(gap=in_the_hands_axes),
         "what that error leads to",
-    ),
-    Mistake(
-        "error-sign",
-        "the steps lead away from the target: the error's sign is wrong",
-        _with(**PARTS["error-sign"]),
-        "what that sign leads to",
     ),
     Mistake(
         "damping-not-squared",
@@ -200,7 +196,8 @@ SOLVE_IK = [
     ),
     Mistake(
         "start-returned",
-        "the start comes back, whatever the target is",
+        "the start comes back: no step is taken, or each one leads away from the target "
+        "(then the sign of the error is wrong)",
         lambda S, M, goal, q, limits: q,
         "q_start",
     ),

@@ -37,8 +37,8 @@ DLS = [
     ),
     Mistake(
         "damping-dropped",
-        "there is no damping in it: this is the plain pseudo-inverse, which is huge near "
-        "a singularity",
+        "there is no damping in it: this is the plain pseudo-inverse, which is huge "
+        "near a singularity",
         lambda J, e, damping: times(np.linalg.pinv(J), e),
         "the step of the pseudo-inverse",
     ),
@@ -114,7 +114,8 @@ MANIPULABILITY = [
     ),
     Mistake(
         "smallest-singular-value",
-        "this is the smallest singular value alone; the product of all six is asked for",
+        "this is the smallest singular value alone; the product of all six is asked "
+        "for",
         lambda J: _values(J)[:, -1],
         "the smallest singular value",
     ),
@@ -162,7 +163,8 @@ def _damped_projector(J: Array, dq: Array, damping: float) -> Array:
 NULL = [
     Mistake(
         "transpose-for-pseudo-inverse",
-        "J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels it",
+        "J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels "
+        "it",
         lambda J, dq: dq - times(transposed(J), times(J, dq)),
         "dq - J^T J dq",
     ),
@@ -186,7 +188,8 @@ NULL = [
     ),
     Mistake(
         "nothing-left",
-        "nothing is left: seven joints always have a motion that the hand does not feel",
+        "nothing is left: seven joints always have a motion that the hand does not "
+        "feel",
         lambda J, dq: np.zeros_like(dq),
         "zeros",
     ),

@@ -7,10 +7,6 @@ from robo47.screws import adjoint, exp_screw, fk_space, skew
 
 
 def space_jacobian(screws: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return J_space, (6, 7): where each screw, (7, 6), is after those before it moved.
-
-    At q = 0 nothing has moved: its columns are the screws themselves.
-    """
     before = [np.eye(4)]
     for motion in exp_screw(screws, q)[:-1]:
         before.append(before[-1] @ motion)
@@ -18,20 +14,11 @@ def space_jacobian(screws: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def site_jacobian(J_space: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Return J_site, (6, 7): v is the velocity of the hand's point p, (3,), world axes.
-
-    Of a spin about z, (0, 0, 1, 0, 0, 0), the point (1, 0, 0) has v = (0, 1, 0).
-    """
     omega, v = J_space[:3], J_space[3:]
     return np.vstack([omega, v - skew(p) @ omega])  # omega x p = -[p] omega
 
 
 def log_rotation(R: np.ndarray) -> np.ndarray:
-    """Return a rotation's axis times its angle, (3,), exact from 0 to pi.
-
-    90 degrees about z is (0, 0, pi / 2). At exactly pi both signs mean the same: return
-    the one whose largest entry is positive.
-    """
     a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
     sine, cosine = np.linalg.norm(a), (np.trace(R) - 1) / 2
     angle = np.arctan2(sine, cosine)
@@ -44,19 +31,11 @@ def log_rotation(R: np.ndarray) -> np.ndarray:
 
 
 def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
-    """Return how far the goal is, (6,): a rotation above a translation, world axes.
-
-    A goal 0.1 m higher is (0, 0, 0, 0, 0, 0.1).
-    """
     R_error = T_goal[:3, :3] @ T[:3, :3].T
     return np.concatenate([log_rotation(R_error), T_goal[:3, 3] - T[:3, 3]])
 
 
 def dls_step(J: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
-    """Return J^T (J J^T + damping^2 I)^-1 e, (7,): the damped step.
-
-    With J = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
-    """
     return J.T @ np.linalg.solve(J @ J.T + damping**2 * np.eye(6), e)
 
 
@@ -67,12 +46,7 @@ def solve_ik(
     q_start: np.ndarray,
     limits: np.ndarray,
 ) -> np.ndarray:
-    """Return joint angles, (7,), within limits, (7, 2), that bring the hand to T_goal.
-
-    At most 60 steps from q_start; a start whose error is under 1e-8 comes back
-    unchanged. A target out of reach: the nearest that the steps got, by length of error.
-    """
-    q, best, least = q_start, q_start, np.inf
+    q, best, least = q_start.copy(), q_start, np.inf
     for _ in range(61):
         T = fk_space(screws, M, q)
         e = pose_error(T, T_goal)
@@ -86,24 +60,12 @@ def solve_ik(
 
 
 def manipulability(J: np.ndarray) -> float:
-    """Return sqrt(det(J J^T)): how far J is from singular, where it is 0 (never NaN).
-
-    With 1, 2, 3, 1, 1, 1 on the diagonal of J it is 6.
-    """
     return np.sqrt(max(np.linalg.det(J @ J.T), 0.0))
 
 
 def null_step(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
-    """Return the part of dq, (7,), that the hand does not feel: dq - J^+ J dq.
-
-    With J = [I 0] and dq all 1 only the seventh joint moves.
-    """
     return dq - np.linalg.pinv(J) @ (J @ dq)
 
 
 def body_jacobian(J_space: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """Return J_body, (6, 7): the same motion as the hand itself, at pose T, sees it.
-
-    A hand that has not turned, at the origin, sees J_space.
-    """
     return adjoint(se3.inverse(T)) @ J_space
