@@ -136,14 +136,46 @@ def _J_and_T(rng):
 def _targets(rng):
     """Return a solved start, near targets, four out of reach, and near ones again."""
     S, M, limits = arm()
-    middle = limits.mean(axis=1)
-    start = draw.rounded(middle + 0.7 * (draw.configurations(rng, 17) - middle))
-    near = np.clip(start + draw.numbers(rng, -0.3, 0.3, 17, 7), *limits.T)
-    goal = screws.fk_space(S, M, near)
+    start, goal = _near_targets(rng, 30, 0.7)
+    some = np.flatnonzero(_reached(goal, start, limits))[:17]
+    start, goal = start[some], goal[some]
     goal[0], start[0] = screws.fk_space(S, M, draw.READY), draw.READY
+    start[1:3], goal[1:3] = _by_the_limits(rng)
     out = goal[9:13, :3, 3]
     out *= 2.0 / np.linalg.norm(out, axis=1)[:, None]
     return [(S, M, T, q, limits) for T, q in zip(goal, start, strict=True)]
+
+
+def _near_targets(rng, n: int, part: float) -> tuple[Array, Array]:
+    """Return starts in a part of the joints' ranges, and targets near them."""
+    S, M, limits = arm()
+    middle = limits.mean(axis=1)
+    start = draw.rounded(middle + part * (draw.configurations(rng, n) - middle))
+    near = np.clip(start + draw.numbers(rng, -0.3, 0.3, n, 7), *limits.T)
+    return start, screws.fk_space(S, M, near)
+
+
+def _by_the_limits(rng) -> tuple[Array, Array]:
+    """Return two starts and targets that lead far beyond a limit, if none is kept."""
+    _, _, limits = arm()
+    start, goal = _near_targets(rng, 30, 0.99)
+    q = loops.walk(*_stacked(goal, start, limits), clip=False)
+    beyond = np.maximum(limits[:, 0] - q, q - limits[:, 1]).max(axis=1)
+    some = np.argsort(-beyond)[:2]
+    return start[some], goal[some]
+
+
+def _stacked(goal: Array, start: Array, limits: Array) -> tuple[Array, ...]:
+    S, M, _ = arm()
+    S, M, limits = (np.broadcast_to(x, (len(goal), *x.shape)) for x in (S, M, limits))
+    return S, M, goal, start, limits
+
+
+def _reached(goal: Array, start: Array, limits: Array) -> np.ndarray:
+    """Return whether the right loop has steps to spare for a target, (n,)."""
+    S, M, _ = arm()
+    q = loops.walk(*_stacked(goal, start, limits), steps=25)
+    return jacobian.reached(S, M, goal, q)
 
 
 def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
@@ -160,7 +192,9 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return _unchanged(q_start, q)
     if np.linalg.norm(T_goal[:3, 3]) > 1.5:  # the arm is 1.2 m long
         return _as_near_as_can_be(S, M, T_goal, q_start, limits, after)
-    if after > 1e-8:
+    if after >= before:
+        return Finding("no-nearer", "It ends no nearer to its target than it started.")
+    if after > 1e-8 and _reached(T_goal[None], q_start[None], limits)[0]:
         says = f"The hand is not at its target, which is near: {after:.2g} off"
         return Finding("not-reached", f"{says} (radians and metres).")
     return None

@@ -104,7 +104,7 @@ def solve_ik(
     """Return joint angles, (7,), within limits, (7, 2), that bring the hand to T_goal.
 
     At most 60 steps from q_start, with damping^2 = e.e / 2 + 1e-6. A start whose error
-    is under 1e-8 comes back unchanged; for a target out of reach, what had the shortest.
+    is under 1e-8 comes back unchanged; out of reach, return what had the shortest.
     """
     # region 3.6
     q, best, least = q_start.copy(), q_start, np.inf

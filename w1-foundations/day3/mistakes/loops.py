@@ -196,8 +196,8 @@ SOLVE_IK = [
     ),
     Mistake(
         "start-returned",
-        "the start comes back: no step is taken, or each one leads away from the target "
-        "(then the sign of the error is wrong)",
+        "the start comes back: no step is taken, or each one leads away from the "
+        "target (then the sign of the error is wrong)",
         lambda S, M, goal, q, limits: q,
         "q_start",
     ),
