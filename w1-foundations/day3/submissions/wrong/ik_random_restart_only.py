@@ -1,4 +1,4 @@
-# task 3.6: far-from-unreachable
+# task 3.6: no-nearer
 # For what it cannot reach, the middle of the limits comes back.
 import numpy as np
 

@@ -1,4 +1,4 @@
-# task 3.6: beyond-a-limit
+# task 3.6: limits-forgotten
 # Angles are wrapped to +-pi in place of clipped.
 import numpy as np
 
