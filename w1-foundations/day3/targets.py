@@ -1,4 +1,4 @@
-"""What `solve_ik` is asked, and how its answers are judged: where do they bring the hand?
+"""What `solve_ik` is asked, and how its answers are judged: by where the hand is.
 
 Near targets have to be reached, to 1e-8; of those out of reach, and of those that only
 lead through a joint limit, an answer has to come near. Nothing may leave the limits.
