@@ -183,9 +183,14 @@ def on_the_circle(radius: float, time: float) -> np.ndarray:
     return T
 
 
+def first_q(arm: tuple, radius: float, limits: np.ndarray) -> np.ndarray:
+    """Return where the circle starts; the library's, so that all draw the same one."""
+    return jacobian.solve_ik(*arm, on_the_circle(radius, 0.0), START_Q, limits)
+
+
 def draw_circle(arm: tuple, q: np.ndarray, radius: float, damping: float) -> tuple:
-    """Return how far off the hand is, mm, (n,), and joint speeds, rad/s, (n, 7)."""
-    off, speeds = [], []
+    """Return how far off the hand is, mm, (n,), and joint speeds and angles, (n, 7)."""
+    off, speeds, angles = [], [], []
     T_now = on_the_circle(radius, 0.0)
     for time in np.arange(DT, LAP, DT):
         T, T_next = fk_space(*arm, q), on_the_circle(radius, time)
@@ -195,8 +200,9 @@ def draw_circle(arm: tuple, q: np.ndarray, radius: float, damping: float) -> tup
         q_dot = dls_step(J, twist, damping)
         off.append(1000 * np.linalg.norm(T_now[:3, 3] - T[:3, 3]))
         speeds.append(np.abs(q_dot))
+        angles.append(q)
         q, T_now = q + DT * q_dot, T_next
-    return np.array(off), np.array(speeds)
+    return np.array(off), np.array(speeds), np.array(angles)
 
 
 def main() -> int:
@@ -292,18 +298,17 @@ def main() -> int:
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
                n_trials=FAR, n_failures=int(np.sum(at == 0)))  # fmt: skip
 
-    lab.step("5. A circle through a singularity")
-    print("  radius  damping   hand off by    fastest joint   of its limit")
-    for radius, damping in ((EASY, 0.0), (RADIUS, 0.0), (RADIUS, DAMPING)):
-        # The library's start, so that every solve_ik is followed by the same circle.
-        q_first = jacobian.solve_ik(*arm, on_the_circle(radius, 0.0), START_Q, limits)
-        off, speeds = draw_circle(arm, q_first, radius, damping)
-        rate = speeds / SPEED
-        print(f"  {radius:4.2f} m {damping:7.2f} {off.max():10.2f} mm "
-              f"{speeds.max():10.2f} rad/s {rate.max():10.2f} x")  # fmt: skip
-    lab.record("circle_dls", off, metric="max_err_mm", label="damped: mm off")
-    lab.record("circle_dls", rate.max(axis=1), metric="rate_over_limit",
-               label="damped: the fastest joint, of its limit")  # fmt: skip
+    lab.step(f"5. A circle of {RADIUS} m, through a singularity, with damping")
+    off, speeds, _ = draw_circle(arm, first_q(arm, RADIUS, limits), RADIUS, DAMPING)
+    lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
+    lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
+               label="fastest joint, in parts of its limit")  # fmt: skip
+
+    lab.step("6. Without damping: other digits or another DT, other numbers")
+    for radius in (EASY, RADIUS):
+        off, speeds, _ = draw_circle(arm, first_q(arm, radius, limits), radius, 0.0)
+        print(f"  {radius:.2f} m: {off.max():8.2f} mm off, {speeds.max():8.2f} rad/s, "
+              f"{(speeds / SPEED).max():.2f} of the limit")  # fmt: skip
     return lab.finish()
 
 
