@@ -1,0 +1,3 @@
+AD = []
+ENERGY = []
+FORWARD_DYNAMICS = []
