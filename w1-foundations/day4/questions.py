@@ -14,10 +14,13 @@ from robo47.diagnose import Ask, Matrix, Symmetric, Vector, draw
 from robo47.diagnose.kinds import Kind
 from robo47.diagnose.mistake import each
 
+from .mistakes.bodies import SPATIAL_INERTIA
+from .mistakes.brackets import AD
 from .mistakes.forces import BIAS_TORQUE, INVERSE_DYNAMICS
 from .mistakes.gravity import GRAVITY_TORQUE
-from .mistakes.masses import LINK_INERTIAS, MASS_MATRIX, SPATIAL_INERTIA
-from .mistakes.small import AD, ENERGY, FORWARD_DYNAMICS
+from .mistakes.links import LINK_INERTIAS
+from .mistakes.mass import MASS_MATRIX
+from .mistakes.small import ENERGY, FORWARD_DYNAMICS
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
@@ -164,5 +167,5 @@ QUESTIONS = {
         Vector((2,), "J", names=("the kinetic", "the potential")),
         each(dynamics.energy),
         ENERGY,
-    ),  # fmt: skip
+    ),
 }
