@@ -60,12 +60,12 @@ OTHER_GRAVITY: list[tuple[str, str, Callable[[Array], Array]]] = [
         constant(9.81),
     ),
     (
-        "gravity-is-9.8",
+        "gravity-rounded",
         "9.8 is typed in for 9.81, and g is not looked at",
         constant(-9.8),
     ),
     (
-        "gravity-is-9.80665",
+        "gravity-rounded",
         "9.80665 is typed in, and g is not looked at",
         constant(-9.80665),
     ),

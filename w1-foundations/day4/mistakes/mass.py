@@ -104,6 +104,12 @@ MASS_MATRIX: list[Mistake] = [
                 cut(lambda joint, link: joint == link),
             ),
             (
+                "J-overwritten",
+                "only the first joint counts: the columns are set to 0 in J itself, and "
+                "are gone for the next link. Work on a copy",
+                cut(lambda joint, link: joint == 0),
+            ),
+            (
                 "last-link-only",
                 "only the last link has a mass here",
                 cut(lambda joint, link: link == 6),
