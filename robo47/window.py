@@ -60,17 +60,12 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
     key, is another one.
 
     Args:
-        model: the Panda; one without actuators is made weightless, since nothing would
-            hold it up.
+        model: the Panda, any entry, with its servos.
     """
     data, joints = mujoco.MjData(model), len(panda.READY_Q)
-    if model.nkey:  # opens the fingers, where there are any
-        mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)  # opens the fingers
     data.qpos[:joints] = panda.READY_Q
-    if model.nu == 0:
-        model.opt.gravity[:] = 0.0
-    else:  # with qpos alone the arm would sag at once
-        data.ctrl[:joints] = panda.READY_Q
+    data.ctrl[:joints] = panda.READY_Q  # with qpos alone the arm would sag at once
     mujoco.mj_forward(model, data)
     return data
 

@@ -49,6 +49,7 @@ if importlib.util.find_spec("robo47") is None:  # Colab, or a kernel without the
 from robo47.paths import ROOT
 
 sys.path.insert(0, str(ROOT / "WEEK" / "src"))
+__file__ = str(ROOT / "WEEK" / "src" / "SCRIPT.py")  # as in a script
 sys.argv = ["SCRIPT"]  # add "--no-log" to leave metrics/metrics.csv alone
 """
 

@@ -1,9 +1,9 @@
 """See the Panda, its frames, and that your kinematics agree with MuJoCo.
 
-    make view                                  what suits this machine
-    make view ARGS=--screenshot                a picture, without a window
-    python3 scripts/view_panda.py --web        the SE(3) inspector, in a browser
-    python3 scripts/view_panda.py --native     MuJoCo's own window
+    make view                                 what suits this machine
+    make view ARGS=--screenshot               a picture, without a window
+    python3 scripts/view_panda.py --web       the SE(3) inspector, in a browser
+    python3 scripts/view_panda.py --native    MuJoCo's own window
 
 In the inspector: drag a joint and watch T_world_ee change twice, from MuJoCo
 and by hand; step through the chain link by link; put T_extra on the left or on

@@ -1,0 +1,116 @@
+"""Running a lab, one's own or the kit's, and a week; the kit's is known as such."""
+
+import pytest
+
+from robo47 import originals
+from robo47.errors import Robo47Error
+from robo47.lesson.day import find_day
+
+RUN, WEEK, START = "scripts/run_day.py", "scripts/run_week.py", "scripts/start_day.py"
+
+
+@pytest.fixture
+def day(clone):
+    return find_day(1, clone)
+
+
+def test_ones_own_lab_runs_and_not_a_module_beside_it(run_in, day):
+    day.work.parent.mkdir()
+    day.work.write_text("import sys\nprint('the lab', sys.argv[1:])\n")
+    day.work.with_name("day1_helpers.py").write_text("print('a helper')\n")
+    done = run_in(RUN, "1", "--no-log")
+    assert (done.returncode, done.stdout) == (0, "the lab ['--no-log']\n")
+
+
+def test_a_lab_that_is_not_begun_is_told_with_the_command(run_in, day):
+    done = run_in(RUN)
+    assert done.returncode == 2
+    assert done.stderr.endswith("is not there; first: make start DAY=1\n")
+    assert "there is no day 46 yet" in run_in(RUN, "46").stderr
+
+
+def test_the_exit_code_is_the_labs(run_in, day):
+    day.work.parent.mkdir()
+    day.work.write_text("raise SystemExit(1)\n")
+    assert run_in(RUN, "1").returncode == 1
+
+
+OTHERS = ["", "print('the handout')\n", "\xff", None]
+
+
+@pytest.mark.parametrize("text", OTHERS)
+def test_a_script_that_is_not_the_kits_is_refused_in_a_line(run_in, day, text):
+    if text is None:
+        day.source.unlink()
+    else:
+        day.source.write_text(text, "latin-1")
+    assert not originals.is_kits(day)
+    for command in ((RUN, "1", "--kit"), (START, "1"), (START, "--reset", "1.1")):
+        done = run_in(*command)
+        assert done.returncode == 2
+        assert "is not the kit's" in done.stderr
+        assert "git checkout -- w1-foundations/src/day1_transforms.py" in done.stderr
+        assert done.stderr.count("\n") == 1
+    assert not day.work.exists()
+
+
+def test_the_kits_own_is_the_kits(day):
+    originals.require_kits(day)
+    text = day.source.read_text("utf-8").replace("# region 1.8", "#", 1)
+    day.source.write_text(text, "utf-8")
+    with pytest.raises(Robo47Error, match="the marks of its tasks are gone"):
+        originals.require_kits(day)
+
+
+def test_the_week_is_one_table_of_numbers_and_limits(run_in, day):
+    log = day.folder.parent / "metrics" / "metrics.csv"
+    before = log.read_bytes()
+    done = run_in(WEEK, "1")
+    assert done.returncode == 0, done.stderr
+    head, *lines = done.stdout.splitlines()
+    assert head.split() == ["day", "whose", "check", "number", "limit"]
+    assert len(lines) == len(day.metrics)
+    assert all("kit's" in line and line.endswith("PASS") for line in lines)
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    assert log.read_bytes() == before, "a look at the week is no record"
+
+
+def test_the_week_shows_that_ones_own_lab_fails(run_in, day):
+    assert run_in(START, "1").returncode == 0
+    done = run_in(WEEK, "1")
+    assert done.returncode == 1
+    assert done.stdout.count("yours") == done.stdout.count("none") == len(day.metrics)
+    assert "make run DAY=1" in done.stdout
+
+
+def test_a_week_that_is_not_there_is_told(run_in):
+    done = run_in(WEEK, "7")
+    assert done.returncode == 2
+    assert "there is no week 7 yet" in done.stderr
+
+
+def test_starting_brings_the_file_that_lets_any_python_run_the_lab(run_in, day):
+    assert run_in(START, "1").returncode == 0
+    assert day.work.with_name("kit.py").read_bytes() == (
+        day.source.with_name("kit.py").read_bytes()
+    )
+    again = run_in(START, "1")
+    assert "stays as it is" in again.stdout
+    assert "move that file away" in again.stdout
+
+
+def test_a_reset_keeps_the_files_line_ends(run_in, day):
+    assert run_in(START, "1").returncode == 0
+    mine = day.work.read_text("utf-8").replace("\n", "\r\n")
+    day.work.write_text(mine, "utf-8", newline="")
+    assert run_in(START, "--reset", "1.2").returncode == 0
+    text = day.work.read_bytes()
+    assert text.count(b"\r\n") == text.count(b"\n") > 0
+
+
+def test_a_reset_of_an_empty_file_says_how_to_begin_anew(run_in, day):
+    day.work.parent.mkdir()
+    day.work.write_text("\n")
+    done = run_in(START, "--reset", "1.1")
+    assert done.returncode == 2
+    assert "is empty. Delete it, then: make start DAY=1" in done.stderr
