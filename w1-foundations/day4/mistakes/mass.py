@@ -105,8 +105,8 @@ MASS_MATRIX: list[Mistake] = [
             ),
             (
                 "J-overwritten",
-                "only the first joint counts: the columns are set to 0 in J itself, and "
-                "are gone for the next link. Work on a copy",
+                "only the first joint counts: the columns are set to 0 in J itself, "
+                "and are gone for the next link. Work on a copy",
                 cut(lambda joint, link: joint == 0),
             ),
             (
