@@ -345,7 +345,7 @@ def main() -> int:
     lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
         gain = swing(name, ms / 1000)
-        print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.1e} J")
+        print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")
     return lab.finish()
 
 

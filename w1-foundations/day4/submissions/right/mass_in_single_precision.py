@@ -1,4 +1,4 @@
-# task 4.3: passed
+# task 4.3: float32
 # M in 32-bit floats.
 import numpy as np
 
