@@ -188,7 +188,7 @@ def departure(arm, model, torque):
         return torque(now.M, wanted) + now.bias(qd) + arm.damping * qd
 
     data = simulate.start(model, panda.READY_Q - start)
-    run = simulate.run(model, data, controller, 0.6)
+    run = simulate.run(model, data, controller, 0.6, rate=500.0)
     predicted = (1 + omega * run.t) * np.exp(-omega * run.t)
     return np.abs((panda.READY_Q - run.q) / start - predicted[:, None]).max()
 
