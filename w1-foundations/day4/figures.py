@@ -40,10 +40,11 @@ def torques() -> Image.Image:
         rows = figure.subplots(len(POSES), 1, sharex=True, sharey=True)
         for axes, (name, q) in zip(rows, POSES.items(), strict=True):
             _bars(axes, name, q)
-        rows[0].legend(
-            loc="lower left", bbox_to_anchor=(0.0, 1.14), ncols=3, frameon=False
+        bars, words = rows[0].get_legend_handles_labels()
+        figure.legend(
+            bars, words, loc="outside upper left", ncols=3, frameon=False, fontsize=15
         )
-        rows[1].set_ylabel("share of what the motor can give, %")
+        rows[1].set_ylabel("share of the motor's limit, %")
     return _to_image(figure)
 
 
@@ -52,7 +53,7 @@ def float_and_push() -> Image.Image:
     model = panda.load("panda_nohand", drive="torque")
     arm, calm = panda.arm(model), 0 * PUSH
     runs = {
-        "let go": (RED, (0.0, (0.5, calm))),
+        "let go (a joint limit stops it)": (RED, (0.0, (0.5, calm))),
         "99 % of gravity_torque": ("#e8590c", (0.99, (2.0, calm))),
         "all of it, pushed for 0.5 s": (BLUE, (1.0, (0.5, PUSH), (4.5, calm))),
         "all of it": (GREEN, (1.0, (5.0, calm))),
@@ -64,14 +65,20 @@ def float_and_push() -> Image.Image:
             path = let_go(model, arm, *given)
             away = np.linalg.norm(path - path[0], axis=1)[1:]
             t = np.linspace(0.0, sum(s for s, _ in given[1:]), len(path))[1:]
-            axes.semilogy(t, np.maximum(away, 1e-17), color=colour, lw=3, label=name)
+            axes.semilogy(t, np.maximum(away, 1e-17), color=colour, lw=3)
+            x, up = (2.05, 0.3) if "%" in name else (t[-1], 2.5)
+            side = "left" if t[-1] < 5 else "right"
+            axes.text(x, up * away[-1], name, color=colour, ha=side, va="bottom")
         axes.axhline(1e-6, color=INK, ls="--", lw=2)
         axes.text(4.98, 1.4e-6, "limit of float_5s", ha="right", color=INK)
         axes.axhline(1e-10, color=RULE, lw=2, zorder=0)
         axes.text(4.98, 1.4e-10, "size of an atom", ha="right", color=INK)
-        axes.set(xlabel="seconds", ylabel="the hand's distance from its start, m")
+        axes.set(
+            xlabel="seconds",
+            ylabel="the hand's distance from its start, m",
+            ylim=(3e-18, 30),
+        )
         axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(frameon=False, loc="center right", bbox_to_anchor=(1.0, 0.72))
     return _to_image(figure)
 
 
@@ -86,8 +93,8 @@ def _parts(q: Array) -> dict[str, tuple[str, Array]]:
     M = mass_matrix(now.J_space, G, arm.armature)
     return {
         "gravity": (BLUE, g),
-        f"Coriolis and centrifugal, all joints at {SPEED} rad/s": (RED, c),
-        f"inertia, all at {ACCELERATION:g} rad/s²": (
+        f"Coriolis, every joint at {SPEED} rad/s": (RED, c),
+        f"inertia, every joint at {ACCELERATION:g} rad/s²": (
             GREEN,
             M @ np.full(7, ACCELERATION),
         ),
@@ -102,16 +109,16 @@ def _bars(axes: Axes, name: str, q: Array) -> None:
         axes.bar(x, share, 0.25, color=colour, label=label)
         for x_bar, y, value in zip(x, share, tau, strict=True):
             if abs(y) >= 3:
-                up = y > 0
-                axes.text(x_bar, y + (1.5 if up else -1.5), f"{value:.1f}", ha="center",
-                          va="bottom" if up else "top", fontsize=12, color=INK)  # fmt: skip
+                up, va = (1.5, "bottom") if y > 0 else (-1.5, "top")
+                text = f"{value:.1f}"
+                axes.text(x_bar, y + up, text, ha="center", va=va, fontsize=11)
     axes.axhline(0, color=INK, lw=1)
     for sign in (-100, 100):
         axes.axhline(sign, color=INK, lw=2, ls="--")
     axes.set_title(name, loc="left", fontsize=18, color=INK)
     axes.set(ylim=(-112, 112), yticks=[-100, -50, 0, 50, 100], xlim=(0.5, 7.5))
     words = [f"joint{i}\n±{limit:.0f} N m" for i, limit in enumerate(limits, 1)]
-    axes.set_xticks(joints, words)
+    axes.set_xticks(joints, words, fontsize=14)
     axes.spines[["top", "right", "bottom"]].set_visible(False)
     axes.tick_params(length=0)
 
