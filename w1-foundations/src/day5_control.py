@@ -280,20 +280,19 @@ def sag(lab: Lab, model, arm) -> None:
 
 def decay(lab: Lab, model, arm) -> None:
     """Predict the whole curve of an error; then let it decay, in seven joints."""
-    apart = []
+    apart, k = [], round(0.3 * RATE)
     for zeta in (0.5, 1.0, 2.0):
         law = equal_springs(10.0, zeta)
         log = run(model, arm, law, hold(READY_Q), 1.0, READY_Q - E0)
         e = (READY_Q - log.q) / E0
         predicted = error_response(log.t, 10.0, zeta)
         apart.append(np.abs(e - predicted[:, None]).max())
-        say(f"zeta {zeta:g}: after 0.3 s", predicted[75], e[75].mean(), "of e0")
+        say(f"zeta {zeta:g}: after 0.3 s", predicted[k], e[k].mean(), "of e0")
     lab.record("error_dynamics", apart, label="curve - predicted, of e0", seed=0)
     log = run(model, arm, gains_outside, hold(READY_Q), 0.5, READY_Q - E0)
     e, predicted = (READY_Q - log.q) / E0, error_response(log.t, OMEGA, 1.0)
-    print(
-        f"  gains outside M miss their curve by {np.abs(e.T - predicted).max():.3f} of e0"
-    )
+    off = np.abs(e.T - predicted).max()
+    print(f"  gains outside M miss their curve by {off:.3f} of e0")
 
 
 def ladder(lab: Lab, model, arm) -> None:

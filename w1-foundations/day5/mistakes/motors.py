@@ -6,6 +6,8 @@ from robo47 import control
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake
 
+PANDA = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
+
 
 def _scaled_down(tau: Array, limits: Array) -> Array:
     over = np.max(np.abs(tau) / limits, axis=1, keepdims=True)
@@ -42,6 +44,12 @@ SATURATE = [
         "sign-lost",
         "a torque at its limit loses its sign",
         lambda tau, limits: np.where(np.abs(tau) > limits, limits, tau),
+    ),
+    Mistake(
+        "limits-typed-in",
+        "the Panda's 87 and 12 Nm are typed in; take them from limits, another arm has "
+        "others",
+        lambda tau, limits: np.clip(tau, -PANDA, PANDA),
     ),
     Mistake(
         "one-limit-for-all",
