@@ -5,8 +5,8 @@
     python scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in the dark. Thresholds come from the
-weeks' manifests (w1-foundations/week.toml). Rows that were mended while reading
-or could not be read are listed at the end of the page.
+days' manifests. Rows that were repaired while reading or could not be read are
+listed at the end of the page.
 """
 
 import argparse
@@ -41,8 +41,8 @@ def main() -> int:
     if picture:
         write(out / "report.png", picture)
     print(
-        f"{count(report.rows, 'row')}: {report.count('pass')} checks pass,"
-        f" {report.count('fail')} fail, {report.count('none')} not run yet"
+        f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
+        f" {report.count('fail')} failing, {report.count('none')} not run yet"
     )
     look = len(report.unread) + len(report.repaired)
     if look:
