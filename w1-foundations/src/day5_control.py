@@ -21,7 +21,7 @@ INTEGRATOR = "mjINT_IMPLICITFAST"  # the model's; with mjINT_EULER nothing chang
 RATE = 250.0  # Hz; 500 fits the curve better, 100 misses it, 50: the springs buzz
 OMEGA = 20.0  # rad/s; 5 tracks four times worse, above 414 no 2 ms step can follow
 KP, KD = 100.0, 20.0  # Nm/rad, Nm s/rad of the plain springs; kp 1000 sags a tenth
-KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; above 2 OMEGA^3 = 16000 the loop goes wild
+KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; well above 2 OMEGA^3 the loop swings up
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of the tracking run
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])  # rad, the first error
 TRIALS = 100  # random states that your functions are judged on in step 1
