@@ -1,4 +1,4 @@
-"""What the hand of Day 6 goes through: it is pushed, presses on a table, draws a circle.
+"""What a hand goes through: it is pushed, presses on a table, draws a circle.
 
 The motions to follow and what MuJoCo says of the hand; no controller. Twists,
 accelerations and errors are (angular; linear), wrenches (moment; force), in world axes.

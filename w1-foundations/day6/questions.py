@@ -13,12 +13,8 @@ from robo47 import panda, task_space
 from robo47.diagnose import Ask, Scalar, Symmetric, Twist, Vector, Wrench, draw
 
 from .mistakes.inertias import SITE_BIAS, TASK_INERTIA
-from .mistakes.springs import (
-    CRITICAL_DAMPING,
-    HYBRID_WRENCH,
-    SET_POINT,
-    SPRING_WRENCH,
-)
+from .mistakes.pushes import HYBRID_WRENCH, SET_POINT
+from .mistakes.springs import CRITICAL_DAMPING, SPRING_WRENCH
 from .mistakes.torques import IMPEDANCE_TORQUE, NULL_TORQUE, OSC_TORQUE
 
 NEAR = 1e-5  # further off is wrong, not only rounded

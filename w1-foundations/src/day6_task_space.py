@@ -184,7 +184,7 @@ def by_value(model, arm, rng) -> dict[str, list]:
         idle = null_torque(J, M, Lambda, torque)
         odd = kinematic(J, M, Lambda, torque)
         holding = impedance_torque(J, F, bias, arm.damping, qd, idle)
-        spring = spring_wrench(e, F, np.diag(K), D)
+        spring, numbers = spring_wrench(e, F, np.diag(K), D), (F[0], 300 + F[1], F[2])
         rows.append({
             "mass": np.linalg.norm(Lambda @ pushed - F) / np.linalg.norm(F),
             "library": np.linalg.solve(library.task_inertia(J, M), F) - pushed,
@@ -194,6 +194,8 @@ def by_value(model, arm, rng) -> dict[str, list]:
             "kinematic": touch.mujoco_push(model, q_i, 0, still + odd, NONE)[1],
             "rest": idle - library.null_torque(J, M, Lambda, torque),
             "spring": spring - library.spring_wrench(e, F, np.diag(K), D),
+            "height": set_point_for_force(*numbers)
+            - library.set_point_for_force(*numbers),
             "damping": D - library.critical_damping(K, Lambda),
             # The simulator pushes with -F, so but for idle nothing accelerates.
             "impedance": touch.mujoco_push(model, q_i, qd, holding - idle, -F)[0],
@@ -202,7 +204,7 @@ def by_value(model, arm, rng) -> dict[str, list]:
 
 
 def kinematic(J, M, Lambda, tau) -> np.ndarray:
-    """Return tau through Day 3's projector, which is one for speeds: tau - J^+ J tau."""
+    """Return tau through Day 3's projector, which is for speeds: tau - J^+ J tau."""
     return jacobian.null_step(J, tau)
 
 
@@ -267,9 +269,7 @@ def main() -> int:
 
     lab.step("1. What the hand weighs: push it, and see how it accelerates")
     ready, Lambda, _ = hand_of(arm, READY_Q, np.zeros(7))
-    lab.show(
-        "the lower right of Lambda at ready, kg along x, y and z", Lambda[3:, 3:], 3
-    )
+    lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
     lab.record("task_inertia", found["mass"], label="|Lambda a - F| / |F|, worst push",
                config="random", seed=SEED)  # fmt: skip
@@ -301,18 +301,17 @@ def main() -> int:
     lab.step("5. Pressing on a table, with a force that was chosen")
     depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
     start = scenes.TOUCH + 0.01
-    lab.show("height to command, m, for a table at 0.42", depth, 3)
+    lab.check("set_point_for_force - the library's", found["height"])
+    lab.show("height to command, m; the tip touches at 0.42", depth, 3)
     sink = lambda t: max(depth, start - SINK * t)  # noqa: E731
     soft = touch.press(lambda arm, q: soft_hand(arm, q, sink))
     # The file's own servos, told to go 50 mm into the table, know of no force.
     stiff = touch.press(stiff_arm, drive="servo")
     for name, felt in (("soft", soft), ("stiff", stiff)):
-        print(
-            f"  {name:5} arm: {felt[-1]:6.1f} N in the end, {felt.max():6.1f} at most"
-        )
+        print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
     lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
 
-    lab.step("6. A circle, 0.12 m wide and upright")
+    lab.step("6. An upright circle, 0.12 m in radius, in two seconds")
     for name, project in (("Day 3's", kinematic), ("today's", null_torque)):
         off = off_circle(model, arm, project)
         print(f"  with {name} projector it is at most {off.max():.3f} mm off")
@@ -321,8 +320,8 @@ def main() -> int:
     lab.step("7. Side quest: a spring sideways, a force downwards")
     try:
         e, V_err, D = rng.normal(size=6), rng.normal(size=6), rng.normal(size=(6, 6))
-        off = hybrid_wrench(e, V_err, np.diag(K), D, 10.0)
-        off = off - library.hybrid_wrench(e, V_err, np.diag(K), D, 10.0)
+        given = e, V_err, np.diag(K), D, 10.0
+        off = hybrid_wrench(*given) - library.hybrid_wrench(*given)
         lab.check("hybrid_wrench - the library's", off)
     except NotImplementedError as gap:  # optional: the rows are logged without it
         print(f"  {gap}")

@@ -42,8 +42,8 @@ TASK_INERTIA = [
     ),
     named(
         "pinv-both-sides",
-        "pinv(J)^T M pinv(J) is right for an arm of six joints; with seven the elbow is "
-        "free to give way, and the hand is lighter",
+        "pinv(J)^T M pinv(J) is right for an arm of six joints; with seven the elbow "
+        "is free to give way, and the hand is lighter",
         lambda J, M: np.linalg.pinv(J).T @ M @ np.linalg.pinv(J),
         "pinv(J)^T M pinv(J)",
     ),
@@ -90,12 +90,6 @@ TASK_INERTIA = [
         "1 / M inverts every entry of M; the inverse of a matrix is another thing",
         lambda J, M: np.linalg.inv(J @ (1.0 / M) @ J.T),
         "the right one with 1 / M",
-    ),
-    named(
-        "J-padded",
-        "the last column of J is left out, and with it joint7",
-        lambda J, M: inertia(J[:, :6], M[:6, :6]),
-        "Lambda of the first six joints",
     ),
 ]
 

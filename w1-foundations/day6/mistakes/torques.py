@@ -95,9 +95,9 @@ NULL_TORQUE = [
     ),
     named(
         "kinematic-projector",
-        "I - J^+ J keeps speeds from the hand, not torques: how a torque accelerates the "
-        "hand depends on the masses, so M is needed. It still draws the circle, and yet "
-        "the hand is accelerated by metres per second squared",
+        "I - J^+ J keeps speeds from the hand, not torques: how a torque accelerates "
+        "the hand depends on the masses, so M is needed. It still draws the circle, "
+        "and yet the hand is accelerated by metres per second squared",
         lambda J, M, L, t: t - pinv(J) @ (J @ t),
         "tau - J^+ J tau",
     ),
@@ -110,8 +110,8 @@ NULL_TORQUE = [
     ),
     named(
         "projector-transposed",
-        "the projector is transposed: M^-1 J^T Lambda J is for joint accelerations; for "
-        "torques M^-1 is on the other side",
+        "the projector is transposed: M^-1 J^T Lambda J is for joint accelerations; "
+        "for torques M^-1 is on the other side",
         lambda J, M, L, t: t - solve(M, J.T @ L @ J @ t),
         "tau - M^-1 J^T Lambda J tau",
     ),
@@ -219,8 +219,8 @@ IMPEDANCE_TORQUE = [
     ),
     named(
         "pinv-for-transpose",
-        "pinv(J) takes the wrench to the joints; pushes go to torques with J^T, and the "
-        "pseudo-inverse is for speeds",
+        "pinv(J) takes the wrench to the joints; pushes go to torques with J^T, and "
+        "the pseudo-inverse is for speeds",
         lambda J, F, b, d, qd, n: pinv(J) @ F + b + d * qd + n,
         "the right one with pinv(J)",
     ),
