@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, jacobian, panda, scenes, simulate, verify
+from robo47 import checks, jacobian, panda, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
@@ -107,15 +107,12 @@ def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Arra
     Args:
         model: the arm without a hand.
         q: configuration in radians, (7,).
-        qd: joint velocities in rad/s, (7,).
+        qd: joint velocities in rad/s, one number or (7,).
 
     Returns:
         The hand's acceleration at qdd = 0 in rad/s2 and m/s2, (6,), to about 1e-11.
     """
-    q, qd = checks.array(q, "q", (7,)), checks.array(qd, "qd", (7,))
-    times = STEP * np.array([-2.0, -1.0, 1.0, 2.0])
-    J = verify.mujoco_site_jacobian(model, q + times[:, None] * qd, SITE)
-    return np.tensordot([1.0, -8.0, 8.0, -1.0], J, 1) @ qd / (12.0 * STEP)
+    return _site_bias(model, simulate.start(model, q, qd))
 
 
 def mujoco_push(
@@ -141,6 +138,24 @@ def mujoco_push(
     data.qfrc_applied[:] = checks.array(tau, "tau", (7,))
     simulate.push_at(SITE, wrench)(model, data)
     mujoco.mj_forward(model, data)  # fills qacc
-    J = verify.mujoco_site_jacobian(model, data.qpos, SITE)
-    hand = J @ data.qacc + mujoco_site_bias(model, data.qpos, data.qvel)
-    return data.qacc.copy(), hand
+    joints, J = data.qacc.copy(), _site_jacobian(model, data)
+    return joints, J @ joints + _site_bias(model, data)
+
+
+def _site_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    J = np.zeros((2, 3, model.nv))
+    mujoco.mj_jacSite(model, data, J[1], J[0], model.site(SITE).id)  # v comes first
+    return J.reshape(6, model.nv)
+
+
+def _site_bias(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Return the rate of J times qd; leaves the data at another configuration."""
+    q, rate = data.qpos.copy(), np.zeros((6, model.nv))
+    if not data.qvel.any():
+        return rate[:, 0]
+    for times, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
+        data.qpos[:] = q + times * STEP * data.qvel
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)  # mj_jacSite reads what these two fill
+        rate += weight * _site_jacobian(model, data)
+    return rate @ data.qvel / (12.0 * STEP)

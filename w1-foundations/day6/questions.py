@@ -48,10 +48,9 @@ def _states(rng):
 
 
 def _model(now):
-    """Return J, M and Lambda, rounded."""
+    """Return J and M, rounded, and their Lambda: all three must fit together."""
     J, M = draw.rounded(now.J_site), draw.rounded(now.M)
-    Lambda = draw.rounded(task_space.task_inertia(J, M))
-    return J, M, Lambda
+    return J, M, task_space.task_inertia(J, M)
 
 
 def _some(rng, reach, *shape):
@@ -68,7 +67,7 @@ def _site_bias(rng):
     spin[2, 0] = 1.0
     case = (spin, np.eye(7)[0], np.array([1.0, 0.0, 0.0]))
     drawn = [
-        (draw.rounded(now.J_space), _some(rng, 2, 7), _some(rng, 1, 3))
+        (now.J_space.copy(), _some(rng, 2, 7), _some(rng, 1, 3))  # screws, so as it is
         for now in _states(rng)
     ]
     return [case, *drawn]

@@ -85,12 +85,6 @@ TASK_INERTIA = [
         lambda J, M: 1.0 / (J @ np.linalg.solve(M, J.T)),
         "1 / (J M^-1 J^T)",
     ),
-    named(
-        "M-entries-inverted",
-        "1 / M inverts every entry of M; the inverse of a matrix is another thing",
-        lambda J, M: np.linalg.inv(J @ (1.0 / M) @ J.T),
-        "the right one with 1 / M",
-    ),
 ]
 
 
@@ -100,14 +94,13 @@ def bias(
     p: Array,
     *,
     rate: Callable[[Array, Array], Array] = lambda V, S: ad(V) @ S,
-    before: Callable[[Array], Array] = lambda parts: np.cumsum(parts, axis=0),
     turn: float = 1.0,
     centre: float = 1.0,
     move: float = 1.0,
 ) -> Array:
     """Return the hand's bias; the right one unless told otherwise."""
     parts = (J * qd).T
-    V = before(parts)
+    V = np.cumsum(parts, axis=0)
     A = sum(rate(v, s) for v, s in zip(V, parts, strict=True))
     total = parts.sum(axis=0)
     omega, alpha = total[:3], A[:3]
@@ -141,10 +134,6 @@ def _no_joint_speed(J: Array, qd: Array, p: Array) -> Array:
     velocity = V[-1, 3:] + np.cross(omega, p)
     linear = A[3:] + np.cross(A[:3], p) + np.cross(omega, velocity)
     return np.append(A[:3], linear)
-
-
-def _from_the_tip(parts: Array) -> Array:
-    return np.cumsum(parts[::-1], axis=0)[::-1]
 
 
 def _nothing(V: Array, S: Array) -> Array:
@@ -198,7 +187,8 @@ SITE_BIAS = [
     ),
     named(
         "ad-swapped",
-        "V and S have changed places: ad(S) V is minus ad(V) S",
+        "V and S have changed places, or the twists are summed from the tip: ad(S) V "
+        "is minus ad(V) S, and a joint is carried by those before it",
         lambda J, qd, p: bias(J, qd, p, rate=lambda V, S: ad(S) @ V),
         "the right one with ad(S) V",
     ),
@@ -213,12 +203,6 @@ SITE_BIAS = [
         "ad(V) lacks its lower left block [v]",
         lambda J, qd, p: bias(J, qd, p, rate=_without_lower_block),
         "the right one without it",
-    ),
-    named(
-        "from-the-tip",
-        "the twists are summed from the tip; a joint is carried by those before it",
-        lambda J, qd, p: bias(J, qd, p, before=_from_the_tip),
-        "the right one with those sums",
     ),
     named(
         "twist-of-the-hand",
