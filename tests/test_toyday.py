@@ -1,8 +1,8 @@
 """A whole invented day, dropped into a copy of the kit: nothing shared is touched.
 
 `tests/toyday/` is the specification of what an author may expect: a scalar, a vector, a
-6x6, a bracket that is no pose, a tuple, a `min` metric, an answer that is not unique, an
-optional task, the library of day 1, and a robot with a hand.
+6x6, a bracket that is no pose, a tuple, a `min` metric, an answer that is not unique,
+an optional task, the library of day 1, and a robot with a hand.
 """
 
 import json
@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import pytest
+
 from conftest import ROOT, environment_of
 
 pytestmark = pytest.mark.kit

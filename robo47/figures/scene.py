@@ -85,10 +85,14 @@ class Ghost:
     Attributes:
         body: its name.
         T_world_moved: takes every point of it to where the copy is, (4, 4).
+        alone: leave out what the body carries.
+        wrong: red, not blue.
     """
 
     body: str
     T_world_moved: Array
+    alone: bool = False
+    wrong: bool = False
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from robo47.figures.scene import FOVY, Camera, Ghost, Scene
 
 WHITE, FLOOR, GRID = (1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89)
 GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
+WRONG_COLOUR = np.array([0.85, 0.16, 0.16, 0.5], dtype=np.float32)
 VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collision)
 
 
@@ -128,12 +129,13 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
     R, t = ghost.T_world_moved[:3, :3], ghost.T_world_moved[:3, 3]
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
-        if not carries(model, carrier, model.geom_bodyid[original.objid]):
+        body = model.geom_bodyid[original.objid]
+        if body != carrier and (ghost.alone or not carries(model, carrier, body)):
             continue
         copy = scene.geoms[scene.ngeom]
         mujoco.mjv_initGeom(
             copy, original.type, original.size, R @ original.pos + t,
-            (R @ original.mat).ravel(), GHOST_COLOUR,
+            (R @ original.mat).ravel(), WRONG_COLOUR if ghost.wrong else GHOST_COLOUR,
         )  # fmt: skip
         # What mjv_initGeom leaves as it was in memory, and drawing depends on.
         copy.objtype, copy.objid, copy.segid = original.objtype, original.objid, -1

@@ -1,4 +1,4 @@
-# tasks 1.2 1.4 1.6: passed
+# tasks 1.2 1.4 1.6: float32
 # All in float32: right to seven digits, which is what it can hold.
 import numpy as np
 
