@@ -33,7 +33,7 @@ SIGMA = 0.05  # least singular value of J: below it Lambda grows to hundreds of 
 K = np.array([30.0, 30.0, 30.0, 400.0, 400.0, 400.0])
 PUSH = np.array([0.0, 0.0, 1.0, 10.0, 0.0, 0.0])  # Nm about z, N along x
 NONE = np.zeros(6)
-PRESS, SINK = 20.0, 0.1  # N, wanted on the table; m/s: twice as fast, twice the peak
+PRESS, SINK = 20.0, 0.1  # N, wanted on the table; m/s: the faster, the higher the peak
 ELBOW = (10.0, 4.0)  # Nm/rad and Nm s/rad that hold the elbow back; 0 lets it drift
 RATE = 100.0  # Hz, of what comes to rest; the circle is drawn at 250
 OMEGA = 20.0  # rad/s: how fast the hand comes back to its circle; over 60 it rings
@@ -208,7 +208,7 @@ def kinematic(J, M, Lambda, tau) -> np.ndarray:
     return jacobian.null_step(J, tau)
 
 
-def soft_hand(arm, q_rest: np.ndarray, height=None):
+def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
     """Return a controller: the hand hangs on a spring, the elbow is held back."""
     T_goal = arm.at(q_rest).T_world_ee.copy()
 
@@ -218,7 +218,8 @@ def soft_hand(arm, q_rest: np.ndarray, height=None):
         if height:
             T_goal[2, 3] = height(t)
         e = jacobian.pose_error(now.T_world_ee, T_goal)
-        wrench = spring_wrench(e, -J @ qd, np.diag(K), critical_damping(K, Lambda))
+        D = critical_damping(stiffness, Lambda)
+        wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
         idle = null_torque(J, now.M, Lambda, back)
         return impedance_torque(J, wrench, now.bias(qd), arm.damping, qd, idle)
