@@ -64,8 +64,8 @@ def push() -> Image.Image:
             12.0, 1000 * 12.0 / k - 9.0, f"{k:.0f} N/m", color=colour, fontsize=20
         )
     axes.set_ylabel("displacement along x (mm)")
-    axes.text(-19, 38, "lines: F / k, before any simulation", color=INK)
-    axes.text(-19, 33, "dots: where the hand came to rest", color=INK)
+    axes.text(-19, 38, "lines: F / k, before any simulation", color=INK, fontsize=18)
+    axes.text(-19, 33, "dots: where the hand came to rest", color=INK, fontsize=18)
     return _to_image(figure)
 
 
@@ -80,7 +80,8 @@ def press() -> Image.Image:
         words = f"{name}: {felt[-1]:.0f} N, peak {felt.max():.0f} N"
         axes.text(1.1, felt[-1] + 8, words, color=colour, fontsize=20)
     axes.axhline(PRESS, color=INK, linestyle="--", linewidth=1.5)
-    axes.text(3.0, PRESS - 14, "20 N: wanted, predicted", ha="right", color=INK)
+    words = {"s": "20 N: wanted and predicted", "ha": "right", "fontsize": 18}
+    axes.text(3.0, PRESS - 14, color=INK, **words)
     axes.set_ylabel("force on the table (N)")
     return _to_image(figure)
 
