@@ -1,5 +1,8 @@
 """Day 6's lab: its functions, the numbers in the guide's sentences, the errata."""
 
+import importlib.util
+from unittest.mock import MagicMock
+
 import mujoco
 import numpy as np
 import pytest
@@ -7,9 +10,12 @@ from compare import assert_same
 from hypothesis import given
 from hypothesis import strategies as st
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, need
 from robo47 import jacobian, panda, scenes, simulate, task_space, touch, verify
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
 
+DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
 ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
 lab = load_script(ROOT / "w1-foundations/src/day6_task_space.py")
@@ -279,3 +285,28 @@ def test_the_elbow_gives_way_as_the_guide_says(motors, monkeypatch, gains, elbow
     if elbow == 50:
         assert 1000 * np.linalg.norm(moved[3:]) == pytest.approx(4.5, abs=0.05)
     assert f"{elbow} mm" in GUIDE.replace("\n", " ")
+
+
+def test_the_tab_shows_the_push_that_was_predicted_and_the_table():
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    inspector = folder.load(DAY, "inspector")
+    model = panda.load("panda_nohand")
+    page = MagicMock(model=model, q=panda.READY_Q.copy())
+    T = panda.arm(model).at(page.q).T_world_ee.copy()
+    page.pose.return_value = T
+    page.animate.return_value.running = False
+    tab = inspector.Touch(page)
+    tab.on_move(page.q)
+    T[0, 3] += 0.1  # the handle: 10 N along x
+    tab.drag(T)
+    tab.on_move(page.q)
+    assert "F / k = (25.0, 0.0, 0.0) mm, moved (0.0, 0.0, 0.0)" in tab.numbers.content
+    for k in range(round(3 * inspector.HZ)):
+        tab.step(k / inspector.HZ)
+    assert "moved (25.0, " in tab.numbers.content
+    tab.press(inspector.READY)
+    for k in range(round(2 * inspector.HZ)):
+        tab.step(k / inspector.HZ)
+    assert tab.bars.show.call_args.args[0][0] == pytest.approx(19.6, abs=0.4)
+    tab.press(inspector.LET_GO)
+    assert not tab.force.any()
