@@ -6,7 +6,7 @@ from robo47.screws import adjoint, exp_screw
 
 
 def site_bias(J_space, qd, p):
-    h = 1e-6
+    h = 1e-7
     T = np.eye(4)
     moved = []
     for S, speed in zip(J_space.T, qd):
