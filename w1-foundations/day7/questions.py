@@ -7,7 +7,7 @@ textbook's examples), never from the lab script. Arrays and floats only.
 import numpy as np
 
 from robo47 import se3, trajectory
-from robo47.diagnose import Ask, Matrix, Pose, Scalar, Vector, draw
+from robo47.diagnose import Ask, Matrix, Pose, Scalar, Slip, Vector, draw
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
 from .mistakes.durations import DURATION
@@ -26,6 +26,14 @@ SCALED = ("s", "sd", "sdd")
 RAMPS = ("the position", "the speed", "the acceleration")
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
 POWERS = ("1", "t", "t^2", "t^3", "t^4", "t^5")
+SINGULAR = Slip(
+    "LinAlgError: Singular",
+    "",
+    "singular",
+    "Two of the six rows say the same, so the equations have no single answer. Each row "
+    "is another condition: a position, a speed or an acceleration, at the start or at "
+    "the end. What is the derivative of t^n?",
+)
 
 
 def _floats(rows):
@@ -154,6 +162,7 @@ QUESTIONS = {
         Vector((6,), names=tuple(f"the factor of {p}" for p in POWERS), scale=10.0),
         truth=trajectory.quintic_coefficients,
         mistakes=COEFFICIENTS,
+        slips=[SINGULAR],
         near=NEAR,
     ),
     "straight_pose": Ask(

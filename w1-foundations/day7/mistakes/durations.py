@@ -45,6 +45,13 @@ def _forwards_only(dq: Array, v: Array, a: Array) -> Array:
     return np.maximum(np.sign(dq) * by_speed, by_acceleration).max(axis=1)
 
 
+def _roots_of_signed(dq: Array, v: Array, a: Array) -> Array:
+    by_speed = (15 / 8 * dq / v).max(axis=1)
+    root = np.sqrt(np.maximum(10 / np.sqrt(3) * dq / a, 0.0)).max(axis=1)
+    whole = (dq >= 0.0).all(axis=1)  # else it is NaN, which max(x, NaN) passes over
+    return np.where(whole, np.maximum(by_speed, root), by_speed)
+
+
 def _of_all(choose: Callable[[Array], Array]) -> Callable[..., Array]:
     return lambda dq, v, a: _worst()(dq, choose(v)[:, None], choose(a)[:, None])
 
@@ -153,6 +160,13 @@ DURATION = [
         "a joint that moves backwards counts as one that is ready before it starts: "
         "the way's sign is still in it",
         _forwards_only,
+        "the duration with signed ways",
+    ),
+    Mistake(
+        "ways-signed",
+        "the ways' signs are still in it: the root of a negative one is NaN, which max "
+        "passes over in silence",
+        _roots_of_signed,
         "the duration with signed ways",
     ),
 ]

@@ -1,4 +1,4 @@
-"""Mistakes in task 7.3 `joint_move(q0, q1, t, T)`, from (n, 7) and (n,) to (n, 3, 7)."""
+"""Mistakes in task 7.3 `joint_move(q0, q1, t, T)`, (n, 7) or (n,) to (n, 3, 7)."""
 
 from collections.abc import Callable
 

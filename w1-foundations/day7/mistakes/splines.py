@@ -33,19 +33,6 @@ def _two_forgotten(A: Array, T: float) -> Array:
     return A
 
 
-def _no_factors(A: Array, T: float) -> Array:
-    A[4] = np.r_[0, T ** POWERS[:5]]
-    A[5] = np.r_[0, 0, T ** POWERS[:4]]
-    A[2, 2] = 1.0
-    return A
-
-
-def _last_row(A: Array, T: float) -> Array:
-    A[5] = POWERS * T ** np.maximum(POWERS - 1, 0)
-    A[5, :2] = 0.0
-    return A
-
-
 def _cubic(start: Array, end: Array, T: float) -> Array:
     A = _conditions(T)[[0, 1, 3, 4], :4]
     four = np.linalg.solve(A, [start[0], start[1], end[0], end[1]])
@@ -106,19 +93,6 @@ COEFFICIENTS = [
         "the second derivative of t^2 is 2, not 1: the start's acceleration is doubled",
         _solved(_two_forgotten),
         "the coefficients with a 1 there",
-    ),
-    Mistake(
-        "derivatives-without-factors",
-        "the derivatives' rows hold powers of T alone; the derivative of t^n is "
-        "n t^(n-1)",
-        _solved(_no_factors),
-        "the coefficients with those rows",
-    ),
-    Mistake(
-        "one-derivative-for-both",
-        "the last row is the first derivative again; acceleration is the second",
-        _solved(_last_row),
-        "the coefficients with that row",
     ),
     Mistake(
         "conditions-mixed-up",
