@@ -30,9 +30,9 @@ SINGULAR = Slip(
     "LinAlgError: Singular",
     "",
     "singular",
-    "Two of the six rows say the same, so the equations have no single answer. Each row "
-    "is another condition: a position, a speed or an acceleration, at the start or at "
-    "the end. What is the derivative of t^n?",
+    "Two of the six rows say the same, so the equations have no single answer. Each "
+    "row is another condition: a position, a speed or an acceleration, at "
+    "either end. What is the derivative of t^n?",
 )
 
 

@@ -2,7 +2,6 @@
 # The library of the days before.
 import numpy as np
 
-
 from robo47 import jacobian, screws
 
 

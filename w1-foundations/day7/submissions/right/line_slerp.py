@@ -2,7 +2,6 @@
 # Slerp of quaternions.
 import numpy as np
 
-
 from robo47 import se3
 
 

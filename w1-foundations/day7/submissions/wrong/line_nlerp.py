@@ -2,7 +2,6 @@
 # Quaternions, straight and normalised.
 import numpy as np
 
-
 from robo47 import se3
 
 
