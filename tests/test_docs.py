@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from conftest import ROOT, kits_worksheet, need
-from robo47.lesson.day import find_day
+from robo47.lesson.day import all_days, find_day
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
@@ -16,7 +16,8 @@ DOCUMENTS += sorted((ROOT / "docs").glob("*.md"))
 DOCUMENTS = [
     path
     for path in DOCUMENTS
-    if path != WEEK / DAY.worksheet and DAY.work.parent not in path.parents
+    if path not in [day.folder / day.worksheet for day in all_days()]
+    and DAY.work.parent not in path.parents
 ]
 
 

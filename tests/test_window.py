@@ -82,7 +82,7 @@ def test_the_window_is_closed_and_given_a_second_before_the_end(
     )
 
     @contextmanager
-    def launch_passive(model, data, show_left_ui):
+    def launch_passive(model, data, show_left_ui, show_right_ui):
         happened.append(float(data.ctrl[3]) if model.nu else "no motors")
         try:
             yield handle

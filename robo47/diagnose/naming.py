@@ -53,7 +53,7 @@ def named_mistake(
             continue
         pairs = list(zip(S, again, ask.kinds, strict=False))
         if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in pairs):
-            says = f"{mistake.says[0].upper()}{mistake.says[1:]}."
+            says = f"{_capitalised(mistake.says)}."
             if T is not None:
                 i = worst_part(ask, S, T)
                 says += f" (Off by up to {ask.kinds[i].apart(S[i], T[i])}; "
@@ -104,6 +104,14 @@ def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
         for s, t, kind in zip(S, T, ask.kinds, strict=True)
     ]
     return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
+
+
+def _capitalised(clause: str) -> str:
+    """Return a clause as a sentence starts; a symbol, q say, stays what it is."""
+    first = clause.partition(" ")[0]
+    if len(first) == 1 and first != "a":
+        return clause
+    return clause[0].upper() + clause[1:]
 
 
 def _nothing_there(S: Parts) -> Finding | None:

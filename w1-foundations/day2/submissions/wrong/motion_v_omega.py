@@ -1,0 +1,17 @@
+# task 2.4: twist-order
+# Read as (v; omega).
+import numpy as np
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def exp_screw(S, theta):
+    v, omega = S[:3], S[3:]
+    K = skew(omega)
+    T = np.eye(4)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    G = theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    T[:3, 3] = G @ v
+    return T

@@ -1,0 +1,12 @@
+# task 2.2: sin-and-cos-swapped
+# Sine and cosine swapped.
+import numpy as np
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def exp_rotation(axis, theta):
+    K = skew(axis)
+    return np.eye(3) + np.cos(theta) * K + (1 - np.sin(theta)) * K @ K

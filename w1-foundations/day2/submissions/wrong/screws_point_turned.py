@@ -1,0 +1,11 @@
+# task 2.5: point-turned-back
+# The point told in the link.
+import numpy as np
+
+
+def joint_screws(T_zero):
+    rows = []
+    for T in T_zero:
+        axis, point = T[:3, 2], T[:3, :3].T @ T[:3, 3]
+        rows.append(np.hstack([axis, -np.cross(axis, point)]))
+    return np.array(rows)
