@@ -2,7 +2,7 @@
 
     python scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python scripts/grade_class.py CLONES --day 1-7      a week, or all: --day all
+    python scripts/grade_class.py CLONES --day 1-7         a week; or --day all
     python scripts/grade_class.py CLONES --pull          update the clones first
     python scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786

@@ -1,6 +1,7 @@
 """A clone of the last commit gives the same numbers, or it is said what it lacks."""
 
 import os
+import shutil
 import subprocess
 from dataclasses import replace
 
@@ -188,6 +189,25 @@ class TestTheCommand:
         done = run_in(FRESH, "--quick")
         assert done.returncode == 0, done.stdout + done.stderr
         assert "the kit's own; there are no rows to compare" in done.stdout
+
+    def test_takes_the_week_that_was_begun_last_whichever_it_is(self, student, run_in):
+        toy = "day46_toy.py"
+        shutil.copytree(ROOT / "tests" / "toyday" / "w9-toy", student / "w9-toy")
+        (student / "w9-toy" / "work").mkdir()
+        for name in ("kit.py", toy):
+            copy = student / "w9-toy" / "work" / name
+            copy.write_bytes((student / "w9-toy" / "src" / name).read_bytes() + b"#\n")
+        assert run_in("scripts/run_day.py", "46").returncode == 0
+        report = run_in("scripts/report_metrics.py")
+        assert "wrote metrics/report-week9.html" in report.stdout
+        page = (student / "metrics" / "report-week9.html").read_text("utf-8")
+        assert "toy_right_share" in page
+        assert "7 of 7" in page  # the side quest is not counted
+        commit(student)
+        done = run_in(FRESH, "--quick")
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert "PASS  day 46, your lab" in done.stdout
+        assert done.stdout.splitlines()[-1].endswith("your numbers: 1 lab, 2 rows")
 
     def test_cannot_run_outside_a_repository(self, clone, run_in):
         need(not (clone.parent / ".git").exists(), "a folder outside any repository")
