@@ -151,8 +151,10 @@ def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, part, named):
 
 
 def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
-    S, M, goal, start, limits = (x[:12] for x in targets)
-    goal = goal.copy()
+    S, M, goal, start, limits = (x[:12].copy() for x in targets)
+    middle = limits[0].mean(axis=1)
+    start = middle + 0.7 / 0.8 * (start - middle)  # so that no limit is in the way
+    goal = screws.fk_space(S[0], M[0], start + 0.1)
     goal[:, :3, 3] *= 2.0 / np.linalg.norm(goal[:, :3, 3], axis=1)[:, None]
 
     def miss(q):
@@ -165,8 +167,8 @@ def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
         for part in ("right", "space-jacobian")
     )
     assert right.max() < 1.01
-    assert 1.02 < wrong.max() < 1.1
-    assert "up to 8 % too far away; the right one within 1 %" in GUIDE
+    assert 1.02 < wrong.max() < 1.15
+    assert "stops up to some 5 % too far away; the right one within 1 %" in GUIDE
 
 
 def test_the_motion_lost_at_zero_is_a_turn_about_x(arm):
