@@ -17,7 +17,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),report,view)
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint run doctor bench test-matrix setup robot view grade
-.PHONY: help test soak report lint docs oracle figures notebook
+.PHONY: capstone fresh help test soak report lint docs oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -33,6 +33,12 @@ day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, 
 
 week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one table
 	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
+
+capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
+	@$(PY) scripts/capstone.py $(ARGS) $(NOT_YET)
+
+fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
+	@$(PY) scripts/fresh.py $(ARGS) $(NOT_YET)
 
 view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --screenshot
 	@$(PY) scripts/view_panda.py $(DAY) $(ARGS)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import textwrap
 import types
+from functools import cache
 from pathlib import Path
 
 import hypothesis
@@ -179,18 +180,25 @@ def student(tmp_path):
     return write
 
 
+@cache
+def plain_panda():
+    """Return the Panda as the sandbox gets it."""
+    from robo47.checker.model_copy import copy_model
+
+    return copy_model(panda.load("panda_nohand"), "panda_nohand")
+
+
 @pytest.fixture
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from robo47 import panda
-    from robo47.checker.model_copy import copy_model, facts
+    from robo47.checker.model_copy import facts
     from robo47.checker.replies import Question
     from robo47.checker.sandbox import Sandbox
 
     def run(code, *questions, library=None, needs=None):
         with Sandbox() as sandbox:
-            models = [copy_model(panda.load("panda_nohand"), "panda_nohand")]
+            models = [plain_panda()]
             asked = questions or [Question("1.1", "f", ())]
             file = student(code)
             return sandbox.run(file, asked, models, facts(), library, needs)

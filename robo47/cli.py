@@ -3,6 +3,7 @@
 from __future__ import annotations  # the doctor runs on old Pythons too
 
 import argparse
+import contextlib
 import errno
 import functools
 import os
@@ -10,7 +11,7 @@ import shutil
 import sys
 import textwrap
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TextIO
 
@@ -84,6 +85,19 @@ def wrapped(text: str, indent: str = "") -> str:
 def complain(text: str) -> None:
     """Print what went wrong: wrapped on a terminal, one line for a program to read."""
     print(wrapped(text) if sys.stderr.isatty() else text, file=sys.stderr)
+
+
+@contextlib.contextmanager
+def busy(what: str) -> Iterator[None]:
+    """Say on a terminal that something is going on, and take it back at the end."""
+    shown = sys.stderr.isatty()
+    if shown:
+        print(f"{what} ...", end="\r", file=sys.stderr, flush=True)
+    try:
+        yield
+    finally:
+        if shown:
+            print(" " * (len(what) + 4), end="\r", file=sys.stderr, flush=True)
 
 
 def run(main: Callable[[], int]) -> None:

@@ -104,7 +104,7 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     v, a = checks.positive(v, "v"), checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
-    T = np.where(L > 0.0, L / np.where(L > 0.0, top, 1.0) + ramp, 0.0)
+    T = L / np.where(top > 0.0, top, 1.0) + ramp  # top is 0 where there is no way to go
     up, left = np.clip(t, 0.0, ramp), np.clip(T - t, 0.0, ramp)
     cruise = np.clip(t - ramp, 0.0, T - 2.0 * ramp)
     ended = t >= T

@@ -82,11 +82,13 @@ def show() -> int:
     data = at_ready(model)
     model.vis.scale.framelength *= 0.6  # the default triads hide the arm
     model.vis.scale.framewidth *= 0.4
-    print("window: the arm at ready; its sliders are under Control, on the right")
-    print("        (Shift+Tab hides them). Close it, or Ctrl-C here, to end")
+    print("window: the arm at ready; Shift+Tab shows its sliders, under Control")
+    print("        (Tab shows the options). Close it, or Ctrl-C here, to end")
     try:
         # Both of MuJoCo's panels would leave a small window no room for the arm.
-        with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as viewer:
+        with mujoco.viewer.launch_passive(
+            model, data, show_left_ui=False, show_right_ui=False
+        ) as viewer:
             viewer.opt.frame = int(mujoco.mjtFrame.mjFRAME_BODY)
             viewer.opt.label = int(mujoco.mjtLabel.mjLABEL_BODY)
             look_at(viewer.cam, Camera(distance=2.6))

@@ -1,19 +1,19 @@
-"""See the Panda, its frames, and that your kinematics agree with MuJoCo.
+"""See the arm, its frames, and your own code move it, beside MuJoCo's answer.
 
-    make view                                 what suits this machine
-    make view ARGS=--screenshot               a picture, without a window
-    python3 scripts/view_panda.py --web       the SE(3) inspector, in a browser
-    python3 scripts/view_panda.py --native    MuJoCo's own window
+    make view                        in your browser; DAY=2: that day's tabs
+    make view ARGS=--screenshot      a picture, without a window
+    make view ARGS="--clip arm.gif"  the arm moving, and your own code's arm
+    make view ARGS=--native          MuJoCo's own window
+    python3 scripts/view_panda.py 2  without make: the page of Day 2
 
-In the inspector: drag a joint and watch T_world_ee change twice, from MuJoCo
-and by hand; step through the chain link by link; put T_extra on the left or on
-the right. It listens on this machine alone and prints the ssh line to use from
-another.
+In the browser: drag a joint. Your own function draws a red arm wherever it
+differs from MuJoCo's, and is asked again at every save; it runs in the checker's
+sandbox. The page listens on this machine alone, at an address nobody else knows.
 """
 
 import argparse
+import functools
 import importlib.util
-import sys
 from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -22,13 +22,14 @@ import numpy as np
 from robo47 import cli, menagerie, panda, window
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import ROOT, shown
 
 PICTURE = ROOT / "w1-foundations" / "figures" / "day1_panda_viewer.png"
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(entry: str, start: str, port: int) -> int:
+def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
     """Serve the inspector until Ctrl-C."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
@@ -36,27 +37,28 @@ def web(entry: str, start: str, port: int) -> int:
             "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
     from robo47.inspector.arm import Arm
-    from robo47.inspector.serve import serve
+    from robo47.inspector.serve import Show, serve
 
     about = panda.describe(entry)
     print(about, flush=True)
     if menagerie.panda_folder() is None:
         missing = (
-            "The robot's meshes are not here: simple shapes stand in, with the same "
+            "The robot's meshes are not here: simple shapes are drawn, with the same "
             "frames (python3 scripts/fetch_menagerie.py fetches them)"
         )
         print(missing)
         about = f"{about}. {missing}"
-    arm = Arm(panda.load(entry, meshes=True), panda.END_FRAME[entry])
+    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
     arm.move(arm.named_q[start])
-    return serve(arm, about, port)
+    dressed = functools.partial(panda.load, entry, meshes=True)
+    return serve(Show(day, arm, about, dressed, simple), port)
 
 
 def native() -> int:
     """Open MuJoCo's window, or say in one line why not."""
     why = window.obstacle()
     if why:
-        raise Robo47Error(f"{why}. The browser needs none of that: --web")
+        raise Robo47Error(f"{why}. The browser needs none of that: make view")
     return window.show()
 
 
@@ -83,6 +85,22 @@ def screenshot(path: Path, start: str) -> int:
     return cli.EXIT_OK
 
 
+def clip(path: Path, day: Day, file: Path | None) -> int:
+    """Write a clip of the arm with the student's own beside it; overwrite nothing."""
+    if path.exists():
+        raise Robo47Error(f"{shown(path)} is there already; name another file")
+    try:
+        from robo47.inspector.film import film
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"a clip needs {missing.name}, which is not installed yet: "
+            'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py view)'
+        ) from None
+    size = film(path, day, file)
+    print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
+    return cli.EXIT_OK
+
+
 def configuration(name: str) -> Array:
     """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
     if name == "ready":  # the handout's home_q; `home` is the model's own key
@@ -102,8 +120,11 @@ def port(text: str) -> int:
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
+    parser.add_argument(
+        "day", type=int, nargs="?", help="whose tabs and file; the last you started"
+    )
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("--web", action="store_true", help="the inspector, in a browser")
+    how.add_argument("--web", action="store_true", help="in a browser; the default")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")
     how.add_argument(
         "--screenshot",
@@ -112,6 +133,15 @@ def parse() -> argparse.Namespace:
         type=Path,
         const=PICTURE,
         help=f"write a picture (to {shown(PICTURE)})",
+    )
+    how.add_argument(
+        "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
+    )
+    parser.add_argument(
+        "--file", type=Path, help="with --clip: whose code, in place of your own"
+    )
+    parser.add_argument(
+        "--simple", action="store_true", help="simple meshes: a computer without a GPU"
     )
     parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
     parser.add_argument(
@@ -129,7 +159,7 @@ def parse() -> argparse.Namespace:
 
 
 def main() -> int:
-    """Show the Panda in the way that was asked for, or that suits the machine."""
+    """Show the Panda in the way that was asked for."""
     options = parse()
     if options.screenshot:
         if options.entry:
@@ -137,12 +167,11 @@ def main() -> int:
         return screenshot(options.screenshot, options.start)
     if options.native:
         return native()
-    if not options.web:
-        why = window.obstacle()
-        if why is None:
-            return native()
-        print(f"no window: {why}.\nSo in the browser:", file=sys.stderr)
-    return web(options.entry or "panda_nohand", options.start, options.port)
+    day = find_day(options.day or started_day())
+    if options.clip:
+        return clip(options.clip, day, options.file)
+    entry = options.entry or "panda_nohand"
+    return web(day, entry, options.start, options.port, options.simple)
 
 
 if __name__ == "__main__":

@@ -12,22 +12,36 @@ from queue import Queue
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPT = ROOT / "scripts" / "view_panda.py"
 SECONDS = 60
-# Runs the script as if the robot had never been fetched.
-WITHOUT_ROBOT = (
-    "import runpy, sys; from robo47 import menagerie; "
-    f"menagerie.panda_folder = lambda: None; sys.argv[0] = {str(SCRIPT)!r}; "
-    f"sys.path.insert(0, {str(SCRIPT.parent)!r}); "
-    "runpy.run_path(sys.argv[0], run_name='__main__')"
-)
+NO_ROBOT = "from robo47 import menagerie; menagerie.panda_folder = lambda: None"
+
+
+def prepared(work: Path, robot: bool) -> str:
+    """Return a program that runs the script with another file as the student's.
+
+    Args:
+        work: the student's file, there or not; their real one stays out of the tests.
+        robot: False as if the robot had never been fetched.
+    """
+    lines = [
+        "import pathlib, runpy, sys",
+        f"sys.argv[0] = {str(SCRIPT)!r}",
+        f"sys.path.insert(0, {str(SCRIPT.parent)!r})",
+        "from robo47.lesson.day import Day",
+        f"Day.work = pathlib.Path({str(work)!r})",
+        "" if robot else NO_ROBOT,
+        "runpy.run_path(sys.argv[0], run_name='__main__')",
+    ]
+    return "\n".join(lines)
 
 
 class Served:
-    """`view_panda.py --web` in a process of its own, ready to be looked at."""
+    """`view_panda.py` in a process of its own, ready to be looked at."""
 
-    def __init__(self, *arguments: str, robot: bool = True) -> None:
-        start = [str(SCRIPT)] if robot else ["-c", WITHOUT_ROBOT]
+    def __init__(
+        self, *arguments: str, robot: bool = True, work: Path = ROOT / "nobodys.py"
+    ) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, *start, "--web", *arguments],
+            [sys.executable, "-c", prepared(work, robot), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -51,7 +65,7 @@ class Served:
         assert self.process.stdout is not None
         for line in self.process.stdout:
             self.lines.append(line)
-            if found := re.search(r"http://127\.0\.0\.1:\d+", line):
+            if found := re.search(r"http://127\.0\.0\.1:\d+/\S+/", line):
                 self.ready.put(found[0])
         self.ready.put("")  # it ended
 
@@ -63,7 +77,12 @@ class Served:
     @property
     def port(self) -> int:
         """Where it listens."""
-        return int(self.url.rpartition(":")[2])
+        return int(re.search(r":(\d+)/", self.url)[1])  # type: ignore[index]
+
+    @property
+    def path(self) -> str:
+        """What makes the address a secret, "/.../"."""
+        return "/" + self.url.split("/", 3)[3]
 
     def press_ctrl_c(self) -> int:
         """Do so, and return the exit code."""

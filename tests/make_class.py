@@ -15,18 +15,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from submissions.catalogue import FOLDER as CATALOGUE
 from test_deliverables import png, worksheet
 
 from robo47 import metrics
+from robo47.checker.deliverables.rows import file_mark
 from robo47.lesson.day import find_day
 from robo47.lesson.starter import make_starter, put_back
 
 DAY = find_day(1)
 WEEK = DAY.folder.name
+CATALOGUE = DAY.own / "submissions"
 SOLVED = DAY.source.read_text("utf-8")
 STARTER = make_starter(SOLVED, "starter", 1)
 DEADLINE = 1_788_537_600  # 2026-09-04 16:00 UTC
+SCRIPT = f"{WEEK}/work/{DAY.script}"
+KIT = DAY.source.with_name("kit.py").read_text("utf-8")
 LOADED = 'if __name__ == "__main__":'
 FORMULA = "=SUM(A1,A9)"
 
@@ -34,8 +37,8 @@ Files = dict[str, bytes | str]
 
 
 def script(text: str | bytes) -> Files:
-    """Return a student's files with this lab script."""
-    return {f"{WEEK}/work/{DAY.script}": text}
+    """Return a student's files with this lab script, and what `make start` adds."""
+    return {SCRIPT: text, f"{WEEK}/work/kit.py": KIT}
 
 
 def wrong(name: str) -> Files:
@@ -55,23 +58,26 @@ def under_way(tasks: int) -> Files:
     return script(put_back(STARTER, SOLVED, tuple(names)))
 
 
-def all_handed_in(seed: int) -> Files:
-    """Return everything the day asks for but the script."""
+def all_handed_in(seed: int, own: Files) -> Files:
+    """Return everything the day asks for, with the rows that this script logged."""
+    source = own[SCRIPT]
+    mark = file_mark(source if isinstance(source, bytes) else source.encode())
     rng = np.random.default_rng(seed)
     picture = png(rng.integers(0, 256, (300, 400, 3), np.uint8))
     return {
         f"{WEEK}/{DAY.worksheet}": worksheet(DAY.terms),
         f"{WEEK}/{DAY.figure}": picture,
         "metrics/metrics.csv": ",".join(metrics.COLUMNS)
-        + "\nr,2026-09-01,1,fk_identity_check,,,,,,,inv_err,1e-16,"
-        + "\nr,2026-09-01,1,fk_by_hand,,,,,,,max_abs_err,1e-15,\n",
+        + f"\nr,2026-09-01,1,fk_identity_check,,,,,,,inv_err,1e-16,{mark}"
+        + f"\nr,2026-09-01,1,fk_by_hand,,,,,,,max_abs_err,1e-15,{mark}\n",
+        **own,
     }
 
 
-def some_handed_in(seed: int) -> Files:
-    """Return a part of what the day asks for."""
-    files = list(all_handed_in(seed).items())
-    return dict(files[: seed % 4])
+def some_handed_in(seed: int, own: Files) -> Files:
+    """Return a script and a part of what else the day asks for."""
+    files = list(all_handed_in(seed, own).items())
+    return {**dict(files[: seed % 4]), **own}
 
 
 def attack(line: str, where: str = "    T = np.eye(4)\n") -> Files:
@@ -88,7 +94,7 @@ def own_kit() -> Files:
     return {
         **under_way(2),
         **{name: passes for name in places if "work/numpy" not in name},
-        f"{WEEK}/week.toml": "number = 1\ntitle = 'Mine'\ndays = []\n",
+        f"{WEEK}/day1/day.toml": "number = 1\ntitle = 'Mine'\n",
         "Makefile": "check:\n\t@echo 8 of 8 PASSED\n",
     }
 
@@ -110,9 +116,9 @@ def Rz(theta):  # mine
 """
 
 KINDS: dict[str, Callable[[int], Files]] = {
-    "right": lambda i: {**script(SOLVED), **all_handed_in(i)},
-    "wrong inverse": lambda i: {**wrong("wrong/inverse_no_minus"), **all_handed_in(i)},
-    "under way": lambda i: {**under_way(1 + i % 7), **some_handed_in(i)},
+    "right": lambda i: all_handed_in(i, script(SOLVED)),
+    "wrong inverse": lambda i: all_handed_in(i, wrong("wrong/inverse_no_minus")),
+    "under way": lambda i: some_handed_in(i, under_way(1 + i % 7)),
     "not started": lambda i: script(STARTER),
     "no file": lambda i: {"notes.txt": "nothing yet"},
     "empty": lambda i: {},
@@ -127,7 +133,7 @@ KINDS: dict[str, Callable[[int], Files]] = {
     "no python": lambda i: script("Dear Sir,\n\nmy dog ate it.\n"),
     "binary": lambda i: script(random.Random(i).randbytes(5_000)),
     "no git": lambda i: script(SOLVED),
-    "corrupt git": lambda i: {**script(SOLVED), **all_handed_in(i)},
+    "corrupt git": lambda i: all_handed_in(i, script(SOLVED)),
     "300 MB": lambda i: script(SOLVED),
     "link loop": lambda i: {"notes.txt": "see work"},
     "uncommitted": lambda i: wrong("wrong/fk_reversed"),
@@ -169,7 +175,7 @@ def make_class(root: Path, number: int) -> dict[str, list[str]]:
     made: dict[str, list[str]] = {}
     for i in range(number):
         kind = list(KINDS)[i] if i < len(KINDS) else next(more)
-        known = KINDS.get(kind) or (lambda i, k=kind: {**wrong(k), **some_handed_in(i)})
+        known = KINDS.get(kind) or (lambda i, k=kind: some_handed_in(i, wrong(k)))
         odd = {**NAMES, **(NAMES_ON_WINDOWS if os.name == "nt" else {})}
         folder = odd.get(kind, f"student {i:04}") if i < len(KINDS) else f"s{i:04}"
         make_student(root / folder, kind, known(i), i)

@@ -1,22 +1,21 @@
-"""Student code that hangs, harms, forges or looks things up: none of it pays."""
+"""Student code that hangs, harms, forges or looks things up: none of it pays.
+
+What each wall keeps out once the guard is switched off is in test_walls.py.
+"""
 
 import os
-import subprocess
-import sys
 import time
 
-import numpy as np
 import pytest
 
-from robo47 import verify
-from robo47.checker import process, tasks, variant
+from robo47.checker import process, sandbox
 from robo47.checker.replies import Question
 from robo47.lesson.day import find_day
 from robo47.paths import METRICS_CSV, ROOT
 
+pytestmark = pytest.mark.kit
 DAY = find_day(1)
 REFERENCE = DAY.source.read_text("utf-8")
-LINUX = sys.platform.startswith("linux")
 
 
 def attack(line, after=""):
@@ -47,19 +46,18 @@ class TestAnAttack:
         assert verdicts["1.2"].status == "passed"
 
     def test_that_loops_forever_costs_its_own_tasks_only(self, check, monkeypatch):
-        monkeypatch.setattr(process, "CALL_SECONDS", 1.0)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
         verdicts = check(attack("while True: pass"))
         assert verdicts["1.1"].mistake == "stopped"
         assert "loop" in verdicts["1.1"].message
         assert verdicts["1.4"].status == "passed"
 
     def test_that_waits_a_little_at_every_call_is_stopped_too(self, ask, monkeypatch):
-        monkeypatch.setattr(process, "ALL_SECONDS", 1.0)
+        monkeypatch.setattr(sandbox, "TASK_SECONDS", 1.0)
         questions = [Question("1.1", "f", ())] * 50
-        started = time.monotonic()
         replies = ask("import time\ndef f(): time.sleep(0.2); return 1.0", *questions)
         assert replies[-1].kind == "stopped"
-        assert time.monotonic() - started < 9
+        assert replies[0].value == 1
 
     @pytest.mark.parametrize(
         "code",
@@ -100,7 +98,7 @@ class TestAnAttack:
         assert check(attack(code))["1.1"].mistake == "stopped"
 
     def test_that_closes_the_channel_and_goes_on_is_found_out(self, ask, monkeypatch):
-        monkeypatch.setattr(process, "CALL_SECONDS", 1.0)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
         (reply,) = ask(
             "import os\ndef f():\n    os.closerange(0, 64)\n    while True: 0"
         )
@@ -120,7 +118,7 @@ class TestAnAttack:
     )
     def test_with_an_object_that_equals_everything_passes_nothing(self, check, code):
         mischief = REFERENCE.replace("    return T\n", "    return E()\n", 1)
-        mischief = mischief.replace("HOME_Q =", f"{code}\nHOME_Q =", 1)
+        mischief = mischief.replace("READY_Q =", f"{code}\nREADY_Q =", 1)
         assert check(mischief)["1.1"].status == "wrong"
 
     @pytest.mark.parametrize(
@@ -129,13 +127,13 @@ class TestAnAttack:
             "np.allclose = np.array_equal = lambda *a, **k: True",
             "np.abs = lambda x: 0.0",
             "np.ndarray.__module__",
-            "sys.modules['robo47.diagnose'] = sys.modules['robo47.checker'] = None",
+            "import sys; sys.modules['robo47.checker'] = sys.modules['numpy'] = None",
             "import builtins; builtins.abs = builtins.max = lambda *a: 0.0",
         ],
     )
     def test_that_patches_numpy_or_the_checker_passes_nothing(self, check, patch):
         wrong = REFERENCE.replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
-        wrong = wrong.replace("HOME_Q =", f"{patch}\nHOME_Q =", 1)
+        wrong = wrong.replace("READY_Q =", f"{patch}\nREADY_Q =", 1)
         assert check(wrong)["1.1"].status == "wrong"
 
     @pytest.mark.parametrize(
@@ -143,8 +141,6 @@ class TestAnAttack:
         [
             f"return exec(open({str(DAY.source)!r}).read())",
             f"import shutil; shutil.copy({str(DAY.source)!r}, 'x.py')",
-            f"import sys; sys.path.insert(0, {str(DAY.source.parent)!r}); "
-            "del sys.modules['day1_transforms']; import day1_transforms",
         ],
     )
     def test_that_reads_the_reference_solution_is_refused(self, check, line):
@@ -170,9 +166,10 @@ class TestAnAttack:
         assert verdict.mistake == "not-by-hand"
         assert names in verdict.message
 
-    def test_that_digs_for_the_real_mujoco_is_refused(self, check):
+    def test_that_digs_for_the_real_mujoco_meets_the_fake_again(self, check):
         line = "import sys; del sys.modules['mujoco']; import mujoco"
-        assert check(attack(line))["1.1"].mistake == "refused"
+        line += "; mujoco.mj_forward(None, None)"
+        assert check(attack(line))["1.1"].mistake == "not-by-hand"
 
     @pytest.mark.parametrize(
         "code",
@@ -181,7 +178,6 @@ class TestAnAttack:
             "import socket\ndef f(): socket.create_connection(('127.0.0.1', 9))",
             "import gc\ndef f(): return gc.get_objects()",
             "import os\ndef f(): os.symlink('/', 'root')",
-            "import os\ndef f(): os.chdir('/')",
         ],
     )
     def test_that_leaves_python_is_refused(self, ask, code):
@@ -200,19 +196,6 @@ class TestAnAttack:
             assert ask(f"import os\ndef f(): {action}")[0].kind == "RefusedError"
         assert precious.read_text() == "mine"
 
-    def test_may_write_in_its_own_folder_which_is_gone_afterwards(self, ask):
-        code = """
-            import os
-            import numpy as np
-            def f():
-                open("notes.txt", "w").write("x")
-                return np.array(list(os.getcwd().encode()))
-        """
-        (reply,) = ask(code)
-        folder = bytes(reply.value.tolist()).decode()
-        assert "robo47-check-" in folder
-        assert not os.path.exists(folder)
-
     def test_on_the_metrics_file_leaves_it_as_it_is(self, check):
         before = METRICS_CSV.read_bytes()
         verdict = check(attack(f"open({str(METRICS_CSV)!r}, 'w')"))["1.1"]
@@ -226,59 +209,108 @@ class TestAnAttack:
         assert check(code)["1.1"].status == "wrong"
         assert not mark.exists()
 
-    def test_with_a_table_of_the_known_answers_is_found_at_fresh_angles(self, check):
-        q = np.array([q for _, q in (c.args for c in tasks.diagnose.calls("1.6"))])
-        T = verify.mujoco_poses(variant.models()[0], q)["site:attachment_site"]
-        code = f"""
-            import numpy as np
-            from numpy import array
-            Q, T = np.array({q.tolist()}), np.array({T.tolist()})
-            def compose_fk(model, q): return T[np.abs(Q - q).sum(1).argmin()]
-        """
-        assert check(code, "1.6")["1.6"].mistake == "looked-up"
 
-    @pytest.mark.skipif(not LINUX, reason="needs Linux's Landlock")
-    def test_below_pythons_audit_hooks_meets_the_kernel(self, tmp_path):
-        precious = tmp_path / "precious.txt"
-        precious.write_text("mine")
-        code = """
-import os, sys
-sys.path.insert(0, sys.argv[1])
-import landlock
-os.makedirs(sys.argv[2] + "/own")
-print(landlock.fence(sys.argv[2] + "/own", sys.path[1:]))
-open(sys.argv[2] + "/own/x", "w").write("x")
-for action in (
-    lambda: open(sys.argv[2] + "/precious.txt"),
-    lambda: open(sys.argv[2] + "/precious.txt", "w"),
-    lambda: os.remove(sys.argv[2] + "/precious.txt"),
-    lambda: os.truncate(sys.argv[2] + "/precious.txt", 0),
-    lambda: os.execv("/bin/sh", ["sh", "-c", "echo PASSED"]),
-):
-    try: action()
-    except PermissionError: print("no")
-"""
-        inside = str(ROOT / "robo47" / "checker" / "inside")
-        command = [sys.executable, "-c", code, inside, str(tmp_path)]
-        said = subprocess.run(
-            command, capture_output=True, text=True, check=True
-        ).stdout
-        if said.startswith("False"):
-            pytest.skip("needs a kernel with Landlock")
-        assert said.split() == ["True", *["no"] * 5]
-        assert precious.read_text() == "mine"
+class TestAForgedMessage:
+    """Code that finds the channel and its secret can say anything about itself."""
 
-    @pytest.mark.skipif(not LINUX, reason="needs Linux's network namespaces")
-    def test_has_no_network_below_python_either(self):
+    FIND = """
+        import json
+        import os
+        import sys
+        import time
+        def find():
+            frame = sys._getframe()
+            while "channel" not in frame.f_locals:
+                frame = frame.f_back
+            return frame.f_locals["channel"], frame.f_locals["request"]["secret"]
+        def send(text, times=1):
+            out, secret = find()
+            out.write((secret + text + "\\n").encode("ascii", "surrogatepass") * times)
+            out.flush()
+    """
+
+    @pytest.mark.parametrize(
+        "body",
+        [
+            "send('[1]')",
+            "send('{')",
+            "send('not json')",
+            "send(json.dumps({'loaded': True}))",
+            "send(json.dumps({'ready': True}))",
+            "send(json.dumps({'at': 7}))",
+            "send(json.dumps({'at': 'load'}))",
+            "send('[' * 200_000)",
+            "send('{\"at\": 0, \"value\": ' + '[' * 9000 + ']' * 9000 + '}')",
+            'send(\'{"at": 0, "value": {"array": {"dtype": "f8", \''
+            '\'"shape": [1e400], "data": ""}}}\')',
+            'send(\'{"at": 0, "value": {"array": {"dtype": [], '
+            '"shape": {}, "data": 5}}}\')',
+            "send('{\"at\": 0, \"line\": 1' + '0' * 5000 + '}')",
+            "find()[0].write(b'x' * 30_000_000); find()[0].flush()",
+            "send('{\"at\": 0}', times=100_000)",
+            "send(json.dumps({'loaded': True}), times=100_000)",
+            "find()[0].close(); time.sleep(60)",
+            "os.closerange(0, 64); time.sleep(60)",
+        ],
+    )
+    def test_costs_its_own_task_whatever_it_is(self, ask, body, monkeypatch):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 2.0)
+        code = f"{self.FIND}\n        def f(): {body}\n        def g(): return 47.0"
+        odd, fine = ask(code, Question("1.1", "f", ()), Question("1.2", "g", ()))
+        assert odd.kind in ("stopped", "unsendable", "")
+        assert odd.value is None
+        # Where the first is taken for an answer, the real one is one message too many.
+        assert fine.kind == "stopped" or fine.value == fine.again == 47
+
+    def test_while_the_file_is_loaded_does_not_make_the_checker_wait(self, ask):
         code = (
-            "import sys, socket; sys.path.insert(0, sys.argv[1]); import limits\n"
-            "print(limits.leave_network(), *[n for _, n in socket.if_nameindex()])"
+            self.FIND
+            + """
+        while True:
+            send(json.dumps({"loaded": True}))
+            time.sleep(0.2)
+        """
         )
-        inside = str(ROOT / "robo47" / "checker" / "inside")
-        command = [sys.executable, "-c", code, inside]
-        said = subprocess.run(
-            command, capture_output=True, text=True, check=True
-        ).stdout
-        if said.startswith("False"):
-            pytest.skip("needs a system that lets users make namespaces")
-        assert said.split() == ["True", "lo"]
+        (reply,) = ask(code)
+        assert reply.kind == "stopped"
+
+    def test_of_any_text_arrives_cut_and_harmless(self, ask):
+        code = """
+            class Odd(Exception):
+                def __str__(self): return TEXT
+            Odd.__name__ = "x" * 1_000_000
+            TEXT = "\\x1b]0;OWNED\\x07\\ud800\\u202e\\r\\n  1.1  make_T   passed"
+            TEXT += "y" * 10**6
+            def f():
+                print(TEXT)
+                raise Odd
+            def g(): open("/" + "x" * 1_000_000)
+        """
+        odd, long = ask(code, Question("1.1", "f", ()), Question("1.2", "g", ()))
+        for text in (odd.error, odd.kind, *long.refused, long.error):
+            assert text.isprintable()
+            assert len(text) < 600
+        assert odd.error.startswith("]0;OWNED ?")
+        assert all(line.isprintable() for line in odd.printed.splitlines())
+        assert len(odd.printed) < 10_000
+
+    def test_flood_between_two_rounds_is_bounded(self, student, monkeypatch):
+        from robo47.checker.model_copy import facts
+
+        code = (
+            self.FIND
+            + """
+        def f():
+            import atexit
+            return 1.0
+        def g():
+            send("{}", times=1_000_000)
+        """
+        )
+        with sandbox.Sandbox() as box:
+            session = box.session(student(code), [], facts())
+            session._process.ask([{"function": "g", "args": []}])
+            time.sleep(0.5)
+            assert session._process._in.qsize() <= process.MOST_WAITING
+            (reply,) = session.ask([Question("", "f", ())])
+            assert reply.kind == "stopped"

@@ -56,7 +56,7 @@ def done():
 
 def test_the_cube_is_put_where_it_should_be(done):
     result, _ = done
-    # measured 0.92 mm on 4.0.0 and ~1 on 3.3.0; limits are twice the measured
+    # measured 0.92 mm on 4.0.0, 0.96 on 3.3.0; limits are twice the measured
     assert result.place_mm < 2.0
     assert not result.failed
     assert result.lift == pytest.approx(0.34, abs=2e-3)
@@ -102,11 +102,12 @@ def test_every_function_gets_one_configuration_and_always_the_same_shapes(done):
 def test_with_gravity_forgotten_the_cube_is_still_placed_but_the_arm_is_far_off():
     fns, speed = capstone.ablations(capstone.library())["gravity forgotten"]
     result = capstone.pick(fns, speed=speed)
-    assert not result.failed  # measured 5.7 mm
+    assert not result.failed  # measured 5.7 mm on 4.0.0, 6.3 on 3.3.0
     assert result.joint_mrad > 30.0  # measured 68
     assert result.line_mm > 50.0  # measured 100
 
 
+@pytest.mark.soak
 def test_a_slippery_cube_is_dropped_as_predicted():
     model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, friction=0.3)
     result = capstone.pick(capstone.library(), model=model)

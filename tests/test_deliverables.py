@@ -1,15 +1,18 @@
 """What a day hands in: each item passes when it is done, and says what to do if not."""
 
+import hashlib
+import os
 import re
 import struct
 import subprocess
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from robo47 import metrics
-from robo47.checker.deliverables import check_deliverables
+from robo47.checker.deliverables import check_deliverables, item_names
 from robo47.checker.deliverables.figure import FlawError, read_png
 from robo47.checker.deliverables.worksheet import split_sections
 from robo47.lesson.day import find_day
@@ -70,11 +73,18 @@ def day(clone):
     (week / day.guide).write_text(GUIDE, "utf-8")
     log = clone / "metrics" / "metrics.csv"
     log.write_text(",".join(metrics.COLUMNS) + "\n")
+    notes = f"20,000 poses, file {file_hash(day.work)}"
     for row in day.metrics:
-        metrics.append_row(log, day=1, check=row.check, metric=row.metric, value=1e-15)
+        fields = {"check": row.check, "metric": row.metric, "value": 1e-15}
+        metrics.append_row(log, day=1, notes=notes, **fields)
     for command in (["init", "-q"], ["add", "-A"], ["commit", "-qm", "Day 1"]):
         git(clone, *command)
     return day
+
+
+def file_hash(path):
+    """Return what the lab adds to the notes of its rows; written out, as an oracle."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:8]
 
 
 def git(clone, *command):
@@ -150,7 +160,9 @@ def test_a_png_reads_back_as_its_pixels():
     [
         ("", "Still empty: pose"),
         ("> say it in your own words, in one or two sentences please", "Still empty"),
-        ("_in your own words, and in a sentence or two of your own_", "Still empty"),
+        ("_(in your own words, and in a sentence or two of your own)_", "Still empty"),
+        ("*(your words)*", "Still empty"),
+        ("bla " * 9, "Say it in a sentence (8 words): pose"),
         ("<!-- a sentence that explains what this is to a friend -->", "Still empty"),
         ("TODO write this when the lab is done and I know", "Still empty"),
         ("Where it is.", "Say it in a sentence (8 words): pose"),
@@ -291,13 +303,52 @@ def test_a_missing_or_unreadable_log_is_told_with_what_to_do(items, clone):
     assert items()["metrics"].status == "todo"
 
 
+def log_again(day, clone, notes, **more):
+    """Empty the log and write the day's rows with these notes."""
+    log = clone / "metrics" / "metrics.csv"
+    log.write_text(",".join(metrics.COLUMNS) + "\n")
+    for row in day.metrics:
+        fields = {"check": row.check, "metric": row.metric, "value": 1e-15, **more}
+        metrics.append_row(log, day=1, notes=notes, **fields)
+
+
+def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, clone):
+    day.work.write_text("x = 3\n")
+    assert "Your file has changed since it logged" in items()["metrics"].message
+    log_again(day, clone, f"file {file_hash(day.work)}")
+    assert items()["metrics"].passed
+    day.work.write_bytes(b"x = 3\r\n")  # as git writes it on Windows
+    assert items()["metrics"].passed
+    log_again(day, clone, f"file {file_hash(day.source)}")
+    assert "The kit's own run logged" in items()["metrics"].message
+    log_again(day, clone, f"file {file_hash(day.work)} and more")
+    assert "do not say that your file wrote them" in items()["metrics"].message
+    assert "make run DAY=1" in items()["metrics"].message
+
+
+def test_a_row_of_the_kits_after_the_students_changes_nothing(items, day, clone):
+    log = clone / "metrics" / "metrics.csv"
+    for row in day.metrics:
+        notes = f"file {file_hash(day.source)}"
+        fields = {"check": row.check, "metric": row.metric, "notes": notes}
+        metrics.append_row(log, day=1, value=1.0, **fields)
+    assert items()["metrics"].passed
+
+
+def test_a_row_with_failed_trials_is_no_success(items, day, clone):
+    notes = f"file {file_hash(day.work)}"
+    log_again(day, clone, notes, n_trials=10, n_failures=3)
+    assert "failed in 3 of 10 trials" in items()["metrics"].message
+    assert items()["metrics"].status == "wrong"
+
+
 def test_rows_count_only_once_the_tasks_pass(day, clone):
     before, after = (
         {item.name: item for item in check_deliverables(day, clone, tasks_pass=done)}
         for done in (False, True)
     )
     assert before["metrics"].status == "todo"
-    assert "rows in the log are the kit's" in before["metrics"].message
+    assert "rows count when your tasks pass" in before["metrics"].message
     assert after["metrics"].passed
 
 
@@ -309,9 +360,173 @@ def test_what_is_not_committed_is_named_with_the_command(items, day, clone):
     git(clone, "commit", "-qam", "again")
     assert items()["commit"].passed
     git(clone, "rm", "-q", "--cached", "metrics/metrics.csv")
+    git(clone, "commit", "-qm", "the log is gone")
     assert "metrics/metrics.csv" in items()["commit"].message
 
 
 def test_a_folder_without_git_is_told(items, clone):
     (clone / ".git").rename(clone / "nothing")
     assert "git init" in items()["commit"].message
+
+
+def test_what_the_script_imports_has_to_be_committed_too(items, day, clone):
+    day.work.write_text("import numpy\nfrom helpers import skew\n")
+    (day.work.parent / "helpers.py").write_text("def skew(v):\n    import deeper\n")
+    (day.work.parent / "deeper.py").write_text("")
+    (day.work.parent / "scratch.py").write_text("")
+    git(clone, "add", str(day.work))
+    git(clone, "commit", "-qm", "the script alone")
+    message = items()["commit"].message
+    assert "work/helpers.py" in message
+    assert "work/deeper.py" in message
+    assert "scratch" not in message
+    git(clone, "add", "-A")
+    git(clone, "commit", "-qm", "all of it")
+    assert items()["commit"].passed
+
+
+def test_a_drawing_that_is_not_committed_is_named(items, day, clone):
+    path = day.folder / day.worksheet
+    path.write_text(worksheet(day.terms, drawings=2) + "\n### Drawing 3\n![](s.jpg)\n")
+    (path.parent / "s.jpg").write_bytes(b"jpeg")
+    git(clone, "commit", "-qam", "the worksheet alone")
+    assert "w1-foundations/docs/s.jpg" in items()["commit"].message
+
+
+def test_a_clone_of_the_commit_gets_the_same_result_as_the_folder(items, day, clone):
+    day.work.write_text("import helpers\n")
+    (day.work.parent / "helpers.py").write_text("")
+    log_again(day, clone, f"file {file_hash(day.work)}")
+    git(clone, "add", "-A")
+    git(clone, "commit", "-qm", "Day 1")
+    here = items()
+    assert all(item.passed for item in here.values())
+    other = clone.parent / "other"
+    subprocess.run(["git", "clone", "-q", str(clone), str(other)], check=True)
+    there = check_deliverables(find_day(1, other), other)
+    assert {item.name: item for item in there} == here
+
+
+def test_what_is_not_there_is_not_called_uncommitted(items, day):
+    (day.folder / day.figure).unlink()
+    message = items()["commit"].message
+    assert f"Not there yet: {day.folder.name}/{day.figure}." in message
+    assert "Not committed" not in message
+    assert "--screenshot" in items()["figure"].message
+
+
+def test_without_git_on_the_machine_that_is_said(items, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    item = items()["commit"]
+    assert (item.status, item.passed) == ("todo", False)
+    assert "install git" in item.message
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "day1.md",
+        "errata.md",
+        "https://example.org/a.png",
+        "data:image/png;base64,AAAA",
+        "/etc/hostname.png",
+        "../../../outside.png",
+        "..\\..\\..\\outside.png",
+        "C:/outside.png",
+    ],
+)
+def test_a_picture_that_is_no_picture_of_the_students_does_not_count(
+    items, day, clone, address
+):
+    path = day.folder / day.worksheet
+    (clone.parent / "outside.png").write_bytes(b"png")
+    (path.parent / "errata.md").write_text("text")
+    text = worksheet(day.terms, drawings=2)
+    path.write_text(f"{text}\n### Drawing 3\n![x]({address})\n", "utf-8")
+    assert "Drawing 3: its image file is not there" in items()["drawings"].message
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "*where the hand is and how it is turned, all in one*",
+        "位姿是一个刚体的位置和姿态在同一个坐标系",
+    ],
+)
+def test_words_between_asterisks_or_without_spaces_are_words(items, day, words):
+    text = worksheet(day.terms, definition=words)
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    assert items()["definitions"].passed
+
+
+@pytest.mark.parametrize("box", ["[ x ]", "[X]", "[x ]"])
+def test_a_box_may_be_ticked_with_spaces(items, day, box):
+    text = worksheet(day.terms).replace("[x]", box)
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    assert items()["checklist"].passed
+
+
+HOSTILE = [
+    "<!--",
+    "![",
+    "![](",
+    "<img ",
+    " ",
+    "- [",
+    "- [ x",
+    "#",
+    "# #",
+    "1. ?",
+    "_x",
+    "*(",
+]
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("piece", HOSTILE)
+@pytest.mark.parametrize("end", ["", "\n"])
+def test_a_worksheet_of_anything_is_read(items, day, piece, end):
+    text = (piece * (1800 // len(piece)) + "x" + end) * 110
+    (day.folder / day.worksheet).write_text(f"## Checklist\n{text}"[:199_999], "utf-8")
+    assert not items()["definitions"].passed
+
+
+def test_a_worksheet_of_megabytes_is_not_read(items, day):
+    (day.folder / day.worksheet).write_text("x" * 300_000)
+    assert "at most 200 kB is looked at" in items()["checklist"].message
+
+
+def test_a_picture_that_inflates_without_end_is_refused(items, day):
+    data = bytearray(png(PICTURE))
+    flood = zlib.compress(b"\0" * 300_000_000)
+    body = b"IDAT" + flood
+    chunk = struct.pack(">I", len(flood)) + body + struct.pack(">I", zlib.crc32(body))
+    bomb = bytes(data[:33]) + chunk + bytes(data[-12:])
+    (day.folder / day.figure).write_bytes(bomb)
+    assert "cut off or damaged" in items()["figure"].message
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_in_the_place_of_a_file_does_not_stop_the_check(items, day, clone):
+    for path in (clone / "metrics" / "metrics.csv", day.folder / day.figure):
+        path.unlink()
+        os.mkfifo(path)
+    assert "is no file" in items()["metrics"].message
+    assert "is no file" in items()["figure"].message
+
+
+def test_text_of_the_students_cannot_look_like_ours(items, day):
+    text = worksheet(day.terms, ticked=" ").replace("ran it", "ran\x1b[2J \u202eit")
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    message = items()["checklist"].message
+    assert "\x1b" not in message
+    assert "\u202e" not in message
+
+
+def test_a_day_hands_in_what_its_manifest_names_and_no_more(day, clone):
+    bare = replace(day, figure="", worksheet="", metrics=())
+    assert [item.name for item in check_deliverables(bare, clone)] == ["commit"]
+    assert item_names(bare) == ["commit"]
+    assert item_names(day) == [item.name for item in check_deliverables(day, clone)]
+    words = replace(day, terms=(), questions=0, drawings=0)
+    assert item_names(words) == ["figure", "checklist", "metrics", "commit"]

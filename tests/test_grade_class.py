@@ -1,5 +1,6 @@
 """Grading a class as a program: the generated class, killed, resumed, and again."""
 
+import contextlib
 import csv
 import io
 import json
@@ -11,12 +12,17 @@ import sys
 import time
 from collections import Counter
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
 
+from robo47.checker.wall import Wall
+from robo47.errors import Robo47Error
+from robo47.grading.journal import Journal
 from robo47.paths import ROOT
 
+pytestmark = pytest.mark.kit
 LINUX = sys.platform.startswith("linux")  # where memory has a limit, not a watch
 WINDOWS = sys.platform == "win32"
 SCRIPT = "scripts/grade_class.py"
@@ -38,10 +44,10 @@ EXPECTED = {
     "names the time": (3, "1.1 raises", ""),
     "own kit": (2, "", ""),
     "no python": (0, "1.1 does-not-load", "SyntaxError"),
-    "binary": (0, "1.1 does-not-load", "null bytes"),
+    "binary": (0, "1.1 does-not-load", "not in UTF-8"),
     "no git": (ALL, "", ""),
     "corrupt git": (ALL, "", ""),
-    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB; at most 1 MB is looked at"),
+    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB, at most 1 MB is looked at"),
     "link loop": (0, "1.1 does-not-load", "no file" if WINDOWS else "behind a link"),
     "uncommitted": (ALL, "", ""),
     "git with a program": (ALL, "", ""),
@@ -52,7 +58,8 @@ EXPECTED = {
 
 def grade(run, root, out, *arguments, **options):
     """Grade a class; return the finished process."""
-    done = run(SCRIPT, root, "--out", out / "grades.csv", *arguments, **options)
+    fixed = ("--out", out / "grades.csv", "--i-know-them")  # CI may be root
+    done = run(SCRIPT, root, *fixed, *arguments, **options)
     assert "Traceback" not in done.stderr, done.stderr
     return done
 
@@ -82,7 +89,7 @@ def kill_at(root, out, number, *arguments):
     """Start grading and kill it, as `kill -9` does, once so many are graded."""
     command = [sys.executable, str(ROOT / SCRIPT), str(root), *arguments]
     process = subprocess.Popen(
-        [*command, "--out", str(out / "grades.csv")],
+        [*command, "--out", str(out / "grades.csv"), "--i-know-them"],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
@@ -109,7 +116,13 @@ def graded(place):
     """The class, graded once in one go, by one process."""
     folder, kinds = place
     command = [sys.executable, str(ROOT / SCRIPT), str(folder / "clones")]
-    command += ["--out", str(folder / "out" / "grades.csv"), "--processes", "1"]
+    command += [
+        "--out",
+        str(folder / "out" / "grades.csv"),
+        "--processes",
+        "1",
+        "--i-know-them",
+    ]
     done = subprocess.run(
         [*command, "--deadline", "2026-09-04T16:00:00+00:00"],
         capture_output=True,
@@ -144,9 +157,9 @@ class TestTheClass:
     def test_counts_minutes_from_the_last_commit_to_the_deadline(self, graded):
         _, out, kinds, _ = graded
         found = rows(out)
-        assert found[kinds["right"]]["minutes_since_commit"] == "0"
-        assert found[kinds["wrong inverse"]]["minutes_since_commit"] == "61"
-        assert found[kinds["empty"]]["minutes_since_commit"] == ""
+        assert found[kinds["right"]]["minutes_since_commit_own_clock"] == "0"
+        assert found[kinds["wrong inverse"]]["minutes_since_commit_own_clock"] == "61"
+        assert found[kinds["empty"]]["minutes_since_commit_own_clock"] == ""
 
     def test_runs_nothing_that_a_clone_asks_git_or_python_to_run(self, graded, place):
         _, out, kinds, _ = graded
@@ -192,15 +205,21 @@ class TestTheClass:
         page = (graded[1] / "class.html").read_text("utf-8")
         alike = page[page.index("Similar submissions") : page.index("Everyone")]
         _, _, kinds, _ = graded
-        assert kinds["copied"] in alike
-        assert kinds["copyist"] in alike
-        assert kinds["wrong inverse"] not in alike
+        kits = [li for li in alike.split("<li>") if "the kit's solution, " in li]
+        pairs = [li for li in alike.split("<li>")[1:] if li not in kits]
+        assert any(kinds["copied"] in li and kinds["copyist"] in li for li in pairs)
+        assert not any(kinds["wrong inverse"] in li for li in pairs)
+        assert any(
+            kinds["right"] in li for li in kits
+        )  # it is the kit's, to the letter
+        assert not any(kinds["not started"] in li for li in kits)
 
     def test_is_told_in_a_few_lines(self, graded):
         lines = graded[3].splitlines()
-        assert lines[0].startswith(f"Day 1, {len(KINDS)} students: 7 done")
-        assert lines[1] == f"graded now: {len(KINDS)}; unchanged since: 0"
-        assert "class.html and feedback/" in lines[-1]
+        assert lines[0].startswith("wall: ")
+        assert lines[1].startswith(f"Day 1, {len(KINDS)} students: 7 done")
+        assert lines[2] == f"graded now: {len(KINDS)}; unchanged since: 0"
+        assert lines[-1].endswith("class.html")
 
 
 class TestGradingAgain:
@@ -247,7 +266,7 @@ class TestChanges:
         commit(clones / "student 0001", DEADLINE + 60)
         done = grade(run, clones, out, "--deadline", "2026-09-04T16:00:00+00:00")
         assert "graded now: 1; unchanged since: 2" in done.stdout
-        assert rows(out)["student 0001"]["minutes_since_commit"] == "-1"
+        assert rows(out)["student 0001"]["minutes_since_commit_own_clock"] == "-1"
 
     def test_an_uncommitted_change_counts_too(self, small, run):
         clones, out = small
@@ -264,9 +283,9 @@ class TestChanges:
         grade(run, clones, out, "--deadline", first)
         done = grade(run, clones, out, "--deadline", "2026-09-04T16:30:00+00:00")
         assert "graded now: 0" in done.stdout
-        assert rows(out)["student 0001"]["minutes_since_commit"] == "91"
+        assert rows(out)["student 0001"]["minutes_since_commit_own_clock"] == "91"
         grade(run, clones, out)
-        assert rows(out)["student 0001"]["minutes_since_commit"] == "91"
+        assert rows(out)["student 0001"]["minutes_since_commit_own_clock"] == "91"
 
     def test_again_grades_everybody(self, small, run):
         grade(run, *small)
@@ -323,11 +342,126 @@ class TestTheRoster:
             config.write('[core]\n\tsshCommand = "touch pwned"\n')
         done = grade(run, clones, out, "--pull")
         assert rows(out)["two"]["tasks_passed"] == str(ALL)
-        assert "core.sshcommand, which may run" in rows(out)["zoe"]["error"]
+        assert "git configuration was changed since" in rows(out)["zoe"]["error"]
+        assert not (clones / "zoe" / "pwned").exists()
         assert rows(out)["zoe"]["tasks_passed"] == str(ALL)
 
 
+class TestNamesThatLead:
+    def test_out_of_the_folder_of_feedback_do_not(self, small, run):
+        clones, out = small
+        odd = [
+            "../../escaped",
+            "/etc",
+            "./student 0001",
+            "student 0001/",
+            "a/b",
+            "c\\b",
+        ]
+        text = "name,folder\n" + "".join(f"M,{name}\n" for name in odd)
+        (clones / "roster.csv").write_text(text + "S,student 0001\n")
+        before = set(out.parent.rglob("*"))
+        assert grade(run, clones, out).returncode == 0
+        made = {p for p in out.parent.rglob("*") if p.is_file()} - before
+        assert {p.parent for p in made} <= {out, out / "feedback"}
+        assert len(list((out / "feedback").iterdir())) == len(odd) + 1
+        assert (out / "feedback" / "student 0001.txt").read_text().startswith("S\n")
+
+
+class TestFaultsOfTheMachine:
+    @pytest.mark.skipif(not LINUX, reason="needs prlimit")
+    def test_are_no_result_and_tried_again(self, small, run):
+        """Nothing but the few bytes of the table and the journal can be written."""
+        import resource
+
+        clones, out = small
+        grade(run, clones, out, "--processes", 1)
+        for path in out.rglob("*.*"):
+            path.unlink()
+        hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
+        full = "import resource, runpy, sys, tempfile\n"
+        full += "from robo47.grading import grader\n"
+        full += "start = grader.subprocess.Popen\n"
+        full += "def limited(*a, **k):\n"
+        full += "    it = start(*a, **k)\n"
+        full += f"    resource.prlimit(it.pid, resource.RLIMIT_FSIZE, (0, {hard}))\n"
+        full += "    return it\n"
+        full += "grader.subprocess.Popen = limited\n"
+        full += f"sys.argv = ['grade', {str(clones)!r}, '--i-know-them',"
+        full += f" '--out', {str(out / 'grades.csv')!r}]\n"
+        full += f"sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
+        full += f"runpy.run_path({str(ROOT / SCRIPT)!r}, run_name='__main__')\n"
+        done = subprocess.run(
+            [sys.executable, "-c", full],
+            capture_output=True,
+            encoding="utf-8",
+            timeout=300,
+            check=False,
+        )
+        assert done.returncode == 1, done.stderr
+        assert "this machine failed: 3; run the same command again" in done.stdout
+        assert "this machine failed (" in rows(out)["student 0001"]["error"]
+        assert set(journalled(out)) == {None}
+        done = grade(run, clones, out)
+        assert done.returncode == 0
+        assert "graded now: 3; unchanged since: 0" in done.stdout
+        assert rows(out)["Zoë Ångström"]["tasks_passed"] == str(ALL)
+
+
+class TestWhoMayGrade:
+    """Strangers' code runs behind a wall, in a container, or because one says so."""
+
+    @pytest.fixture
+    def asked(self, monkeypatch):
+        monkeypatch.syspath_prepend(str(ROOT / "scripts"))
+        import grade_class
+
+        def ask(wall, *, root=False, container=False, words=()):
+            stands = Wall(wall, f"it is {wall}")
+            monkeypatch.setattr(grade_class, "wall", lambda: stands)
+            monkeypatch.setattr(grade_class, "in_container", lambda: container)
+            monkeypatch.setattr(
+                os, "geteuid", lambda: 0 if root else 1000, raising=False
+            )
+            monkeypatch.setattr(sys, "argv", ["grade_class.py", "class", *words])
+            grade_class.admit(grade_class.parse())
+
+        return ask
+
+    @pytest.mark.parametrize("wall", ["bubblewrap", "landlock", "none"])
+    def test_root_may_not_outside_a_container(self, asked, wall, capsys):
+        with pytest.raises(Robo47Error, match=r"you are root.*--i-know-them"):
+            asked(wall, root=True)
+        assert capsys.readouterr().out == f"wall: it is {wall}\n"
+        asked(wall, root=True, container=True)
+        asked(wall, root=True, words=["--i-know-them"])
+
+    def test_without_a_wall_one_is_asked(self, asked):
+        with pytest.raises(Robo47Error, match="with your rights: use a container"):
+            asked("none")
+        asked("none", words=["--i-know-them"])
+        asked("none", container=True)
+        asked("bubblewrap")
+        asked("landlock")
+
+
 class TestMistakesOfTheTeacher:
+    def test_a_deadline_that_is_a_day_means_its_end(self, small, run):
+        clones, out = small
+        grade(run, clones, out, "--deadline", "2026-09-04", TZ="UTC")
+        # the last commit is at 16:00 of that day, and eight hours are left of it
+        assert rows(out)["Zoë Ångström"]["minutes_since_commit_own_clock"] == "480"
+
+    def test_two_at_once(self, small, run):
+        clones, out = small
+        out.mkdir()
+        with contextlib.closing(
+            Journal(out / "grading.jsonl", [DAY], 0, deadline=True)
+        ):
+            done = grade(run, clones, out)
+        assert done.returncode == 2
+        assert "another make grade is at work there" in done.stderr
+
     def test_a_folder_that_is_none_or_is_a_clone(self, tmp_path, run):
         assert "is no folder" in grade(run, tmp_path / "none", tmp_path).stderr
         assert "is itself a clone" in grade(run, ROOT, tmp_path).stderr
@@ -336,11 +470,11 @@ class TestMistakesOfTheTeacher:
     def test_another_day_in_the_same_place(self, small, run):
         clones, out = small
         out.mkdir()
-        head = {"kind": "robo47 grading", "day": 2, "reference": 0, "deadline": False}
+        head = {"kind": "robo47 grading", "days": [2], "reference": 0}
         (out / "grading.jsonl").write_text(json.dumps(head))
         done = grade(run, clones, out)
         assert done.returncode == 2
-        assert "holds day 2: give day 1 a folder of its own" in done.stderr
+        assert "holds day 2: give each day a folder of its own" in done.stderr
 
     def test_a_place_that_cannot_be_written(self, small, run):
         clones, out = small
@@ -402,7 +536,12 @@ def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, widt
 
 def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
     page = (graded[1] / "class.html").read_text("utf-8")
-    assert not re.search(r"https?:|href=|url\(|@import|<script|<link|<img", page)
+    assert not re.search(r"https?:|url\(|@import|<script|<link|<img", page)
+    links = re.findall(r'href="([^"]*)"', page)
+    assert len(links) >= len(KINDS)
+    for link in links:  # to the students' own files, and nowhere else
+        assert re.fullmatch(r"feedback/[^/:]*\.txt", link)
+        assert (graded[1] / unquote(link)).is_file()
     assert "&lt;img src=x onerror=alert(1)&gt;" in page
 
 

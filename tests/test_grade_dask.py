@@ -15,6 +15,7 @@ from test_grade_class import SCRIPT, grade, journalled, outputs, rows
 from conftest import need
 from robo47.paths import ROOT
 
+pytestmark = pytest.mark.kit
 DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
 
 

@@ -1,6 +1,8 @@
 """The parts of grading: what is read, what travels, what is kept, what counts."""
 
+import contextlib
 import os
+import shutil
 import subprocess
 import sys
 from collections import Counter
@@ -10,21 +12,35 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
-from make_class import DAY, ODD_WAY, SOLVED, STARTER, WEEK, own_way, renamed
+from make_class import (
+    DAY,
+    ODD_WAY,
+    SOLVED,
+    STARTER,
+    WEEK,
+    commit,
+    own_way,
+    renamed,
+    script,
+)
 
-from robo47.checker.deliverables import check_deliverables
+from robo47.checker.deliverables import check_deliverables, git, handin, item_names
+from robo47.checker.deliverables.handin import Handin
 from robo47.errors import Robo47Error
-from robo47.grading import bars, collect, engine, history, kit, overview, similar
-from robo47.grading.feedback import feedback_path
+from robo47.grading import charts, engine, overview, similar
+from robo47.grading.child import _tidy
 from robo47.grading.grader import Grader, grade_package
 from robo47.grading.journal import Journal
-from robo47.grading.package import Package
-from robo47.grading.result import ITEMS, Mark, Result, from_json, ungraded
-from robo47.grading.roster import Student
+from robo47.grading.package import Package, collect, fingerprint, unpack
+from robo47.grading.pull import OURS, pull_all
+from robo47.grading.result import FaultError, Mark, Result, from_json, ungraded
+from robo47.grading.roster import Student, file_names, find_students
 from robo47.grading.sheet import Graded, plain
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
 SCRIPT = f"{WEEK}/work/{DAY.script}"
+ITEMS = tuple(item_names(DAY))
 links = pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
 
 
@@ -51,18 +67,19 @@ class TestWhatIsRead:
 
     def test_is_the_script_and_the_modules_beside_it_and_no_other_file(self, clone):
         work = clone / WEEK / "work"
-        for name in ("helper.py", "no name.py", "notes.txt", "day1.py.bak"):
+        (clone / SCRIPT).write_text("import helper, notes, day1")
+        for name in ("helper.py", "no name.py", "notes.txt", "day1.py.bak", "day2.py"):
             (work / name).write_text("y = 2")
         (clone / "robo47").mkdir()
         (clone / "robo47" / "__init__.py").write_text("evil")
         (clone / WEEK / "week.toml").write_text("evil")
-        files = collect.collect(student(clone), DAY).files
+        files = collect(student(clone), DAY).handin.files
         assert sorted(files) == [SCRIPT, f"{WEEK}/work/helper.py"]
 
     def test_is_nothing_beyond_its_limit(self, clone):
         with (clone / SCRIPT).open("wb") as file:
-            file.truncate(collect.SCRIPT + 1)
-        package = collect.collect(student(clone), DAY)
+            file.truncate(handin.LIMITS["script"] + 1)
+        package = collect(student(clone), DAY).handin
         assert package.files == {}
         assert "at most 1 MB is looked at" in package.unread[SCRIPT]
 
@@ -72,7 +89,7 @@ class TestWhatIsRead:
         real = tmp_path / "elsewhere"
         (clone / linked).rename(real)
         (clone / linked).symlink_to(real)
-        package = collect.collect(student(clone), DAY)
+        package = collect(student(clone), DAY).handin
         assert package.files == {}
         assert "is behind a link" in package.unread[SCRIPT]
 
@@ -80,7 +97,7 @@ class TestWhatIsRead:
     def test_is_no_pipe_that_would_wait_for_ever(self, clone):
         (clone / SCRIPT).unlink()
         os.mkfifo(clone / SCRIPT)
-        assert collect.collect(student(clone), DAY).unread == {SCRIPT: "is no file"}
+        assert collect(student(clone), DAY).handin.unread == {SCRIPT: "is no file"}
 
     def test_says_of_the_worksheets_pictures_only_that_they_are_there(self, clone):
         sheet = clone / WEEK / DAY.worksheet
@@ -91,35 +108,39 @@ class TestWhatIsRead:
             "![](../my%20pic.jpg) ![](../../../secret.jpg) ![](/etc/passwd)\n" * 3
             + "![" * 200_000
         )
-        files = collect.collect(student(clone), DAY).files
-        pictures = {n: d for n, d in files.items() if n not in (SCRIPT, sheet)}
-        pictures.pop(f"{WEEK}/{DAY.worksheet}")
-        assert pictures == {f"{WEEK}/my pic.jpg": b"x"}
+        assert sheet.stat().st_size > handin.LIMITS["worksheet"]
+        assert collect(student(clone), DAY).handin.pictures == {}
+        sheet.write_text(sheet.read_text()[:150_000])
+        found = collect(student(clone), DAY).handin
+        assert found.pictures == {f"{WEEK}/my pic.jpg": False}
+        assert sorted(found.files) == [f"{WEEK}/{DAY.worksheet}", SCRIPT]
 
-    def test_takes_along_a_picture_that_is_the_kits_own(self, clone):
+    def test_says_of_a_picture_whether_it_is_the_kits_own(self, clone):
         kits = next(p for p in (DAY.folder / n for n in DAY.kit_figures) if p.is_file())
         sheet = clone / WEEK / DAY.worksheet
         sheet.parent.mkdir()
         (clone / WEEK / "mine.png").write_bytes(kits.read_bytes())
         sheet.write_text("![](../mine.png)")
-        files = collect.collect(student(clone), DAY).files
-        assert files[f"{WEEK}/mine.png"] == kits.read_bytes()
+        assert collect(student(clone), DAY).handin.pictures == {
+            f"{WEEK}/mine.png": True
+        }
 
     def test_a_repository_around_the_clone_is_not_the_students(self, clone):
         subprocess.run(["git", "init", "-q"], cwd=clone, check=True)
         (clone / "inner").mkdir()
-        assert not history.read_history(clone / "inner", [SCRIPT]).readable
-        empty = history.read_history(clone, [SCRIPT])
+        assert not git.read_history(clone / "inner", [SCRIPT]).readable
+        empty = git.read_history(clone, [SCRIPT])
         assert (empty.readable, empty.commit) == (True, "")
 
 
 class TestWhatTravels:
     def test_has_another_fingerprint_as_soon_as_anything_differs(self):
-        package = Package(1, "kit", {"a": b"1"}, commit="c")
+        package = Package(1, "kit", Handin({"a": b"1"}), commit="c")
         others = [
-            replace(package, files={"a": b"2"}),
-            replace(package, files={"b": b"1"}),
-            replace(package, unread={"b": "is a link"}),
+            replace(package, handin=Handin({"a": b"2"})),
+            replace(package, handin=Handin({"b": b"1"})),
+            replace(package, handin=Handin({"a": b"1"}, {"b": "is a link"})),
+            replace(package, handin=Handin({"a": b"1"}, pictures={"b": False})),
             replace(package, commit="d"),
             replace(package, committed=5),
             replace(package, problem="?"),
@@ -131,9 +152,10 @@ class TestWhatTravels:
     def test_never_leads_out_of_its_folder(self, tmp_path):
         inside = tmp_path / "inside"
         inside.mkdir()
-        names = ("../out.py", "/out.py", "a/../../out.py", "a\0b", "x" * 999, "good/b")
-        Package(1, "", dict.fromkeys(names, b"1")).unpack(inside)
-        assert [p.name for p in tmp_path.rglob("*") if p.is_file()] == ["b"]
+        names = ("../out.py", "/out.py", "a\0b.py", "..\\x.py", "D:/b", "w/work/b.py")
+        unpack(Package(1, "", Handin(dict.fromkeys(names, b"1"))), inside)
+        made = [p.relative_to(tmp_path) for p in tmp_path.rglob("*") if p.is_file()]
+        assert sorted(map(str, made)) == ["inside/b.py", "inside/out.py"]
 
 
 def test_the_table_has_a_column_for_each_deliverable_of_the_checker(clone):
@@ -142,16 +164,38 @@ def test_the_table_has_a_column_for_each_deliverable_of_the_checker(clone):
 
 
 class TestTheGrader:
-    def test_says_so_where_grading_takes_too_long_or_crashes(self):
+    @pytest.fixture
+    def closed(self):
+        """Return what sees to it that a grader is closed after the test."""
+        with contextlib.ExitStack() as stack:
+            yield lambda grader: stack.enter_context(contextlib.closing(grader))
+
+    def test_calls_it_a_fault_where_grading_takes_too_long_or_is_killed(self):
         grader = Grader()
-        late = grader.grade(Package(1, "", {SCRIPT: SOLVED.encode()}), seconds=0.001)
-        assert "took more than 0 s" in late.error
+        package = Package(1, "", Handin({SCRIPT: SOLVED.encode()}))
+        with pytest.raises(FaultError, match="took more than 0 s"):
+            grader.grade(package, seconds=0.001)
         assert not grader.alive
         assert not Path(grader.folder).exists()
         grader = Grader()
         grader.process.kill()
         grader.process.wait()
-        assert "it crashed" in grader.grade(Package(1, "")).error
+        with pytest.raises(FaultError, match="was killed"):
+            grader.grade(Package(1, ""))
+
+    @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs prlimit")
+    def test_calls_it_a_fault_where_the_machine_has_no_room(self, closed):
+        import resource
+
+        grader, size = closed(Grader()), resource.RLIMIT_FSIZE
+        files = {name: text.encode() for name, text in script(SOLVED).items()}
+        package = Package(1, "", Handin(files))
+        hard = resource.prlimit(grader.process.pid, size)[1]
+        resource.prlimit(grader.process.pid, size, (0, hard))  # as on a full disk
+        with pytest.raises(FaultError, match=r"temporary dir|File too large"):
+            grader.grade(package)
+        resource.prlimit(grader.process.pid, size, (hard, hard))
+        assert grader.grade(package).tasks[0].passed
 
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):
@@ -181,7 +225,7 @@ class Stubborn(Executor):
 
 
 class TestTheEngine:
-    PACKAGES: ClassVar = [("ana", Package(1, "")), ("béa", Package(1, ""))]
+    PACKAGES: ClassVar = [((1, n), Package(1, "")) for n in ("ana", "béa")]
 
     def test_gives_up_in_a_line_where_no_worker_comes(self, monkeypatch):
         monkeypatch.setattr(engine, "PATIENCE", 0.01)
@@ -190,10 +234,11 @@ class TestTheEngine:
             list(engine.grade_all(self.PACKAGES, nobody))
 
     def test_hands_on_what_was_lost_and_goes_on(self):
-        lossy = engine.Engine(Stubborn(KeyError("killed")), lambda: 1, KeyError)
-        found = list(engine.grade_all(self.PACKAGES, lossy))
-        assert sorted(key for key, _, _ in found) == ["ana", "béa"]
-        assert all(isinstance(result, engine.LostError) for _, _, result in found)
+        for error in (KeyError("killed"), FaultError("full")):
+            lossy = engine.Engine(Stubborn(error), lambda: 1, KeyError)
+            found = list(engine.grade_all(self.PACKAGES, lossy))
+            assert sorted(key for key, _, _ in found) == [(1, "ana"), (1, "béa")]
+            assert all(isinstance(result, FaultError) for _, _, result in found)
 
     def test_takes_packages_only_as_there_is_room(self):
         taken = []
@@ -201,7 +246,7 @@ class TestTheEngine:
         def packages():
             for i in range(20):
                 taken.append(i)
-                yield str(i), Package(1, kit.fingerprint(), problem="nobody")
+                yield (1, str(i)), Package(1, fingerprint(1), problem="nobody")
 
         with engine.local(1) as here:
             next(engine.grade_all(packages(), here))
@@ -209,9 +254,11 @@ class TestTheEngine:
 
 
 class TestTheJournal:
+    PACKAGE = Package(1, "k", Handin({"a": b"1"}))
+
     def test_keeps_results_and_survives_a_line_cut_anywhere(self, tmp_path):
-        path, package = tmp_path / "j", Package(1, "k", {"a": b"1"})
-        journal = Journal(path, 1, 99, deadline=False)
+        path, package = tmp_path / "j", self.PACKAGE
+        journal = Journal(path, [DAY], 99, deadline=False)
         journal.keep("ana", package, ungraded(DAY, "why"))
         journal.keep("béa", package, ungraded(DAY, "\ud800"))
         journal.close()
@@ -219,20 +266,199 @@ class TestTheJournal:
         last = whole.rindex(b"\n")
         for cut in (last, last + 1, last + 2, len(whole) - 1):
             path.write_bytes(whole[:cut])
-            resumed = Journal(path, 1, 5, deadline=False)
+            resumed = Journal(path, [DAY], 5, deadline=False)
             assert resumed.reference == 99
             assert resumed.find("ana", package) == ungraded(DAY, "why")
             assert resumed.find("béa", package) is None
             resumed.keep("cy", package, ungraded(DAY, "c"))
             resumed.close()
-            again = Journal(path, 1, 5, deadline=False)
+            again = Journal(path, [DAY], 5, deadline=False)
             assert again.find("cy", package) == ungraded(DAY, "c")
             assert again.find("cy", replace(package, commit="new")) is None
+            assert again.odd == (cut > last + 1)
             again.close()
 
+    def test_uses_no_result_of_another_kit(self, tmp_path):
+        journal = Journal(tmp_path / "j", [DAY], 99, deadline=False)
+        journal.keep("ana", self.PACKAGE, ungraded(DAY, "why"))
+        assert journal.find("ana", replace(self.PACKAGE, kit="new")) is None
+        assert journal.outdated == 1
+        journal.close()
+
+    def test_keeps_the_days_apart(self, tmp_path):
+        days = [DAY, replace(DAY, number=2)]
+        journal = Journal(tmp_path / "j", days, 99, deadline=False)
+        journal.keep("ana", self.PACKAGE, ungraded(DAY, "one"))
+        journal.keep("ana", replace(self.PACKAGE, day=2), ungraded(DAY, "two"))
+        journal.close()
+        again = Journal(tmp_path / "j", days, 99, deadline=False)
+        assert again.find("ana", self.PACKAGE) == ungraded(DAY, "one")
+        assert again.find("ana", replace(self.PACKAGE, day=2)) == ungraded(DAY, "two")
+        again.close()
+
+    @pytest.mark.parametrize(
+        ("old", "new"),
+        [
+            ('"ungraded"', '"splendid"'),
+            ('"id": "1.8"', '"id": "1.9"'),
+            ('"id": "commit"', '"id": "poem"'),
+            ('"text": "', '"text": 5, "x": "'),
+            ('"error": "why"', '"error": ["why"]'),
+            ('"package": "', '"package": null, "x": "'),
+            ('"day": 1', '"day": 7'),
+            ('"result": {', '"result": ' + "[" * 100_000 + "{"),
+        ],
+    )
+    def test_leaves_out_what_is_no_result_of_the_day(self, tmp_path, old, new):
+        path = tmp_path / "j"
+        journal = Journal(path, [DAY], 99, deadline=False)
+        journal.keep("ana", self.PACKAGE, ungraded(DAY, "why"))
+        journal.close()
+        head, line = path.read_text().strip().split("\n")
+        assert old in line
+        path.write_text(f"{head}\n{line.replace(old, new)}")
+        again = Journal(path, [DAY], 5, deadline=False)
+        assert (again.find("ana", self.PACKAGE), again.odd) == (None, 1)
+        again.close()
+
+    @pytest.mark.parametrize("reference", ["1e30", "-5", '"x"', "true", "null"])
+    def test_starts_anew_where_its_head_means_nothing(self, tmp_path, reference):
+        path = tmp_path / "j"
+        head = f'{{"kind": "robo47 grading", "days": [1], "reference": {reference}}}'
+        path.write_text(head)
+        journal = Journal(path, [DAY], 47, deadline=False)
+        assert (journal.reference, journal.odd) == (47, 1)
+        journal.close()
+
+    def test_lets_one_coordinator_in(self, tmp_path):
+        first = Journal(tmp_path / "j", [DAY], 99, deadline=False)
+        with pytest.raises(Robo47Error, match="another make grade is at work there"):
+            Journal(tmp_path / "j", [DAY], 99, deadline=False)
+        first.close()
+        Journal(tmp_path / "j", [DAY], 99, deadline=False).close()
+
     def test_results_come_back_as_they_were(self):
-        one = ungraded(DAY, "why")
-        assert from_json(one.to_json()) == Result(**{**vars(one)})
+        one = replace(ungraded(DAY, "why"), refused=("open a file",))
+        assert from_json(one.to_json(), DAY) == Result(**{**vars(one)})
+
+
+class TestNames:
+    def test_never_leave_their_folder_and_are_never_alike(self):
+        odd = [
+            "../../escaped",
+            "/etc",
+            "./ada",
+            "ada/",
+            "ada",
+            "ADA",
+            "a\\b",
+            "a_b",
+            "",
+        ]
+        odd += ["..", "CON", "con.txt", "D:x", "x.", "x", "n\0l", "ñ" * 120, "ñ" * 121]
+        odd += ["\udc80", "\u202eabc", "a/b", "c/b"]
+        names = file_names(odd)
+        assert set(names) == set(odd)
+        folded = {name.casefold() for name in names.values()}
+        assert len(folded) == len(odd)
+        for name in names.values():
+            assert not set('/\\:*?"<>|\0') & set(name)
+            assert name not in ("", ".", "..")
+            assert len(name.encode()) < 200
+
+    def test_stay_as_they_are_where_every_system_takes_them(self):
+        plain = ["ana", "Zoë Ångström", "名前 山田", "-rf"]
+        assert file_names(plain) == dict(zip(plain, plain, strict=True))
+
+    def test_of_a_roster_that_csv_cannot_read_end_in_a_line(self, tmp_path):
+        (tmp_path / "roster.csv").write_text(f'folder,name\na,"{"x" * 200_000}"\n')
+        with pytest.raises(Robo47Error, match=r"roster\.csv, line 2: field larger"):
+            find_students(tmp_path)
+        (tmp_path / "roster.csv").write_text("folder\na\0b\n")
+        (one,) = find_students(tmp_path)
+        assert "is no name of a folder" in one.problem
+
+
+class TestPulling:
+    """Only what this program cloned is updated."""
+
+    @pytest.fixture
+    def class_(self, tmp_path):
+        origin = tmp_path / "origin"
+        origin.mkdir()
+        commit(origin, 1_788_000_000)
+        (tmp_path / "clones").mkdir()
+        return Student("A", "a", tmp_path / "clones" / "a", str(origin))
+
+    def test_updates_its_own_clones(self, class_):
+        assert list(pull_all([class_])) == [(class_, "")]
+        assert (class_.path.parent / OURS).is_file()
+        assert list(pull_all([class_])) == [(class_, "")]
+
+    def test_pulls_nothing_that_it_did_not_clone(self, class_):
+        subprocess.run(["git", "clone", "-q", class_.url, class_.path], check=True)
+        ((_, problem),) = pull_all([class_])
+        assert "make grade did not clone it" in problem
+
+    @pytest.mark.parametrize("how", ["commondir", "config", "link", "elsewhere"])
+    def test_pulls_nothing_whose_configuration_is_anothers(self, class_, how, tmp_path):
+        list(pull_all([class_]))
+        git_folder, evil = class_.path / ".git", class_.path / "evil"
+        program = f'[core]\n\tsshCommand = "touch {tmp_path}/pwned; false"\n'
+        program += '[remote "origin"]\n\turl = ssh://127.0.0.1/x\n'
+        if how == "config":
+            with (git_folder / "config").open("a") as config:
+                config.write(program)
+        else:
+            shutil.copytree(git_folder, evil)
+            with (evil / "config").open("a") as config:
+                config.write(program)
+        if how == "commondir":
+            (evil / "HEAD").unlink()
+            (git_folder / "commondir").write_text("../evil\n")
+        if how in ("link", "elsewhere"):
+            shutil.rmtree(git_folder)
+        if how == "link":
+            git_folder.symlink_to(evil)
+        if how == "elsewhere":
+            git_folder.write_text(f"gitdir: {evil}\n")
+        ((_, problem),) = pull_all([class_])
+        assert "its git configuration was changed" in problem
+        assert not (tmp_path / "pwned").exists()
+
+
+class TestHistory:
+    @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+    @pytest.mark.parametrize("name", ["HEAD", "config", "packed-refs"])
+    def test_does_not_wait_at_a_pipe(self, tmp_path, name):
+        commit(tmp_path, 1_788_000_000)
+        (tmp_path / ".git" / name).unlink(missing_ok=True)
+        os.mkfifo(tmp_path / ".git" / name)
+        assert not git.read_history(tmp_path, [SCRIPT]).readable
+
+    @pytest.mark.parametrize("when", ["99999999999999999999", "-1", "soon"])
+    def test_believes_no_impossible_time(self, when):
+        text = f"tree 0\ncommitter A <a@b> {when} +0000\n\nwords\ncommitter x 5 +0\n"
+        assert git._time(text) is None
+        assert git._time(text.replace(when, "1788000000")) == 1_788_000_000
+
+    def test_reads_no_commit_of_megabytes(self, tmp_path):
+        commit(tmp_path, 1_788_000_000)
+        assert git.read_history(tmp_path, []).committed == 1_788_000_000
+        who = ["-c", "user.name=A", "-c", "user.email=a@b"]
+        subprocess.run(
+            ["git", *who, "commit", "-q", "--allow-empty", "-F", "-"],
+            input=b"x" * 200_000,
+            cwd=tmp_path,
+            check=True,
+        )
+        assert not git.read_history(tmp_path, []).readable
+
+
+def test_a_text_of_any_size_is_tidied_at_once():
+    assert len(_tidy("robo47-check-" + "x" * 3_000_000)) < 500
+    assert len(_tidy("a\n" * 2_000_000).splitlines()) <= 200
+    assert _tidy("  1.1  x\r\n\x1b[2J at 0x7f0123456789") == "  1.1  x\n[2J at 0x..."
 
 
 class TestSimilarity:
@@ -251,6 +477,18 @@ class TestSimilarity:
         runs = similar.runs_of(SOLVED.encode(), STARTER)
         assert len(runs) > similar.FEWEST
         assert similar.similar_groups({str(i): runs for i in range(9)}) == []
+
+    def test_knows_the_kits_own_solution_however_many_hand_it_in(self):
+        kit = similar.runs_of(SOLVED.encode(), STARTER)
+        own = similar.runs_of(own_way(ODD_WAY).encode(), STARTER)
+        right = (DAY.own / "submissions" / "right").glob("*.py")
+        runs = {p.stem: [similar.runs_of(p.read_bytes(), STARTER)] for p in right}
+        assert len(runs) > 9
+        assert similar.like_the_kit(runs, kit) == []
+        copies = {str(i): [own[:0], kit] for i in range(30)}  # in a helper beside it
+        found = similar.like_the_kit({**runs, **copies}, kit)
+        assert sorted(group.keys[0] for group in found) == sorted(copies)
+        assert all(group.with_kit and group.share == 1 for group in found)
 
     @pytest.mark.parametrize("source", [b"\xff\0" * 999, b'"""' * 9999, b" " * 900_000])
     def test_takes_any_bytes_in_reasonable_time(self, source):
@@ -290,22 +528,25 @@ class TestTheOverview:
         one = result(*statuses, mistakes=wrong)
         assert overview.state(Graded(Student("", "", Path()), one)) == state
 
-    def test_counts_a_file_that_does_not_load_as_stuck(self):
+    def test_a_file_that_does_not_load_is_no_mistake_in_a_task(self):
         one = result(*["todo"] * 8, mistakes=dict.fromkeys(range(8), "does-not-load"))
         graded = Graded(Student("A", "", Path()), one)
-        assert overview.state(graded) == "stuck"
-        (only,) = overview.diagnoses(DAY, [graded])
-        assert (only.mistake, only.task) == ("does-not-load", "1.1")
+        assert overview.state(graded) == "does not load"
+        assert overview.diagnoses(DAY, [graded]) == []
+        standing = overview.tasks_standing([graded])
+        assert (standing[0].stopped, standing[0].counts["does not load"]) == (0, 1)
 
     def test_counts_who_stops_where(self):
         one = Graded(Student("", "", Path()), result("passed", *["wrong"] * 7))
-        standing = overview.tasks_standing(DAY, [one, one])
+        standing = overview.tasks_standing([one, one])
         assert [s.stopped for s in standing] == [0, 2, 0, 0, 0, 0, 0, 0]
         assert standing[1].counts == Counter({"wrong": 2})
 
 
 def test_bars_fill_their_line_and_escape_their_words():
-    svg = bars.chart([bars.Row("<a>", "1 & 2", [("pass", 1), ("fail", 3)], 4)], "<x>")
+    svg = charts.chart(
+        [charts.Row("<a>", "1 & 2", [("pass", 1), ("fail", 3)], 4)], "<x>"
+    )
     assert 'x="0.00%" y="20" width="25.00%"' in svg
     assert 'x="25.00%" y="20" width="75.00%"' in svg
     assert "<a>" not in svg
@@ -319,16 +560,11 @@ def test_bars_fill_their_line_and_escape_their_words():
         (" @x", "'@x"),
         ("-5", "'-5"),
         ("a\nb\0c", "a b c"),
+        ("\u202ea\x9bb", "a b"),
+        (";=cmd|' /C calc'!A0", ",=cmd,' /C calc'!A0"),
         ("\ud800", "\\ud800"),
         ("Zoë", "Zoë"),
     ],
 )
 def test_a_cell_is_one_line_of_plain_text(text, shown):
     assert plain(text) == shown
-
-
-def test_feedback_has_a_name_that_every_system_takes():
-    long = feedback_path(Path("f"), "ñ" * 120)
-    assert len(long.name.encode()) < 255
-    assert long != feedback_path(Path("f"), "ñ" * 121)
-    assert feedback_path(Path("f"), "ana") == Path("f/ana.txt")

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from conftest import need
-from robo47 import panda, se3, verify
+from robo47 import panda, verify
 from robo47.inspector import words
-from robo47.inspector.arm import AGREES, END, Arm, extra
+from robo47.inspector.arm import AGREES, END, Arm
+
+pytestmark = pytest.mark.kit
 
 
 @pytest.fixture
@@ -40,7 +42,7 @@ def test_both_judges_agree_on_every_frame_in_random_configurations(arm):
 
 
 def test_a_wrong_pose_is_reported_as_different(arm):
-    wrong = arm.by_hand[arm.names[END]].copy()
+    wrong = arm.by_library[arm.names[END]].copy()
     wrong[0, 3] += 1e-6
     assert arm.difference(END, wrong) == pytest.approx(1e-6, rel=1e-6)
     assert "THEY DIFFER" in words.verdict(arm.difference(END, wrong))
@@ -52,26 +54,35 @@ def test_the_steps_lead_from_the_world_to_the_end_effector(arm):
     arm.move(arm.random_q(7))
     steps = arm.steps()
     truth = verify.mujoco_poses(arm.model, arm.q[None])
-    assert [step.link for step in steps] == [*(f"link{i}" for i in range(8)), END]
-    assert steps[0].previous == "world"
-    for step in steps:
-        product = step.T_world_previous @ step.T_previous_link
-        np.testing.assert_array_equal(step.T_world_link, product)
-        expected = truth[arm.names[step.link]][0]
-        np.testing.assert_allclose(step.T_world_link, expected, atol=1e-12)
+    assert [step.link for step in steps if not step.joint] == [
+        *(f"link{i}" for i in range(8)), END,
+    ]  # fmt: skip
+    assert [step.joint for step in steps if step.joint] == arm.joints
+    so_far = np.eye(4)
+    for step, then in zip(steps, [*steps[1:], None], strict=True):
+        np.testing.assert_array_equal(step.before, so_far)
+        so_far = step.before @ step.factor
+        np.testing.assert_array_equal(step.after, so_far)
+        if then is None or then.link != step.link:  # its own joint is in
+            expected = truth[arm.names[step.link]][0]
+            np.testing.assert_allclose(step.after, expected, atol=1e-12)
 
 
-def test_a_step_turns_with_its_own_joint_alone(arm):
+def test_a_step_turns_with_its_own_joint_alone_and_marks_what_turns(arm):
     before = arm.steps()
     q = arm.q.copy()
     q[3] += 0.5
     arm.move(q)
     changed = [
-        then.link
+        then
         for then, now in zip(before, arm.steps(), strict=True)
-        if not np.array_equal(then.T_previous_link, now.T_previous_link)
+        if not np.array_equal(then.factor, now.factor)
     ]
-    assert changed == ["link4"]
+    assert [step.joint for step in changed] == ["joint4"]
+    turning = np.zeros((4, 4), dtype=bool)
+    turning[:2, :2] = True  # a turn about z
+    np.testing.assert_array_equal(changed[0].moves, turning)
+    assert not any(step.moves.any() for step in before if not step.joint)
 
 
 def test_zero_is_out_of_limits_for_joint4_and_home_is_not(arm):
@@ -91,21 +102,11 @@ def test_random_configurations_are_within_limits_and_never_the_same(arm):
         assert arm.out_of_limits() == []
 
 
-def test_t_extra_goes_where_the_lab_says_on_either_side(arm):
-    T_world_ee = arm.by_hand[arm.names[END]]
-    T_extra = se3.make_T(se3.Rz(np.pi / 4), [0.1, 0, 0])
-    both = arm.both_orders(np.pi / 4, 0.1)
-    np.testing.assert_allclose(both.right, T_world_ee @ T_extra, atol=1e-15)
-    np.testing.assert_allclose(both.left, T_extra @ T_world_ee, atol=1e-15)
-    apart = np.linalg.norm(both.right[:3, 3] - both.left[:3, 3])
-    assert both.metres == pytest.approx(apart)
-    np.testing.assert_array_equal(extra(0, 0), np.eye(4))
-
-
 def test_a_matrix_reads_back_as_the_numbers_it_shows(arm):
-    T = arm.by_hand[arm.names[END]]
-    text = re.sub("<[^>]+>", " ", words.matrix("T", T, "key").partition("<pre")[2])
-    numbers = [float(n) for n in text.partition(">")[2].split()]
+    T = arm.by_library[arm.names[END]]
+    shown = words.matrix("T", T, "key").partition('data-matrix="key">')[2]
+    text = re.sub("<[^>]+>", " ", shown)
+    numbers = [float(n) for n in text.split()]
     np.testing.assert_allclose(np.reshape(numbers, (4, 4)), T, atol=5.1e-7)
     assert "-0.000000" not in text
 

@@ -11,6 +11,8 @@ from inspection import SECONDS, Served
 
 from conftest import need
 
+pytestmark = pytest.mark.kit
+
 
 def here(module: str) -> bool:
     return importlib.util.find_spec(module) is not None
@@ -32,15 +34,18 @@ def served():
     server.close()
 
 
-def connect(port: int, host: str | None = None, origin: str | None = None) -> None:
+def connect(
+    served: Served, host: str | None = None, origin: str | None = None, path: str = ""
+) -> None:
     """Open a WebSocket as the page at some address would, and close it."""
+    port, path = served.port, path or served.path
     import viser
     from websockets.sync.client import connect
 
     with (
         socket.create_connection(("127.0.0.1", port)) as wire,
         connect(
-            f"ws://{host or f'127.0.0.1:{port}'}/",
+            f"ws://{host or f'127.0.0.1:{port}'}{path}",
             sock=wire,
             origin=origin,
             subprotocols=[f"viser-v{viser.__version__}"],
@@ -51,11 +56,11 @@ def connect(port: int, host: str | None = None, origin: str | None = None) -> No
         assert page.recv(timeout=30)  # the scene
 
 
-def get(port: int, host: str) -> int:
+def get(served: Served, host: str = "", path: str = "", **headers: str) -> int:
     """Return the status of a request for the page that names this host."""
-    request = urllib.request.Request(
-        f"http://127.0.0.1:{port}/", headers={"Host": host}
-    )
+    url = f"http://127.0.0.1:{served.port}{path or served.path}"
+    named = {"Host": host or f"127.0.0.1:{served.port}", **headers}
+    request = urllib.request.Request(url, headers=named)
     try:
         with urllib.request.urlopen(request, timeout=30) as answer:
             return answer.status
@@ -67,14 +72,14 @@ def get(port: int, host: str) -> int:
 def test_its_own_page_may_connect_by_every_name_of_this_machine(served):
     for name in ("127.0.0.1", "localhost", "[::1]"):
         host = f"{name}:{served.port}"
-        connect(served.port, host, f"http://{host}")
-        assert get(served.port, host) == 200
+        connect(served, host, f"http://{host}")
+        assert get(served, host) == 200
 
 
 def test_a_tunnel_may_end_at_another_port(served):
     """As with ssh -L 9000:127.0.0.1:8080."""
-    connect(served.port, "localhost:9000", "http://localhost:9000")
-    assert get(served.port, "localhost:9000") == 200
+    connect(served, "localhost:9000", "http://localhost:9000")
+    assert get(served, "localhost:9000") == 200
 
 
 @pytest.mark.parametrize(
@@ -92,7 +97,7 @@ def test_a_websocket_from_any_other_page_is_refused(served, origin):
     from websockets.exceptions import InvalidStatus
 
     with pytest.raises(InvalidStatus) as refused:
-        connect(served.port, origin=origin)
+        connect(served, origin=origin)
     assert refused.value.response.status_code == 403
 
 
@@ -104,9 +109,98 @@ def test_a_page_that_rebinds_its_name_to_this_machine_is_refused(served, name):
 
     host = f"{name}:{served.port}"
     with pytest.raises(InvalidStatus) as refused:
-        connect(served.port, host.rpartition("@")[2], f"http://{host}")
+        connect(served, host.rpartition("@")[2], f"http://{host}")
     assert refused.value.response.status_code == 403
-    assert get(served.port, host) == 403
+    assert get(served, host) == 403
+
+
+NEIGHBOURS = ["/", "/index.html", "/do?control=tab&value=Chain", "//", "/x/{secret}/",
+              "/{secret}x/", "/%2e%2e/{secret}/", "/{short}/", "/{upper}/"]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", NEIGHBOURS)
+def test_who_does_not_know_the_address_gets_nothing(served, path):
+    """Another user of this machine may reach the port, and knows all but the secret."""
+    from websockets.exceptions import InvalidStatus
+
+    secret = served.path.strip("/")
+    guess = path.format(secret=secret, short=secret[:-1], upper=secret.swapcase())
+    assert get(served, path=guess) == 403
+    host = f"127.0.0.1:{served.port}"
+    with pytest.raises(InvalidStatus) as refused:
+        connect(served, origin=f"http://{host}", path=guess)
+    assert refused.value.response.status_code == 403
+
+
+def test_every_start_has_an_address_of_its_own(served):
+    other = Served("--port", "0")
+    other.close()
+    assert len(served.path.strip("/")) >= 16
+    assert other.path != served.path
+
+
+def test_a_foreign_page_cannot_press_a_button(served):
+    """Even one that knew the address: its request names its own origin."""
+    path = f"{served.path}do?control=tab&value=Chain"
+    assert get(served, path=path) == 204
+    assert get(served, path=path, Origin="http://evil.example") == 403
+    assert get(served, host="evil.example", path=path) == 403
+
+
+def test_the_address_stays_here_and_the_page_in_no_frame(served):
+    with urllib.request.urlopen(served.url, timeout=30) as answer:
+        headers, body = answer.headers, answer.read()
+    assert headers["Referrer-Policy"] == "no-referrer"
+    assert headers["X-Frame-Options"] == "DENY"
+    assert headers["Cache-Control"] == "no-store"
+    assert "Set-Cookie" not in headers
+    assert b"data-r47-click" in body
+    assert served.path.strip("/").encode() not in body
+
+
+@pytest.mark.parametrize(
+    "path", ["../pyproject.toml", "%2e%2e/%2e%2e/etc/passwd", "x" * 3000, "do/../.."]
+)
+def test_the_page_serves_no_other_file(served, path):
+    assert get(served, path=served.path + path) in (403, 404)
+
+
+def test_a_client_sets_the_value_of_a_widget_and_nothing_else(viser):
+    """viser sets any attribute that a message names, and believes any option."""
+    import asyncio
+
+    from viser import _messages
+
+    from robo47.inspector.guard import LocalServer
+
+    server = LocalServer(0)
+    try:
+        slider = server.gui.add_slider("s", 0.0, 1.0, 0.1, 0.5)
+        pick = server.gui.add_dropdown("d", ("one", "two"))
+        gui = server.gui
+        (checked,) = gui._websock_interface._incoming_handlers[
+            _messages.GuiUpdateMessage
+        ]
+
+        def send(widget, **updates):
+            message = _messages.GuiUpdateMessage(widget._impl.uuid, updates)
+            loop = server.get_event_loop()
+            asyncio.run_coroutine_threadsafe(checked(0, message), loop).result(30)
+
+        callbacks = slider._impl.update_cb
+        send(slider, update_cb=5)
+        send(slider, value=0.9, removed=True)
+        send(slider, nonsense=1)
+        send(slider, value="not a number")
+        send(slider, value=None)
+        send(pick, value="nope")
+        assert slider._impl.update_cb is callbacks
+        assert (slider.value, pick.value) == (0.5, "one")
+        send(slider, value=0.9)
+        send(pick, value="two")
+        assert (slider.value, pick.value) == (0.9, "two")
+    finally:
+        server.stop()
 
 
 def test_it_listens_on_the_loopback_address_alone(served):
@@ -138,14 +232,14 @@ def tunnels(viser, monkeypatch) -> Queue:
     return opened
 
 
-def ask_to_share(viser, port: int) -> None:
+def ask_to_share(viser, port: int, path: str = "/") -> None:
     """Ask for a public share link, as any client can, and wait for an answer."""
     import msgspec
     from websockets.sync.client import connect
 
     host = f"127.0.0.1:{port}"
     with connect(
-        f"ws://{host}/",
+        f"ws://{host}{path}",
         origin=f"http://{host}",
         subprotocols=[f"viser-v{viser.__version__}"],
         compression=None,
@@ -165,7 +259,7 @@ def test_no_client_can_have_it_open_a_public_tunnel(viser, tunnels, monkeypatch)
     )
     server = LocalServer(0)
     try:
-        ask_to_share(viser, server.get_port())
+        ask_to_share(viser, server.get_port(), f"/{server.door.secret}")
         assert answers.get(timeout=SECONDS) is None
     finally:
         server.stop()
@@ -188,6 +282,6 @@ def test_a_viser_whose_doors_cannot_be_watched_is_not_used(viser, monkeypatch):
     from robo47.errors import Robo47Error
     from robo47.inspector import guard
 
-    monkeypatch.setattr(guard, "_watched_doors", lambda: nullcontext([]))
+    monkeypatch.setattr(guard, "_watched_doors", lambda door: nullcontext([]))
     with pytest.raises(Robo47Error, match="Install the pinned one"):
         guard.LocalServer(0)

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from inspection import Served
+from inspection import ROOT, Served
 
 from conftest import need
 from robo47 import panda, se3, verify
 from robo47.checks import Array
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.kit]
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = [
@@ -27,7 +27,7 @@ FLAGS = [
     "--disable-background-networking",
     "--no-first-run",
 ]
-MILLISECONDS = 60_000  # software rendering on a busy machine
+MILLISECONDS = 120_000  # software rendering on a busy machine
 SHOWN = 6e-7  # a matrix is shown with 6 decimals
 
 
@@ -47,7 +47,7 @@ def browser(tmp_path_factory) -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def served(browser) -> Iterator[Served]:
-    server = Served("--port", "0")
+    server = Served("--port", "0", "--simple")
     yield server
     server.close()
 
@@ -64,7 +64,7 @@ class Page:
         self.wait()
 
     def wait(self) -> None:
-        self.tab.wait_for_selector("[data-matrix=by-hand]")
+        self.tab.wait_for_selector("[data-matrix=mujoco]", state="attached")
 
     def matrix(self, key: str) -> Array:
         text = self.tab.locator(f"[data-matrix={key}]:visible").inner_text()
@@ -72,6 +72,10 @@ class Page:
 
     def line(self, key: str) -> str:
         return self.tab.locator(f"[data-line={key}]:visible").first.inner_text()
+
+    def said(self, key: str) -> str:
+        found = self.tab.locator(f"[data-line={key}]")
+        return found.first.inner_text() if found.count() else ""
 
     def until(self, true: Callable[[], bool]) -> None:
         """Wait for the page to say so; fail with what it says instead."""
@@ -89,21 +93,25 @@ class Page:
         self.tab.get_by_role("tab", name=tab).click()
 
     def choose(self, label: str, option: str) -> None:
-        self.tab.get_by_label(label, exact=True).click()
-        self.tab.get_by_role("option", name=option).click()
+        self.tab.get_by_label(label, exact=True).select_option(option)
 
     def slider(self, joint: int) -> Any:
-        return self.tab.get_by_role("slider").nth(joint - 1)
+        return self.tab.get_by_role("slider", name=f"joint{joint}", exact=True)
+
+    def box(self, joint: int) -> Any:
+        return self.tab.get_by_label(f"joint{joint} value", exact=True)
 
     def angle(self, joint: int) -> float:
-        return float(self.slider(joint).get_attribute("aria-valuenow"))
+        return float(self.slider(joint).input_value())
 
     def angles(self) -> Array:
         return np.array([self.angle(joint) for joint in range(1, 8)])
 
     def drag(self, joint: int, pixels: int) -> None:
         box = self.slider(joint).bounding_box()
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        share = self.slider(joint).evaluate("e => (e.value - e.min) / (e.max - e.min)")
+        x = box["x"] + 8 + share * (box["width"] - 16)  # where the thumb is
+        y = box["y"] + box["height"] / 2
         self.tab.mouse.move(x, y)
         self.tab.mouse.down()
         self.tab.mouse.move(x + pixels / 2, y, steps=3)
@@ -147,8 +155,8 @@ def close(a: Array, b: Array) -> bool:
 
 
 def arm_pixels(picture: Array) -> int:
-    """Count what is brighter than the backdrop: the arm's white links."""
-    return int((picture.min(axis=2) > 216).sum())
+    """Count what is clearly darker than the backdrop: the see-through arm."""
+    return int((picture.max(axis=2) < 205).sum())
 
 
 @pytest.mark.meshes
@@ -156,21 +164,19 @@ def test_the_page_shows_the_arm_with_its_meshes_and_triads(page, real_panda):
     page.until(lambda: arm_pixels(page.picture()) > 5_000)
     picture = page.picture()
     red, green, blue = (picture[..., i] for i in range(3))
-    assert (red - np.maximum(green, blue) > 80).sum() > 50
-    assert (green - np.maximum(red, blue) > 80).sum() > 50
-    assert (blue - np.maximum(red, green) > 80).sum() > 50
+    assert (red - np.maximum(green, blue) > 60).sum() > 50
+    assert (green - np.maximum(red, blue) > 30).sum() > 50
+    assert (blue - np.maximum(red, green) > 60).sum() > 50
 
 
-@pytest.mark.meshes
-def test_the_arm_can_be_made_solid(page, real_panda):
-    def dark() -> int:  # the black rings of links 4 and 6, when nothing shines through
-        return int((page.picture().max(axis=2) < 70).sum())
-
-    see_through = page.tab.get_by_role("checkbox")
-    see_through.click()
-    page.until(lambda: dark() > 500)
-    see_through.click()
-    page.until(lambda: dark() < 100)
+def test_the_arm_can_be_made_solid(page):
+    page.until(lambda: arm_pixels(page.picture()) > 5_000)
+    before = page.picture()
+    solid = page.tab.get_by_label("solid arm")
+    solid.click()
+    page.until(lambda: (np.abs(page.picture() - before).max(axis=2) > 30).sum() > 5_000)
+    solid.click()
+    page.until(lambda: (np.abs(page.picture() - before).max(axis=2) > 30).sum() < 2_000)
 
 
 def test_the_page_asks_nobody_else_for_anything(page, served):
@@ -184,11 +190,11 @@ def test_the_page_asks_nobody_else_for_anything(page, served):
 
 def test_both_matrices_are_mujocos_pose_of_the_ready_arm(page, model):
     expected = truth(model, panda.READY_Q)
-    for key in ("mujoco", "by-hand"):
+    for key in ("mujoco", "library"):
         np.testing.assert_allclose(page.matrix(key), expected, atol=SHOWN)
     difference = page.tab.locator("[data-line=difference]").first
     assert "they agree" in difference.inner_text()
-    assert difference.evaluate("e => getComputedStyle(e).color") == "rgb(46, 125, 50)"
+    assert difference.evaluate("e => getComputedStyle(e).color") == "rgb(0, 102, 75)"
 
 
 def test_dragging_joint2_moves_the_arm_to_that_angle(page, model):
@@ -197,19 +203,48 @@ def test_dragging_joint2_moves_the_arm_to_that_angle(page, model):
     q = panda.READY_Q.copy()
     q[1] = page.angle(2)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
-    page.until(lambda: close(page.matrix("by-hand"), truth(model, q)))
-    assert f"{q[1]:.5g}" in page.line("q")
+    page.until(lambda: close(page.matrix("library"), truth(model, q)))
+    assert f"{q[1]:.10g}" in page.line("q")
 
 
-def test_an_angle_can_be_typed(page, model):
-    row = page.slider(4).locator(
-        "xpath=ancestor::*[.//input[@inputmode or @type='text']][1]"
-    )
-    row.locator("input[inputmode], input[type=text]").first.fill("-1.25")
+@pytest.mark.parametrize(
+    ("typed", "radians"),
+    [("-1.25", -1.25), ("-pi/2", -np.pi / 2), ("-90 deg", -np.pi / 2)],
+)
+def test_an_angle_can_be_typed(page, model, typed, radians):
+    page.box(4).fill(typed)
     page.tab.keyboard.press("Enter")
     q = panda.READY_Q.copy()
-    q[3] = -1.25
+    q[3] = radians
     page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+    page.until(lambda: repr(float(f"{radians:.10g}")) in page.line("q"))
+
+
+def test_ninety_is_refused_in_words_and_the_box_shows_the_arm_again(page, model):
+    page.box(4).fill("90")
+    page.tab.keyboard.press("Enter")
+    page.until(lambda: "90 is outside" in page.line("tab"))
+    page.until(lambda: page.box(4).input_value() == "-2.356")
+    assert close(page.matrix("mujoco"), truth(model, panda.READY_Q))
+
+
+def test_the_arrow_keys_drive_the_arm(page, model):
+    page.slider(2).focus()
+    for _ in range(3):
+        page.tab.keyboard.press("ArrowRight")
+    page.tab.keyboard.press("Shift+ArrowRight")
+    q = panda.READY_Q.copy()
+    q[1] += 0.13
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+
+
+def test_the_address_follows_the_arm_and_back_goes_back(page, model):
+    page.until(lambda: "q=0,-0.785," in page.tab.url)
+    page.tab.wait_for_timeout(1600)  # later than that, a move is a step in the history
+    page.press("zero")
+    page.until(lambda: "q=0,0,0,0,0,0,0" in page.tab.url)
+    page.tab.go_back()
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, panda.READY_Q)))
 
 
 def test_the_buttons_take_the_arm_home_to_zero_and_anywhere(page, model):
@@ -220,7 +255,7 @@ def test_the_buttons_take_the_arm_home_to_zero_and_anywhere(page, model):
     before = page.matrix("mujoco")
     page.press("random")
     page.until(lambda: not close(page.matrix("mujoco"), before))
-    page.until(lambda: close(page.matrix("by-hand"), truth(model, page.angles())))
+    page.until(lambda: close(page.matrix("library"), truth(model, page.angles())))
 
 
 def test_zero_is_said_to_be_out_of_limits_and_ready_is_not(page):
@@ -242,55 +277,84 @@ def test_another_frame_can_be_chosen(page, model):
     page.until(lambda: close(page.matrix("mujoco"), truth(model, panda.READY_Q)))
 
 
-def test_the_steps_show_the_product_of_each_link(page, model):
+def test_the_steps_show_the_product_of_each_factor(page, model):
     page.open("Chain")
-    page.choose("Link", "link3")
-    page.until(lambda: "T_world_link3 = T_world_link2 @" in page.line("step"))
+    page.until(lambda: "factor 3 of 16, T(q of joint1)" in page.line("step"))
     page.press("next")
-    page.until(lambda: "T_world_link4 = T_world_link3 @" in page.line("step"))
+    page.until(lambda: "factor 4 of 16, T_link1_link2" in page.line("step"))
+    page.press("next")
+    page.until(lambda: "factor 5 of 16, T(q of joint2)" in page.line("step"))
     product = page.matrix("before") @ page.matrix("factor")
     np.testing.assert_allclose(page.matrix("product"), product, atol=4 * SHOWN)
-    expected = truth(model, panda.READY_Q, "body:link4")
+    expected = truth(model, panda.READY_Q, "body:link2")
     np.testing.assert_allclose(page.matrix("product"), expected, atol=SHOWN)
     page.press("back")
-    page.until(lambda: "T_world_link3 =" in page.line("step"))
-    page.choose("Link", "all frames")
-    page.until(lambda: "Pick a link" in page.line("step"))
+    page.until(lambda: "factor 4 of 16" in page.line("step"))
 
 
-def test_play_lights_the_frames_one_after_the_other_up_to_the_end(page):
+def test_play_goes_through_the_factors_and_stops_with_its_tab(page):
     page.open("Chain")
-    page.press("play")
-    seen: list[str] = []
+    page.press("play / stop")
+    page.until(lambda: "factor 6 of 16" in page.line("step"))
+    page.open("Joints")
+    page.until(lambda: page.tab.locator("[data-line=step]").count() == 0)
 
-    def at_the_end() -> bool:
-        line = page.line("step").partition(":")[0]
-        if not seen or seen[-1] != line:
-            seen.append(line)
-        return line == "step 9 of 9"
 
-    page.until(at_the_end)
-    seen = [line for line in seen if line.startswith("step")]
-    assert seen == sorted(seen)
-    assert len(seen) >= 4
-    page.choose("Link", "all frames")
-    page.until(lambda: "Pick a link" in page.line("step"))
+def test_a_reload_in_the_chain_is_still_in_the_chain(page):
+    page.open("Chain")
+    page.until(lambda: "factor 3 of 16" in page.line("step"))
+    page.tab.reload()
+    page.tab.wait_for_selector("[data-line=step]", state="attached")
+    chain = page.tab.get_by_role("tab", name="Chain")
+    page.until(lambda: chain.get_attribute("aria-selected") == "true")
 
 
 def test_t_extra_on_either_side_is_shown_with_its_product(page, model):
     T_world_ee = truth(model, panda.READY_Q)
-    T_extra = se3.make_T(se3.Rz(0.7854), [0.1, 0, 0])
+    T_extra = se3.make_T(se3.Rz(np.pi / 4), [0.1, 0, 0])
     page.open("Order")
-    page.choose("T_extra", "right")
-    page.until(lambda: "own axes" in page.line("says"))
-    np.testing.assert_allclose(page.matrix("order"), T_world_ee @ T_extra, atol=SHOWN)
-    page.choose("T_extra", "left")
-    page.until(lambda: "whole arm" in page.line("says"))
-    np.testing.assert_allclose(page.matrix("order"), T_extra @ T_world_ee, atol=SHOWN)
     apart = np.linalg.norm((T_world_ee @ T_extra - T_extra @ T_world_ee)[:3, 3])
-    assert f"{apart:.4f} m apart" in page.line("apart")
-    page.choose("T_extra", "off")
-    page.until(lambda: "two places" in page.line("says"))
+    page.until(lambda: f"{apart:.4f} m apart" in page.line("tab"))
+    page.choose("T_extra", "left: T_extra @ T_world_ee")
+    page.until(lambda: "whole arm" in page.line("tab"))
+    shown = page.tab.locator("[data-matrix^=tab]").inner_text()
+    left = np.array(shown.split(), dtype=float).reshape(4, 4)
+    np.testing.assert_allclose(left, T_extra @ T_world_ee, atol=SHOWN)
+
+
+def of_day_1(*functions: str) -> str:
+    """Return Day 1's lab as a right file, or with functions of the catalogue in it."""
+    text = (ROOT / "w1-foundations/src/day1_transforms.py").read_text("utf-8")
+    wrong = ROOT / "w1-foundations/day1/submissions/wrong"
+    own = [(wrong / f"{name}.py").read_text("utf-8") for name in functions]
+    return "\n".join([text.partition("if __name__")[0], *own])
+
+
+def test_ones_own_code_is_drawn_judged_and_reloaded_on_save(browser, tmp_path):
+    work = tmp_path / "day1_transforms.py"
+    kit = ROOT / "w1-foundations/src/kit.py"
+    (tmp_path / "kit.py").write_bytes(kit.read_bytes())
+    work.write_text(of_day_1("Rz_swapped"), "utf-8")
+    server = Served("1", "--port", "0", "--simple", work=work)
+    try:
+        page = Page(browser, server.url)
+        page.until(lambda: "✗ YOUR compose_fk is off by 744 mm" in page.said("yours"))
+        assert "first frame that differs: link1" in page.said("yours")
+        assert page.tab.locator("[data-matrix=yours] .off").count() >= 10
+        page.until(lambda: "1.2: Sin and cos" in page.said("standing"))
+        work.write_text(of_day_1().replace("T_world_body = np.eye(4)", "while 1: pass"))
+        page.until(lambda: "compose_fk did not return" in page.said("yours"))
+        page.press("zero")  # the page goes on
+        page.until(lambda: page.angle(2) == 0)
+        work.write_text(of_day_1().replace("def Rz", "deff Rz"))
+        page.until(lambda: "SyntaxError" in page.said("yours"))
+        work.write_text(of_day_1(), "utf-8")
+        page.until(lambda: "✓ YOUR compose_fk agrees" in page.said("yours"))
+        page.until(lambda: "tasks pass" in page.said("standing"))
+        assert "Traceback" not in server.said
+        page.tab.close()
+    finally:
+        server.close()
 
 
 def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
@@ -299,7 +363,7 @@ def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
     angle = page.angle(2)
     page.tab.reload()
     page.wait()
-    page.until(lambda: abs(page.angle(2) - angle) < 1e-9)
+    page.until(lambda: abs(page.angle(2) - angle) < 1e-4)
     page.drag(2, -30)
     page.until(lambda: page.angle(2) < angle - 0.2)
     q = panda.READY_Q.copy()
@@ -316,16 +380,16 @@ def test_two_browsers_see_the_same_arm(page, browser, served, model):
         q[1] = page.angle(2)
         for each in (page, other):
             each.until(lambda each=each: close(each.matrix("mujoco"), truth(model, q)))
-        other.until(lambda: abs(other.angle(2) - q[1]) < 1e-9)
+        other.until(lambda: abs(other.angle(2) - q[1]) < 1e-4)
         other.press("home")
         home = truth(model, panda.home_q(model))
-        page.until(lambda: close(page.matrix("by-hand"), home))
+        page.until(lambda: close(page.matrix("library"), home))
     finally:
         other.tab.close()
 
 
 def test_ctrl_c_ends_it_with_a_page_open(browser):
-    server = Served("--port", "0")
+    server = Served("--port", "0", "--simple")
     try:
         page = Page(browser, server.url)
         assert server.press_ctrl_c() == 0, server.said
@@ -352,11 +416,11 @@ def test_a_foreign_page_cannot_connect_in_a_real_browser_either(browser, served)
 
 
 def test_without_the_robot_the_twin_is_drawn_and_the_page_says_so(browser):
-    server = Served("--port", "0", robot=False)
+    server = Served("--port", "0", "--simple", robot=False)
     try:
         page = Page(browser, server.url)
-        assert "simple shapes stand in" in page.line("about")
-        assert "simple shapes stand in" in server.said
+        assert "simple shapes are drawn" in page.line("about")
+        assert "simple shapes are drawn" in server.said
         page.until(lambda: arm_pixels(page.picture()) > 5_000)
         assert "they agree" in page.line("difference")
         page.tab.close()

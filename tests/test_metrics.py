@@ -19,6 +19,7 @@ from robo47.errors import Robo47Error
 from robo47.metrics import COLUMNS, append_row, append_rows, logfile, read_rows
 from robo47.metrics.commit import short_sha
 from robo47.metrics.header import LINE
+from robo47.metrics.lock import warn_once
 from robo47.metrics.mend import restore
 from robo47.metrics.scan import scan
 
@@ -330,6 +331,35 @@ def test_a_missing_folder_is_named(log):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.skipif(os.name == "nt", reason="flock is POSIX")
+@pytest.mark.parametrize("name", ["ENOLCK", "ENOTSUP", "ENOSYS", "EOPNOTSUPP"])
+def test_where_the_file_system_has_no_locks_rows_are_recorded_and_that_is_said_once(
+    log, monkeypatch, name
+):
+    import fcntl
+
+    def flock(*_):
+        raise OSError(getattr(errno, name), "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    warn_once.cache_clear()
+    with pytest.warns(UserWarning, match="no locks"):
+        append_row(log, day=1, check="c", metric="m", value=1)
+    append_row(log, day=1, check="c", metric="m", value=2)  # warnings are errors here
+    assert [row["value"] for row in read_rows(log)] == [1, 2]
+    assert not Path(f"{log}.unsaved").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_in_the_logs_place_is_refused_at_once(tmp_path):
+    path = tmp_path / "metrics.csv"
+    os.mkfifo(path)
+    with pytest.raises(Robo47Error, match="not a regular file"):
+        append_row(path, day=1, check="c", metric="m", value=1)
+    with pytest.raises(Robo47Error, match="no regular file"):
+        read_rows(path)
+
+
 def test_a_device_is_refused_since_it_would_lose_the_row(log):
     log.symlink_to("/dev/full")
     assert "not a regular file" in refusal(log)

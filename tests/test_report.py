@@ -12,16 +12,19 @@ import pytest
 from PIL import Image
 
 from robo47.errors import Robo47Error
+from robo47.lesson.day import Metric
 from robo47.metrics.header import LINE
 from robo47.metrics.rows import encode, normalise
 from robo47.metrics.scan import scan
 from robo47.report import page, plot
 from robo47.report.series import Report, Series, collect
-from robo47.report.thresholds import Threshold, load
+from robo47.report.thresholds import load
+
+pytestmark = pytest.mark.kit
 
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "scripts" / "report_metrics.py"
-LIMITS = {("fk", "err"): Threshold(1, 1e-8, None)}
+LIMITS = {(1, "fk", "err"): Metric("fk", "err", max=1e-8)}
 EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
 
@@ -67,10 +70,43 @@ def test_a_value_passes_up_to_its_threshold(log, value, status):
 
 
 def test_a_minimum_is_a_threshold_too(log):
-    limit = Threshold(4, None, 0.9)
+    limit = Metric("reach", "rate", min=0.9)
     series = Series((4, "reach", "rate"), limit)
     series.rows = [normalise({"value": v}, False) for v in (0.95, 0.5)]
-    assert (series.best, series.status, str(limit)) == (0.95, "fail", "≥ 0.9")
+    assert (series.best, series.status, series.limits) == (0.95, "fail", "≥ 0.9")
+
+
+def test_a_run_that_is_no_number_is_drawn_as_the_failure_it_is(log):
+    (series,) = report_on(log, line(value=1e-9), line(value=float("nan"))).series
+    *_, halo, last = [s for s in plot.draw(series) if isinstance(s, plot.Dot)]
+    assert (last.role, last.hollow, (halo.x, halo.y)) == (
+        "fail",
+        True,
+        (last.x, last.y),
+    )
+    assert last.tip.startswith("nan")
+
+
+def test_a_number_within_its_limit_fails_if_its_trials_did(log):
+    report = report_on(log, line(value=1e-12, n_trials=10, n_failures=4))
+    assert report.series[0].status == "fail"
+    assert "failed in 4 of 10 trials" in page.render(report, "")
+
+
+def test_the_threshold_of_one_day_is_not_anothers(log):
+    report = report_on(log, line(value=1), line(value=1, day=2))
+    assert [s.status for s in report.series] == ["fail", "open"]
+
+
+def test_what_fails_comes_first_in_its_day(log):
+    lines = [line(value=1, check="a"), line(value=1, check="fk")]
+    assert [s.check for s in report_on(log, *lines).series] == ["fk", "a"]
+
+
+def test_days_can_be_jumped_to_where_there_are_several(log):
+    text = page.render(report_on(log, line(value=1), line(value=1, day=2)), "")
+    assert '<a class="fail" href="#1">Day 1</a>' in text
+    assert '<section id="2">' in text
 
 
 def test_what_the_manifest_asks_for_is_shown_before_it_is_run(log):
@@ -154,7 +190,7 @@ def test_errors_get_a_log_axis_and_rates_a_linear_one():
 )
 @pytest.mark.parametrize("metric", ["err", "rate"])
 def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
-    series = Series((1, "c", metric), Threshold(1, 1e-8, None))
+    series = Series((1, "c", metric), Metric("c", metric, max=1e-8))
     series.rows = [normalise({"value": v, "git_sha": "abc1234"}, False) for v in values]
     shapes = plot.draw(series)
     places = [place for s in shapes if isinstance(s, plot.Path) for place in s.points]
@@ -187,17 +223,17 @@ def test_each_point_names_its_commit(log):
 
 def test_the_weeks_manifest_of_this_kit_is_read():
     limits = load()
-    assert limits["fk_identity_check", "inv_err"] == Threshold(1, 1e-10, None)
-    assert limits["fk_by_hand", "max_abs_err"] == Threshold(1, 1e-8, None)
+    assert limits[1, "fk_identity_check", "inv_err"].max == 1e-10
+    assert limits[1, "fk_by_hand", "max_abs_err"].max == 1e-8
 
 
 def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
     assert load(tmp_path) == {}
-    (tmp_path / "w1-x").mkdir()
-    manifest = tmp_path / "w1-x" / "week.toml"
-    for text in ("[[days", "[[days]]\nnumber=1\n[[days.metrics]]\nmetric='m'"):
+    manifest = tmp_path / "w1-x" / "day1" / "day.toml"
+    manifest.parent.mkdir(parents=True)
+    for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
-        with pytest.raises(Robo47Error, match=r"week\.toml"):
+        with pytest.raises(Robo47Error, match=r"day\.toml"):
             load(tmp_path)
 
 
@@ -233,7 +269,7 @@ def test_an_empty_log_gives_a_page_that_says_what_to_do(log):
     log.write_text(LINE + "\n")
     done = run("--file", str(log), "--check", "nothing")
     assert done.returncode == 0
-    assert "make day1" in (log.parent / "report.html").read_text("utf-8")
+    assert "make run" in (log.parent / "report.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize("words", [["--file", "nowhere.csv"], ["--since", "soon"]])

@@ -1,13 +1,21 @@
-"""What comes back from a student's file, and what a file that does not load is told."""
+"""What comes back from a student's file, and what that file may import."""
 
 import numpy as np
 import pytest
 
-from robo47.checker import process
-from robo47.checker.replies import LoadError, Model, Question
+from robo47 import panda
+from robo47.checker import process, sandbox
+from robo47.checker.model_copy import copy_model, facts
+from robo47.checker.replies import LoadError, Model, Path, Question
 from robo47.lesson.day import find_day
+from robo47.paths import ROOT
 
 REFERENCE = find_day(1).source.read_text("utf-8")
+
+LIBRARY = {
+    f"robo47.{name}": (ROOT / "robo47" / f"{name}.py").read_text("utf-8")
+    for name in ("se3", "checks")
+}
 
 
 class TestWhatComesBack:
@@ -78,6 +86,7 @@ class TestWhatComesBack:
         assert reply.value == 3
 
 
+@pytest.mark.kit
 class TestAFileThatDoesNotLoad:
     @pytest.mark.parametrize(
         ("code", "kind", "line"),
@@ -107,3 +116,249 @@ class TestAFileThatDoesNotLoad:
     def test_fails_every_task_and_passes_none(self, check):
         verdicts = check("import sys\nsys.exit(0)\n" + REFERENCE)
         assert {verdict.mistake for verdict in verdicts.values()} == {"does-not-load"}
+
+
+@pytest.mark.kit
+class TestASecondAsking:
+    def test_comes_long_after_the_first_and_is_kept_beside_it(self, ask):
+        code = """
+            calls = []
+            def f(n):
+                calls.append(n)
+                return 100.0 * len(calls) + n
+        """
+        questions = [Question("1.1", "f", (n,)) for n in (1, 2, 3)]
+        replies = ask(code, *questions)
+        assert [reply.value for reply in replies] == [101, 202, 303]
+        # In reverse order, of the file loaded anew.
+        assert [reply.again for reply in replies] == [301, 202, 103]
+
+    def test_that_goes_wrong_alone_says_how(self, ask):
+        code = """
+            import numpy as np
+            NUMBERS = np.ones(3)
+            seen = set()
+            def f(n):
+                if n == 2 and seen: return 1.0
+                if n == 1 and seen: raise ValueError("again")
+                seen.add(n)
+                return 1.0
+        """
+        first, second = ask(code, *(Question("1.1", "f", (n,)) for n in (1, 2)))
+        assert (first.kind, first.again_error) == ("", "ValueError: again")
+        assert second.again_error == ""
+
+    @pytest.mark.parametrize(
+        ("body", "shares"),
+        [
+            ("return ZERO", ("another answer",)),
+            ("return ZERO[:2]", ("another answer",)),
+            ("return ROWS", ("another answer",)),
+            ("return x", ("x",)),
+            ("return x[1:]", ("x",)),
+            ("return np.ones(3), x.T", ("x",)),
+            ("return model.body_pos", ("model",)),
+            ("return x.copy()", ()),
+            ("return x.tolist()", ()),
+            ("return ZERO + 0", ()),
+            ("return 0.0", ()),
+        ],
+    )
+    def test_tells_whose_memory_an_answer_is(self, ask, body, shares):
+        code = f"""
+            import numpy as np
+            ZERO, ROWS = np.zeros(3), [[1.0, 2.0]]
+            def f(model, x): {body}
+        """
+        question = Question("1.1", "f", (Model(0), np.ones(3)))
+        for reply in ask(code, question, question):
+            assert reply.shares == shares
+
+
+@pytest.mark.kit
+class TestALoop:
+    def test_costs_one_limit_and_what_builds_on_it_waits(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
+        started = []
+        real = sandbox.Process
+        monkeypatch.setattr(
+            sandbox, "Process", lambda: started.append(real()) or started[-1]
+        )
+        code = """
+            def loop(n):
+                while n: pass
+                return 0.0
+            def fine(): return 47.0
+        """
+        questions = [
+            Question("1.1", "fine", ()),
+            *(Question("1.2", "loop", (n,)) for n in (0, 1, 1)),
+            Question("1.3", "fine", ()),
+            Question("1.4", "fine", ()),
+            Question("1.5", "fine", ()),
+        ]
+        replies = ask(code, *questions, needs={"1.3": ["1.2"], "1.4": ["1.3"]})
+        kinds = [reply.kind for reply in replies]
+        assert kinds == ["", "", "stopped", "stopped", "waits", "waits", ""]
+        assert [replies[i].again for i in (0, 6)] == [47, 47]
+        assert len(started) == 2
+
+    def test_only_at_the_second_asking_is_found_too(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
+        code = """
+            seen = []
+            def f(n):
+                while n == 1 and seen: pass
+                seen.append(n)
+                return 1.0
+            def g(): return 2.0
+        """
+        questions = [*(Question("1.1", "f", (n,)) for n in (1, 2))]
+        one, two, other = ask(code, *questions, Question("1.2", "g", ()))
+        assert (one.kind, two.kind, other.kind) == ("stopped", "", "")
+
+
+@pytest.mark.kit
+class TestWhatItMayImport:
+    @pytest.mark.parametrize(
+        "line",
+        [
+            "from robo47.se3 import make_T",
+            "from robo47 import se3; make_T = se3.make_T",
+            "import robo47.se3 as s; make_T = s.make_T",
+            "import robo47; make_T = robo47.se3.make_T",
+            "import importlib as i; make_T = i.import_module('robo47.se3').make_T",
+        ],
+    )
+    def test_is_the_kits_library_of_earlier_days(self, ask, line):
+        code = (
+            f"import numpy as np\n{line}\ndef f(): return make_T(np.eye(3), [1, 2, 3])"
+        )
+        (reply,) = ask(code, library=LIBRARY)
+        assert reply.value[:3, 3].tolist() == [1, 2, 3]
+
+    @pytest.mark.parametrize(
+        "line",
+        [
+            "from robo47.kinematics import chain_to as f",
+            "from robo47 import kinematics; f = kinematics.chain_to",
+            "from importlib import import_module as i; "
+            "f = i('robo47.kinematics').chain_to",
+            "import sys, robo47.kinematics as k; f = sys.modules[k.__name__].chain_to",
+        ],
+    )
+    def test_is_nothing_of_the_day_itself_or_later(self, ask, line):
+        (reply,) = ask(line, library=LIBRARY)
+        assert reply.refused == ("call robo47.kinematics.chain_to",)
+
+    def test_is_nothing_at_all_where_no_library_is_sent(self, ask):
+        (reply,) = ask("from robo47.se3 import make_T as f")
+        assert reply.refused == ("call robo47.se3.make_T",)
+
+    def test_may_be_named_at_the_top_whatever_it_is(self, ask):
+        code = """
+            import kit
+            import mujoco
+            import mujoco.viewer
+            import numpy as np
+            from robo47 import cli, panda, verify
+            from robo47.errors import Robo47Error
+            from robo47.figures.scene import Camera
+            from robo47.lesson.lab import Lab
+            END = panda.END_FRAME["panda_nohand"]
+            LIMITS = verify.LIMITS["x"][0] * 2 + np.ones(3) * verify.REACH
+            NAMES = [name for name in verify.NAMES]
+            class Mine(verify.Worst): pass
+            def draw(camera: Camera | None = None, d: mujoco.MjData | None = None): ...
+            def f(): return len(END)
+        """
+        (reply,) = ask(code)
+        assert (reply.error, reply.value) == ("", len("site:attachment_site"))
+
+    @pytest.mark.parametrize(
+        ("line", "refused"),
+        [
+            ("mujoco.MjModel.from_xml_path('x.xml')", "mujoco.MjModel.from_xml_path"),
+            ("mujoco.MjData(panda.load())", "mujoco.MjData"),
+            ("mujoco.mj_loadXML('x.xml')", "mujoco.mj_loadXML"),
+            ("mujoco.viewer.launch()", "mujoco.viewer.launch"),
+            ("float(verify.LIMIT)", "use robo47.verify.LIMIT"),
+            ("panda.load('panda')", "load 'panda', which the checker has no copy of"),
+            ("panda.load(edit=print)", "call robo47.panda.load with edit"),
+        ],
+    )
+    def test_refuses_by_name_what_is_used_while_loading(self, ask, line, refused):
+        code = f"import mujoco\nfrom robo47 import panda, verify\nX = {line}"
+        with pytest.raises(LoadError) as caught:
+            ask(code)
+        assert caught.value.reply.kind == "RefusedError"
+        assert refused in caught.value.reply.refused[0]
+        assert caught.value.reply.line == 3
+
+    def test_does_not_take_one_panda_for_the_other(self, student):
+        hand = copy_model(panda.load("panda"), "panda")
+        code = "from robo47 import panda\ndef f(): return panda.load('panda').nq"
+        with sandbox.Sandbox() as box:
+            asked = [Question("", "f", ())]
+            (reply,) = box.run(student(code), asked, [hand], facts())
+        assert reply.value == 9
+
+    def test_is_no_module_that_does_not_exist(self, ask):
+        with pytest.raises(LoadError, match=r"named 'robo47\.nothing'"):
+            ask("import robo47.nothing")
+
+    def test_takes_a_path_as_a_list_of_pairs(self, ask):
+        code = "def f(path): return len(path), path == [('a', None), ('b', 'j')]"
+        path = Path((("a", None), ("b", "j")))
+        (reply,) = ask(code, Question("1.6", "f", (path,)))
+        assert reply.value.tolist() == [2, 1]
+
+
+@pytest.mark.kit
+class TestASession:
+    CODE = """
+        import numpy as np
+        calls = 0
+        def f(x):
+            global calls
+            calls += 1
+            return x + calls
+        def fails(): raise ValueError("no")
+        def loop():
+            while True: pass
+    """
+
+    def test_answers_round_after_round(self, student):
+        with sandbox.Sandbox() as box:
+            session = box.session(student(self.CODE), [], facts())
+            for n in range(1, 200):
+                (reply,) = session.ask([Question("", "f", (1.0,))])
+                assert reply.value == n + 1
+            replies = session.ask(
+                [Question("", "fails", ()), Question("", "f", (np.ones(2),))]
+            )
+            assert replies[0].error == "no"
+            assert replies[1].value.tolist() == [201, 201]
+
+    def test_ends_with_a_loop_and_another_can_be_opened(self, student):
+        with sandbox.Sandbox() as box:
+            script = student(self.CODE)
+            session = box.session(script, [], facts())
+            questions = [Question("", name, args) for name, args in (("f", (1,)),)]
+            questions += [Question("", "loop", ())] * 2
+            kinds = [reply.kind for reply in session.ask(questions, seconds=0.5)]
+            assert kinds == ["", "stopped", "stopped"]
+            assert not session.alive
+            assert session.ask(questions)[0].kind == "stopped"
+            other = box.session(script, [], facts())
+            assert other.ask(questions[:1])[0].value == 2
+
+    def test_says_why_the_file_does_not_load(self, student):
+        with sandbox.Sandbox() as box, pytest.raises(LoadError, match="division"):
+            box.session(student("1 / 0"), [], facts())
+
+    def test_ends_with_its_sandbox(self, student):
+        with sandbox.Sandbox() as box:
+            session = box.session(student(self.CODE), [], facts())
+        assert session.ask([Question("", "f", (1,))])[0].kind == "stopped"
+        assert session._process.process.returncode is not None

@@ -58,6 +58,7 @@ def test_the_arm_weighs_and_moves_the_same_in_every_scene(robot):
         assert_same(ours.xpos[1:8], theirs.xpos[1:8], 1e-15)
 
 
+@pytest.mark.soak  # reads 67 MB of meshes
 def test_looks_change_nothing_that_moves(real_panda):
     plain, pretty = (scenes.table_top(meshes=meshes) for meshes in (False, True))
     assert pretty.ngeom > plain.ngeom

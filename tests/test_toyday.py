@@ -1,8 +1,8 @@
 """A whole invented day, dropped into a copy of the kit: nothing shared is touched.
 
 `tests/toyday/` is the specification of what an author may expect: a scalar, a vector, a
-6x6, a bracket that is no pose, a tuple, a `min` metric, an answer that is not unique, an
-optional task, the library of day 1, and a robot with a hand.
+6x6, a bracket that is no pose, a tuple, a `min` metric, an answer that is not unique,
+an optional task, the library of day 1, and a robot with a hand.
 """
 
 import json
@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import pytest
+
 from conftest import ROOT, environment_of
 
 pytestmark = pytest.mark.kit
@@ -152,11 +153,10 @@ def test_its_submissions_are_graded(kit, run, tmp_path):
     work = tmp_path / "class" / "ada" / "w9-toy" / "work"
     work.mkdir(parents=True)
     shutil.copyfile(kit / "w9-toy" / "src" / "day46_toy.py", work / "day46_toy.py")
-    folder = tmp_path / "class"
-    done = run("scripts/grade_class.py", folder, "--day", 46, "--out", tmp_path / "out")
+    folder, out = tmp_path / "class", tmp_path / "out" / "grades.csv"
+    done = run("scripts/grade_class.py", folder, "--day", 46, "--out", out)
     assert done.returncode == 0, done.stdout + done.stderr
-    (grades,) = (tmp_path / "out").glob("*grades.csv")
-    assert "ada" in grades.read_text()
+    assert "ada" in out.read_text("utf-8-sig")
 
 
 def test_its_picture_is_drawn_and_its_notebook_made(kit, run):

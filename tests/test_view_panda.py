@@ -12,6 +12,8 @@ from inspection import SCRIPT, Served
 
 from conftest import ROOT, need
 
+pytestmark = pytest.mark.kit
+
 VIEW = "scripts/view_panda.py"
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
 ON_LINUX = sys.platform.startswith("linux")
@@ -46,7 +48,7 @@ def is_one_line(text: str) -> bool:
 
 def test_help_shows_every_way_to_look_and_fits_80_columns(run):
     said = run(VIEW, "--help", COLUMNS=80).stdout
-    for way in ("--web", "--native", "--screenshot", "--port", "make view"):
+    for way in ("--clip", "--native", "--screenshot", "--port", "make view"):
         assert way in said
     assert max(map(len, said.splitlines())) <= 80
 
@@ -129,12 +131,14 @@ def test_without_viser_it_names_the_command_that_installs_it():
 
 
 @pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
-def test_without_a_display_the_window_is_refused_in_one_line_that_names_web(run):
+def test_without_a_display_the_window_is_refused_in_one_line_that_names_the_browser(
+    run,
+):
     done = run(VIEW, "--native", **NO_DISPLAY)
     assert done.returncode == 2
     assert is_one_line(done.stderr)
     assert "no display" in done.stderr
-    assert "--web" in done.stderr
+    assert "make view" in done.stderr
 
 
 @pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
@@ -142,19 +146,38 @@ def test_a_display_that_is_not_there_does_not_end_the_process_by_surprise(run):
     done = run(VIEW, "--native", DISPLAY=":4747", WAYLAND_DISPLAY="")
     assert done.returncode == 2
     assert is_one_line(done.stderr)
-    assert "--web" in done.stderr
+    assert "make view" in done.stderr
 
 
-@pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
-def test_without_a_display_the_browser_is_the_default(run):
+def test_the_browser_is_the_default_whatever_display_there_is():
     hide = (
-        "import os, importlib.util as u; find = u.find_spec\n"
-        "os.environ.update(DISPLAY='', WAYLAND_DISPLAY='')\n"
+        "import importlib.util as u; find = u.find_spec\n"
         "u.find_spec = lambda name, *a: None if name == 'viser' else find(name, *a)"
     )
     done = run_after(hide)
-    assert "no window: there is no display" in done.stderr
     assert "the inspector needs viser" in done.stderr
+
+
+def test_a_day_that_is_not_there_is_one_line(run):
+    done = run(VIEW, "99")
+    assert done.returncode == 2
+    assert is_one_line(done.stderr)
+    assert "no day 99" in done.stderr
+
+
+def test_a_clip_never_replaces_a_file_and_knows_its_endings(run, tmp_path):
+    path = tmp_path / "arm.gif"
+    path.write_text("mine")
+    assert is_one_line(run(VIEW, "1", "--clip", path).stderr)
+    assert path.read_text() == "mine"
+    done = run(VIEW, "1", "--clip", tmp_path / "arm.mp4")
+    assert is_one_line(done.stderr)
+    assert ".gif or .webp" in done.stderr
+
+
+def test_a_clip_of_a_file_that_is_not_there_is_one_line(run, tmp_path):
+    done = run(VIEW, "1", "--clip", tmp_path / "a.gif", "--file", tmp_path / "no.py")
+    assert is_one_line(done.stderr)
 
 
 @pytest.mark.gl

@@ -12,13 +12,14 @@ import mujoco
 import pytest
 
 from conftest import need
-from robo47.checker import wall
+from robo47.checker import resources, wall
 from robo47.checker.model_copy import facts
 from robo47.checker.replies import Question
 from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
+pytestmark = pytest.mark.kit
 LINUX = sys.platform.startswith("linux")
 SITE = os.path.dirname(os.path.dirname(mujoco.__file__))
 # Walks up to the checker's own frame and empties the guard: four lines, no trick.
@@ -235,6 +236,15 @@ class TestAWall:
         while any(map(is_there, family)) and time.monotonic() < deadline:
             time.sleep(0.05)
         assert not any(map(is_there, family))
+
+    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    def test_hides_no_memory_from_the_watch(self, name, tmp_path):
+        script = tmp_path / "large.py"
+        script.write_text("import numpy as np\nX = np.ones(25_000_000)\ndef f(): 0")
+        with standing(name), Sandbox() as box:
+            session = box.session(script, [], facts())
+            session.ask([Question("", "f", ())])
+            assert resources.resident_bytes(session._process.process) > 200_000_000
 
     @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
     def test_lets_a_task_use_all_of_python_and_numpy(self, name, tmp_path):

@@ -10,6 +10,8 @@ import pytest
 
 from robo47 import panda, window
 
+pytestmark = pytest.mark.kit
+
 
 def test_no_display_is_an_obstacle_on_linux(monkeypatch):
     monkeypatch.setattr(sys, "platform", "linux")
@@ -82,7 +84,7 @@ def test_the_window_is_closed_and_given_a_second_before_the_end(
     )
 
     @contextmanager
-    def launch_passive(model, data, show_left_ui):
+    def launch_passive(model, data, show_left_ui, show_right_ui):
         happened.append(float(data.ctrl[3]) if model.nu else "no motors")
         try:
             yield handle

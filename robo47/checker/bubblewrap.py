@@ -43,7 +43,7 @@ def prefix(binds: list[str] | None = None) -> list[str]:
     Args:
         binds: further options of bubblewrap.
     """
-    python = Path(os.path.realpath(sys.executable))
+    python = Path(os.path.realpath(getattr(sys, "_base_executable", sys.executable)))
     options = [str(shutil.which("bwrap")), *NAMESPACES.split()]
     for device in DEVICES:
         options += ["--dev-bind", device, device]

@@ -49,6 +49,7 @@ class Process:
         self.process = _starter.submit(_start, command(self.wall)).result()
         self.secret = b""
         self.answers = 0
+        self._closed = threading.Event()
         self._in: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
         self._threads = [
@@ -107,14 +108,12 @@ class Process:
     def close(self) -> None:
         """End the process."""
         resources.end(self.process)
+        self._closed.set()
         self._out.put(None)
-        with contextlib.suppress(queue.Empty):
-            while True:  # make room for a reader that waits for some
-                self._in.get_nowait()
         for thread, stream in zip(
             self._threads, (self.process.stdout, self.process.stdin), strict=True
         ):
-            thread.join(1.0)
+            thread.join(resources.END_SECONDS)
             if stream and not thread.is_alive():  # else something holds the other end
                 with contextlib.suppress(OSError):
                     stream.close()
@@ -172,8 +171,14 @@ class Process:
         assert stream is not None
         with contextlib.suppress(OSError):
             for line in iter(lambda: stream.readline(LONGEST_LINE), b""):
-                self._in.put(line)
-        self._in.put(None)
+                self._deliver(line)
+        self._deliver(None)
+
+    def _deliver(self, line: bytes | None) -> None:
+        """Queue a line as soon as there is room; whoever floods us waits."""
+        while not self._closed.is_set():
+            with contextlib.suppress(queue.Full):
+                return self._in.put(line, timeout=POLL_SECONDS)
 
 
 def _start(command: list[str]) -> subprocess.Popen[bytes]:

@@ -10,7 +10,7 @@ from robo47.checker import model_copy
 from robo47.checker.library import library_of
 from robo47.checker.replies import LoadError, Model, Question
 from robo47.checker.sandbox import Sandbox
-from robo47.checker.verdicts import verdict_of, why_not_loaded
+from robo47.checker.verdicts import not_utf8, verdict_of, why_not_loaded
 from robo47.diagnose.ask import Ask, Robot
 from robo47.diagnose.mistake import Verdict
 from robo47.diagnose.rounds import Round, make_round, robots
@@ -70,6 +70,9 @@ def check_tasks(
     needed = {need for task in wanted for need in day.needs(task.id)}
     asked = [task for task in day.tasks if task in wanted or task.id in needed]
     rounds = rounds_of(day, asked, secrets.randbits(32) if seed is None else seed)
+    if why := not_utf8(script) if script.is_file() else "":
+        verdict = Verdict("todo", "does-not-load", why)
+        return [TaskResult(task, verdict) for task in wanted]
     models = [PANDA, *robots(one for some in rounds.values() for one in some)]
     questions = {
         task.id: [_sent(q, models) for one in rounds[task.id] for q in one.questions]

@@ -1,6 +1,7 @@
 """From a task's replies to its verdict: what never was an answer, then the judge."""
 
 import re
+import tokenize
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -55,9 +56,30 @@ def why_not_loaded(script: Path, reply: Reply) -> str:
         return f"{where}: while being loaded it asks for input. {IN_MAIN}"
     if reply.kind == "stopped":
         return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
-    if "null bytes" in reply.error or "utf-8" in reply.error.lower():
-        return f"{where}: the file is not in UTF-8. Save it as UTF-8 in your editor."
-    return f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
+    why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
+    if reply.kind == "ModuleNotFoundError":
+        why += (
+            ". The checker has NumPy and Python's own modules only: import others in "
+        )
+        why += "in the function that uses them."
+    elif reply.kind == "SyntaxError" and _line_of(script, reply).startswith("<<<<<<<"):
+        why += ". This is the mark of a merge that git could not finish: keep one side."
+    return why
+
+
+def not_utf8(script: Path) -> str:
+    """Return one line on a file that Python cannot read as text, or ""."""
+    try:
+        with tokenize.open(script) as file:
+            file.read()
+    except (SyntaxError, UnicodeDecodeError):
+        return f"{script.name} is not in UTF-8. Save it as UTF-8 in your editor."
+    return ""
+
+
+def _line_of(script: Path, reply: Reply) -> str:
+    lines = script.read_text("utf-8", errors="replace").splitlines()
+    return lines[reply.line - 1] if reply.line and reply.line <= len(lines) else ""
 
 
 def _of_function(

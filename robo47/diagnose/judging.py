@@ -55,23 +55,27 @@ def _judge_values(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict:
     off = off_by(ask, S, T)
     if off > ask.near:
         return Verdict("wrong", *diagnose(case, S, T), measured)
-    note = ""
     if off > ask.tolerance:
-        if not (
-            off <= near_miss.SINGLE and answers.single_precision(replies[:count], S)
-        ):
-            found = ask.near_miss(case) if ask.near_miss else None
-            i = worst_part(ask, S, T)
-            return Verdict("close", *(found or near_miss.explain(S[i], T[i])), measured)
-        note = f"Right, in float32: off by {off:.0e}. The labs use float64."
-    return _second_look(asked, replies, note, measured)
+        return Verdict("close", *_near_miss(case, replies[:count], S, T, off), measured)
+    return _second_look(asked, replies, measured)
+
+
+def _near_miss(
+    case: Case, replies: Sequence[Reply], S: Parts, T: Parts, off: float
+) -> Finding:
+    if off <= near_miss.SINGLE and answers.single_precision(replies, S):
+        says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
+        return Finding("float32", says)
+    i = worst_part(case.ask, S, T)
+    found = case.ask.near_miss(case) if case.ask.near_miss else None
+    return found or near_miss.explain(S[i], T[i])
 
 
 def _second_look(
-    asked: Round, replies: Sequence[Reply], note: str, measured: tuple[str, ...]
+    asked: Round, replies: Sequence[Reply], measured: tuple[str, ...]
 ) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
-    ask, at = asked.ask, len(asked.main)
+    ask, at, note = asked.ask, len(asked.main), ""
     if shared := answers.shared_memory(replies[: at + len(asked.fresh)]):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
@@ -125,7 +129,7 @@ def _judge_accepted(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((i, found))
     if not wrong:
-        return _second_look(asked, replies, "", ())
+        return _second_look(asked, replies, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     i, found = wrong[0]

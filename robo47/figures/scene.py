@@ -85,10 +85,29 @@ class Ghost:
     Attributes:
         body: its name.
         T_world_moved: takes every point of it to where the copy is, (4, 4).
+        alone: leave out what the body carries.
+        wrong: red, not blue.
     """
 
     body: str
     T_world_moved: Array
+    alone: bool = False
+    wrong: bool = False
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box beside the robot, such as a table.
+
+    Attributes:
+        T_world_box: the pose of its centre, (4, 4).
+        half: half its edges, metres.
+        colour: red, green, blue, opacity, 0 to 1.
+    """
+
+    T_world_box: Array
+    half: tuple[float, float, float]
+    colour: tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -101,6 +120,7 @@ class Scene:
         camera: where it is seen from.
         ghosts: translucent copies.
         fast: leave out multisampling, shadows and reflections.
+        boxes: what else is there.
     """
 
     qpos: Array
@@ -108,3 +128,4 @@ class Scene:
     camera: Camera = Camera()
     ghosts: tuple[Ghost, ...] = ()
     fast: bool = False
+    boxes: tuple[Box, ...] = ()

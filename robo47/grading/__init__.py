@@ -2,31 +2,28 @@
 
 On the teacher's machine, the coordinator:
 
-    classroom   one class and one day, from start to end
-    roster      who is in the class, and in which folder
+    classroom   one class, from start to end, for one day or more
+    roster      who is in the class, in which folder, and their files' names
     pull        clone and update, where asked to
-    collect     from a clone to the few files that a grade depends on, as bytes
-    history     what git says of a clone, asked without trusting its configuration
-    package     those bytes: what travels, and its fingerprint
+    package     from a clone to what travels: a few files as bytes, and its fingerprint
     engine      packages in, results out: on this machine, or on a Dask cluster
     journal     every result, kept as it comes; nothing is graded twice
     similar     whose submissions are alike
-    kit         which kit this is
 
 Wherever grading happens, here or on a worker:
 
     grader      a process of its own for the checker, with a time limit
-    child       what runs in that process
-    grade       from a package to a result, by the instructor's kit
+    child       what runs in that process: from a package to a result
     result      what a grade consists of
 
 What comes out:
 
-    sheet       the table, one row per student
-    feedback    a file for each of them
+    sheet       the table, one row per student, and a file for each of them
     overview    what the class stumbles over, and who is stuck
-    page, bars  the same as one HTML page
+    page, people, charts   the same as one HTML page
 
 Student code only ever runs in the checker's sandbox, and nothing of a student's clone
-(its robo47/, week.toml, conftest.py, Makefile or git configuration) takes part.
+(its robo47/, manifests, conftest.py, Makefile or git configuration) takes part. What a
+machine does wrong (a full disk, a process that was killed, a limit under load) is never
+a student's result: it is counted apart and tried again at the next run.
 """

@@ -1,53 +1,57 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
 from array import array
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tqdm import tqdm
 
-from robo47.checker.deliverables.commit import wanted_files
+from robo47.checker.deliverables.git import GitError
 from robo47.grading import page, similar
-from robo47.grading.collect import collect
-from robo47.grading.course import Course
-from robo47.grading.engine import Engine, LostError, grade_all
-from robo47.grading.feedback import write_feedback
+from robo47.grading.engine import Engine, Key, grade_all
 from robo47.grading.journal import Journal
-from robo47.grading.package import Package
+from robo47.grading.overview import Course
+from robo47.grading.package import Package, collect
 from robo47.grading.pull import pull_all
-from robo47.grading.result import Result, ungraded
-from robo47.grading.roster import Student
-from robo47.grading.sheet import Graded, as_csv, write
-from robo47.grading.similar import Group
+from robo47.grading.result import FaultError, Result, ungraded
+from robo47.grading.roster import Student, file_names
+from robo47.grading.sheet import Graded, as_csv, write, write_feedback
 from robo47.lesson.day import Day
 from robo47.lesson.starter import make_starter, read_script
 from robo47.paths import shown
+from robo47.text import visible
 
-LOST = "the workers that graded it were lost; run the same command again"
+FAULT = "this machine failed ({}); the same command tries again"
 
 
 @dataclass
 class Classroom:
-    """One class and one day, on the way to its grades.
+    """One class on the way to its grades, for one day or more.
 
     Attributes:
         students: from the roster.
-        day: from the kit's manifest.
+        days: from the kit's manifests.
         journal: results so far.
         again: grade those too that have a result.
         notes: what to add to a student's error, by folder.
-        graded_now: how many this run graded.
-        lost: how many it could not, for want of workers.
+        graded_now: how many results are new.
+        faults: how many are none, since this machine or a worker failed.
     """
 
     students: Sequence[Student]
-    day: Day
+    days: Sequence[Day]
     journal: Journal
     again: bool = False
     notes: dict[str, str] = field(default_factory=dict)
     graded_now: int = 0
-    lost: int = 0
+    faults: int = 0
+
+    def __post_init__(self) -> None:
+        """Name everybody's file."""
+        self._files = file_names(student.folder for student in self.students)
+        self._students = {student.folder: student for student in self.students}
+        self._days = {day.number: day for day in self.days}
 
     def pull(self) -> None:
         """Clone and update; who cannot be updated is graded as they are."""
@@ -57,7 +61,7 @@ class Classroom:
                     self.notes[student.folder] = f"not pulled: {problem}"
                 bar.update()
 
-    def grade(self, engine: Engine, feedback: Path) -> tuple[list[Graded], list[Group]]:
+    def grade(self, engine: Engine, feedback: Path) -> list[Course]:
         """Grade everybody whose work has changed.
 
         Args:
@@ -65,80 +69,103 @@ class Classroom:
             feedback: folder of the students' files.
 
         Returns:
-            Everybody, in the roster's order, and the groups of similar submissions.
+            For each day everybody, in the roster's order, and who writes alike.
 
         Raises:
             Robo47Error: no worker is left, or a file cannot be written.
         """
-        by_folder = {student.folder: student for student in self.students}
-        graded: dict[str, Graded] = {}
-        runs = {}
-        look = _comparer(self.day)
+        graded: dict[Key, Graded] = {}
+        runs: dict[Key, list[array[int]]] = {}
+        compare = {day.number: _comparer(day) for day in self.days}
 
-        def note(folder: str, package: Package, result: Result) -> None:
-            graded[folder] = self._graded(by_folder[folder], package, result)
-            write_feedback(feedback, graded[folder])
+        def note(key: Key, package: Package, result: Result | FaultError) -> None:
+            graded[key] = self._graded(key, package, result)
+            write_feedback(feedback, graded[key])
             bar.update()
 
-        def changed() -> Iterator[tuple[str, Package]]:
-            for folder, student in by_folder.items():
-                package = collect(student, self.day)
-                runs[folder] = look(package)
-                known = self.journal.find(folder, package)
+        def changed() -> Iterator[tuple[Key, Package]]:
+            for key in ((d, f) for d in self._days for f in self._students):
+                day, student = self._days[key[0]], self._students[key[1]]
+                try:
+                    package = collect(student, day)
+                except (OSError, GitError) as error:
+                    note(key, Package(day.number, ""), FaultError(visible(error)))
+                    continue
+                runs[key] = compare[day.number](package)
+                known = self.journal.find(student.folder, package)
                 if known and not self.again:
-                    note(folder, package, known)
+                    note(key, package, known)
                 else:
-                    yield folder, package
+                    yield key, package
 
-        with _bar(len(self.students), "grading") as bar:
-            for folder, package, result in grade_all(changed(), engine):
-                note(folder, package, self._kept(folder, package, result))
-        return [graded[key] for key in by_folder], similar.similar_groups(runs)
+        with _bar(len(self.students) * len(self.days), "grading") as bar:
+            for key, package, result in grade_all(changed(), engine):
+                if isinstance(result, Result):
+                    self.journal.keep(key[1], package, result)
+                    self.graded_now += 1
+                note(key, package, result)
+        return [self._course(day, graded, runs) for day in self.days]
 
-    def _kept(
-        self, folder: str, package: Package, result: Result | LostError
-    ) -> Result:
-        """Keep a result; one that was lost is not kept, so that it is tried again."""
-        if isinstance(result, LostError):
-            self.lost += 1
-            return ungraded(self.day, LOST)
-        self.journal.keep(folder, package, result)
-        self.graded_now += 1
-        return result
-
-    def _graded(self, student: Student, package: Package, result: Result) -> Graded:
+    def _graded(
+        self, key: Key, package: Package, result: Result | FaultError
+    ) -> Graded:
+        day, student = self._days[key[0]], self._students[key[1]]
+        fault = isinstance(result, FaultError)
+        if isinstance(result, FaultError):  # not kept, so that it is tried again
+            self.faults += 1
+            result = ungraded(day, FAULT.format(visible(result, 200)))
         minutes = None
         if package.committed is not None:
             minutes = (self.journal.reference - package.committed) // 60
-        note = self.notes.get(student.folder, "")
-        return Graded(student, result, package.commit, minutes, note)
+        note, file = self.notes.get(student.folder, ""), self._files[student.folder]
+        return Graded(student, result, package.commit, minutes, note, fault, file)
+
+    def _course(
+        self,
+        day: Day,
+        graded: Mapping[Key, Graded],
+        runs: Mapping[Key, list["array[int]"]],
+    ) -> Course:
+        own = {f: r for (number, f), r in runs.items() if number == day.number}
+        alike = similar.like_the_kit(own, _runs_of_kit(day))
+        alike += similar.similar_groups({f: r[0] for f, r in own.items() if r})
+        everybody = [graded[day.number, folder] for folder in self._students]
+        journal = self.journal
+        return Course(day, everybody, alike, journal.reference, journal.deadline)
 
 
-def write_all(
-    room: Classroom, everybody: Sequence[Graded], alike: Sequence[Group], out: Path
-) -> None:
-    """Write the table and the page.
+def write_all(course: Course, out: Path) -> None:
+    """Write a day's table and page.
 
     Args:
-        room: the class.
-        everybody: in the order to show them.
-        alike: similar submissions.
+        course: everybody's grades for a day.
         out: the table; the page goes beside it.
 
     Raises:
         Robo47Error: one of them cannot be written.
     """
-    journal = room.journal
-    course = Course(room.day, everybody, alike, journal.reference, journal.deadline)
-    write(out, as_csv(room.day, everybody))
+    write(out, as_csv(course.day, course.class_))
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _comparer(day: Day) -> Callable[[Package], "array[int]"]:
-    """Return what makes of a package's script what `similar` compares."""
-    starter = make_starter(read_script(day.source), shown(day.source), day.number)
-    script = wanted_files(day)[0]
-    return lambda package: similar.runs_of(package.files.get(script, b""), starter)
+def _starter(day: Day) -> str:
+    return make_starter(read_script(day.source), shown(day.source), day.number)
+
+
+def _runs_of_kit(day: Day) -> "array[int]":
+    return similar.runs_of(read_script(day.source).encode(), _starter(day))
+
+
+def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:
+    """Return what makes of files what `similar` compares, the script's first."""
+    starter = _starter(day)
+
+    def compare(package: Package) -> list["array[int]"]:
+        files = package.modules()
+        names = sorted(files, key=lambda name: name != day.script)
+        return [similar.runs_of(files[name], starter) for name in names]
+
+    return compare
 
 
 def _bar(total: int, doing: str) -> "tqdm[None]":

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from robo47.errors import Robo47Error
-from robo47.grading.grader import close_graders, grade_package
+from robo47.grading.grader import close_graders, grade_package, sweep
 from robo47.grading.package import Package
-from robo47.grading.result import Result
+from robo47.grading.result import FaultError, Result
 
 PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 PATIENCE = 60.0  # seconds without any worker before giving up
@@ -29,12 +29,10 @@ NO_DASK = (
 )
 NO_CERTIFICATES = (
     "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
-    "docs/teaching.md says how"
+    "docs/cluster.md says how"
 )
 
-
-class LostError(Exception):
-    """Workers died while grading this package; another run may fare better."""
+Key = tuple[int, str]  # of a package: the day and the student's folder
 
 
 @dataclass(frozen=True)
@@ -49,7 +47,7 @@ class Engine:
 
     executor: Executor
     workers: Callable[[], int]
-    lost: type[BaseException] = LostError
+    lost: type[BaseException] = FaultError
 
 
 @contextlib.contextmanager
@@ -59,6 +57,7 @@ def local(processes: int) -> Iterator[Engine]:
     Args:
         processes: how many submissions at a time.
     """
+    sweep()
     pool = ThreadPoolExecutor(processes)  # each thread waits for a process of its own
     try:
         yield Engine(pool, lambda: processes)
@@ -102,8 +101,8 @@ def _worker_count(client: Any) -> Callable[[], int]:
 
 
 def grade_all(
-    packages: Iterable[tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | LostError]]:
+    packages: Iterable[tuple[Key, Package]], engine: Engine
+) -> Iterator[tuple[Key, Package, Result | FaultError]]:
     """Yield each package's result as it comes, in any order.
 
     Args:
@@ -113,7 +112,7 @@ def grade_all(
     Raises:
         Robo47Error: no worker is left, or one cannot run this kit.
     """
-    under_way: dict[Future[Result], tuple[str, Package]] = {}
+    under_way: dict[Future[Result], tuple[Key, Package]] = {}
     try:
         for key, package in packages:
             under_way[engine.executor.submit(grade_package, package)] = (key, package)
@@ -127,8 +126,8 @@ def grade_all(
 
 
 def _finished(
-    under_way: dict[Future[Result], tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | LostError]]:
+    under_way: dict[Future[Result], tuple[Key, Package]], engine: Engine
+) -> Iterator[tuple[Key, Package, Result | FaultError]]:
     """Wait for results and yield them."""
     done, _ = wait(under_way, timeout=PATIENCE, return_when=FIRST_COMPLETED)
     if not done and not engine.workers():
@@ -140,7 +139,9 @@ def _finished(
         key, package = under_way.pop(future)
         try:
             yield key, package, future.result()
-        except engine.lost as error:
-            yield key, package, LostError(str(error))
+        except FaultError as error:
+            yield key, package, error
+        except engine.lost:
+            yield key, package, FaultError("the workers that graded it were lost")
         except ImportError as error:
             raise Robo47Error(f"a worker cannot run this kit: {error}") from None

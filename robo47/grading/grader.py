@@ -14,19 +14,22 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
+from pathlib import Path
 
 from robo47.checker import resources
 from robo47.errors import Robo47Error
-from robo47.grading import kit
-from robo47.grading.package import Package
-from robo47.grading.result import Result, from_json, ungraded
+from robo47.grading.package import Package, fingerprint
+from robo47.grading.result import FaultError, Result, from_json
 from robo47.lesson.day import find_day
 from robo47.paths import ROOT
 
-# For one package. The sandbox stops eight tasks that hang after 20 s each at most, so
-# only a file that keeps the checker itself busy gets here.
+# For one package. The sandbox stops tasks that hang after 20 s each at most, so only
+# a machine under load, or a file that keeps the checker itself busy, gets here.
 SECONDS = 240.0
 LEAVE_SECONDS = 5.0
+LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
+_FOLDER = "robo47-grader-"
 
 
 class Grader:
@@ -34,7 +37,7 @@ class Grader:
 
     def __init__(self) -> None:
         """Start it."""
-        self.folder = tempfile.mkdtemp(prefix="robo47-grader-")
+        self.folder = tempfile.mkdtemp(prefix=_FOLDER)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         self.process = subprocess.Popen(
             [sys.executable, "-m", "robo47.grading.child", self.folder],
@@ -47,11 +50,14 @@ class Grader:
         )
 
     def grade(self, package: Package, seconds: float = SECONDS) -> Result:
-        """Return a package's result; one that says so where grading ended early.
+        """Return a package's result.
 
         Args:
             package: one submission.
             seconds: after so many the process is ended.
+
+        Raises:
+            FaultError: grading ended early, or the machine failed.
         """
         late = threading.Event()
 
@@ -71,10 +77,13 @@ class Grader:
         finally:
             timer.cancel()
         if answer.endswith(b"\n"):
-            return from_json(json.loads(answer))
+            found = json.loads(answer)
+            if "fault" in found:
+                raise FaultError(found["fault"])
+            return from_json(found, find_day(package.day))
         self.close()
-        why = f"it took more than {seconds:.0f} s" if late.is_set() else "it crashed"
-        return ungraded(find_day(package.day), f"grading it was stopped: {why}")
+        why = f"it took more than {seconds:.0f} s" if late.is_set() else "it was killed"
+        raise FaultError(f"grading it was stopped: {why}")
 
     @property
     def alive(self) -> bool:
@@ -103,20 +112,25 @@ def grade_package(package: Package) -> Result:
 
     Raises:
         Robo47Error: this machine has another kit than the one that sent it.
+        FaultError: the machine failed; the package is as good as new.
     """
-    if package.kit != kit.fingerprint():
+    own = fingerprint(package.day)
+    if package.kit != own:
         raise Robo47Error(
-            f"a worker's kit ({kit.fingerprint()}) is not the coordinator's "
+            f"a worker's kit ({own}) is not the coordinator's "
             f"({package.kit}); check out the same commit on both"
         )
+    grader = None
     try:
-        grader = _idle.get_nowait()
-    except queue.Empty:
-        grader = Grader()
-    try:
+        try:
+            grader = _idle.get_nowait()
+        except queue.Empty:
+            grader = Grader()
         return grader.grade(package)
+    except OSError as error:
+        raise FaultError(f"no process for it: {error.strerror or error}") from None
     finally:
-        if grader.alive:
+        if grader and grader.alive:
             _idle.put(grader)
 
 
@@ -128,3 +142,13 @@ def close_graders() -> None:
             _idle.get_nowait().close()
         except queue.Empty:
             return
+
+
+def sweep() -> None:
+    """Remove what graders that were killed left behind, once it is a day old."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*"):
+        with contextlib.suppress(OSError):
+            facts = folder.lstat()
+            own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
+            if own and time.time() - facts.st_mtime > LEFT_BEHIND:
+                shutil.rmtree(folder, ignore_errors=True)

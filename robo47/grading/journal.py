@@ -1,76 +1,96 @@
 """Every result, kept as it comes: a line of JSON each, on the disk before the next.
 
-A run that was killed, even by a power cut, goes on from here. A last line that was
-cut off is left out and its student graded again.
+A run that was killed, even by a power cut, goes on from here. A line that was cut off,
+or that is no result of the day, is left out and its student graded again. A fault of
+the machine is no result and never written here.
 """
 
 import contextlib
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from robo47.errors import Robo47Error
 from robo47.grading.package import Package
 from robo47.grading.result import Result, from_json
+from robo47.lesson.day import Day
+from robo47.metrics.lock import NO_LOCKS, try_lock
 from robo47.paths import shown
 
 KIND = "robo47 grading"
+_LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
 
 
 class Journal:
-    """The results of one class and day.
+    """The results of one class, for one day or more.
 
     Attributes:
         reference: the time that "minutes since last commit" counts to, seconds since
             1970.
         deadline: whether that is the deadline, and not when the first run began.
-        kits: fingerprints of the kits that graded.
+        odd: lines that are no result.
+        outdated: results that were not used, since another kit gave them.
     """
 
-    def __init__(self, path: Path, day: int, reference: int, *, deadline: bool) -> None:
-        """Read what is there and open it for more.
+    def __init__(
+        self, path: Path, days: Sequence[Day], reference: int, *, deadline: bool
+    ) -> None:
+        """Open it for ourselves alone and read what is there.
 
         Args:
             path: the file.
-            day: its number; results of another day are refused.
+            days: what is graded; a journal of other days is refused.
             reference: see above.
             deadline: see above; any other reference gives way to one that is there.
 
         Raises:
-            Robo47Error: the file cannot be written, or is another day's.
+            Robo47Error: the file cannot be written, is another day's, or somebody else
+                is grading into it.
         """
         self.path, self.reference, self.deadline = path, reference, deadline
-        self.kits: set[str] = set()
-        self._results: dict[str, tuple[str, Result]] = {}
-        known = self._read(day)
+        self.odd = self.outdated = 0
+        self._days = {day.number: day for day in days}
+        self._results: dict[tuple[int, str], tuple[str, str, Result]] = {}
         try:
-            self._file = path.open("ab")
+            self._file = path.open("a+b")
         except OSError as error:
             raise Robo47Error(
                 f"{shown(path)} cannot be written: {error.strerror}"
             ) from None
+        try:
+            self._lock()
+            self._file.seek(0)
+            known = sum([self._takes(line) for line in self._file]) > 0
+        except BaseException:
+            self._file.close()
+            raise
         if not known or (deadline and reference != self.reference):
             self.reference, self.deadline = reference, deadline
             head = {"reference": reference, "deadline": deadline}
-            self._append({"kind": KIND, "day": day, **head})
+            self._append({"kind": KIND, "days": list(self._days), **head})
 
     def find(self, folder: str, package: Package) -> Result | None:
-        """Return a student's result, unless what they hand in has changed since.
+        """Return a student's result, unless what they hand in, or the kit, has changed.
 
         Args:
             folder: the student's.
             package: what they hand in now.
         """
-        fingerprint, result = self._results.get(folder, ("", None))
-        return result if fingerprint == package.fingerprint else None
+        known = self._results.get((package.day, folder))
+        if known is None or known[0] != package.fingerprint:
+            return None
+        self.outdated += known[1] != package.kit
+        return known[2] if known[1] == package.kit else None
 
     def keep(self, folder: str, package: Package, result: Result) -> None:
         """Write a result and wait until the disk has it."""
         fingerprint = package.fingerprint
-        self._results[folder] = (fingerprint, result)
+        self._results[package.day, folder] = (fingerprint, package.kit, result)
         self._append(
             {
+                "day": package.day,
                 "folder": folder,
                 "package": fingerprint,
                 "kit": package.kit,
@@ -79,45 +99,64 @@ class Journal:
         )
 
     def close(self) -> None:
-        """Close the file."""
+        """Close the file, which lets go of it."""
         self._file.close()
+
+    def _lock(self) -> None:
+        try:
+            free = try_lock(self._file.fileno())
+        except OSError as error:
+            if error.errno not in NO_LOCKS:
+                raise
+            return
+        if not free:
+            raise Robo47Error(
+                f"{shown(self.path)}: another make grade is at work there. Wait for it,"
+                " or give this one a folder of its own with --out"
+            )
 
     def _append(self, record: dict[str, Any]) -> None:
         # The line break comes first, so that a cut line never swallows the next one.
-        self._file.write(b"\n" + json.dumps(record).encode("ascii"))
-        self._file.flush()
-        os.fsync(self._file.fileno())
-
-    def _read(self, day: int) -> bool:
-        """Take over what the file holds; return whether it began as a journal."""
         try:
-            lines = self.path.read_bytes().splitlines()
-        except FileNotFoundError:
-            return False
+            self._file.write(b"\n" + json.dumps(record).encode("ascii"))
+            self._file.flush()
+            os.fsync(self._file.fileno())
         except OSError as error:
+            with contextlib.suppress(OSError):
+                self._file.close()
             raise Robo47Error(
-                f"{shown(self.path)} cannot be read: {error.strerror}"
+                f"{shown(self.path)} cannot be written: {error.strerror}. What is "
+                "graded is kept; the same command goes on"
             ) from None
-        known = False
-        for line in lines:
-            with contextlib.suppress(ValueError, KeyError, TypeError, AttributeError):
-                known |= self._take(json.loads(line), day)
-        return known
 
-    def _take(self, record: dict[str, Any], day: int) -> bool:
-        """Take over one record; return whether it is a header."""
+    def _takes(self, line: bytes) -> bool:
+        """Take over a line; return whether it is a header."""
+        if not line.strip():
+            return False
+        try:
+            return self._take(json.loads(line))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            self.odd += 1
+            return False
+
+    def _take(self, record: dict[str, Any]) -> bool:
         if record.get("kind") == KIND:
-            if record["day"] != day:
+            reference, days = record["reference"], record["days"]
+            if days != list(self._days):
+                of = ", ".join(str(int(day)) for day in days)
                 raise Robo47Error(
-                    f"{shown(self.path)} holds day {record['day']}: give day {day} a "
-                    f"folder of its own, such as --out grades-day{day}/grades.csv"
+                    f"{shown(self.path)} holds day {of}: give each day a folder of its "
+                    "own, such as --out grades-dayN/grades.csv"
                 )
-            self.reference = int(record["reference"])
-            self.deadline = bool(record["deadline"])
+            if type(reference) is not int or not 0 <= reference < _LATEST:
+                raise ValueError(reference)
+            self.reference, self.deadline = reference, record["deadline"] is True
             return True
-        self._results[record["folder"]] = (
-            record["package"],
-            from_json(record["result"]),
-        )
-        self.kits.add(record["kit"])
+        day = self._days[record["day"]]
+        facts = (record["folder"], record["package"], record["kit"])
+        if not all(isinstance(fact, str) for fact in facts):
+            raise TypeError(facts)
+        folder, *prints = facts
+        result = from_json(record["result"], day)
+        self._results[day.number, folder] = (prints[0], prints[1], result)
         return False

@@ -6,7 +6,27 @@ from dataclasses import dataclass
 
 from robo47.grading.result import Mark
 from robo47.grading.sheet import Graded
+from robo47.grading.similar import Group
 from robo47.lesson.day import Day
+
+
+@dataclass(frozen=True)
+class Course:
+    """What a page is about.
+
+    Attributes:
+        day: from the manifest.
+        class_: everybody, in the order to show them.
+        alike: similar submissions, by folder.
+        reference: what commit times count to, seconds since 1970.
+        deadline: whether that is the deadline.
+    """
+
+    day: Day
+    class_: Sequence[Graded]
+    alike: Sequence[Group]
+    reference: int
+    deadline: bool
 
 
 @dataclass(frozen=True)
@@ -33,7 +53,8 @@ class Standing:
     Attributes:
         id: "1.4", or "figure".
         counts: number of students by status.
-        stopped: students whose first open task this is.
+        stopped: students whose first open task this is, though their file loads and
+            they have begun.
     """
 
     id: str
@@ -42,35 +63,45 @@ class Standing:
 
 
 def state(graded: Graded) -> str:
-    """Return where a student is: done, stuck, under way, not started or ungraded."""
+    """Return where a student is, in a word or three; the page lists them so."""
     tasks = graded.result.tasks
     if any(task.status == "ungraded" for task in tasks):
         return "ungraded"
     if all(task.passed for task in tasks):
         return "done"
+    if graded.result.does_not_load:
+        return "does not load"
     if graded.result.first_mistake:
         return "stuck"
     return "under way" if any(task.passed for task in tasks) else "not started"
 
 
-def tasks_standing(day: Day, class_: Sequence[Graded]) -> list[Standing]:
+def tasks_standing(class_: Sequence[Graded]) -> list[Standing]:
     """Return how the class stands with each task."""
     stops = Counter(
-        mark.id for graded in class_ if (mark := graded.result.stopped_at) is not None
+        mark.id
+        for graded in class_
+        if state(graded) in ("stuck", "under way")
+        if (mark := graded.result.stopped_at) is not None
     )
-    return [
-        Standing(task.id, Counter(g.result.tasks[i].status for g in class_), n)
-        for i, task in enumerate(day.tasks)
-        for n in [stops[task.id]]
-    ]
+    found = []
+    for i, task in enumerate(class_[0].result.tasks if class_ else ()):
+        counts = Counter(shown_status(g, g.result.tasks[i]) for g in class_)
+        found.append(Standing(task.id, counts, stops[task.id]))
+    return found
+
+
+def shown_status(graded: Graded, mark: Mark) -> str:
+    """Return a mark's status; a file that does not load has one of its own."""
+    broken = mark.mistake == "does-not-load" and graded.result.does_not_load
+    return "does not load" if broken else mark.status
 
 
 def items_standing(class_: Sequence[Graded]) -> list[Standing]:
     """Return how the class stands with each deliverable."""
-    names = [item.id for item in class_[0].result.items] if class_ else []
     return [
-        Standing(name, Counter(g.result.items[i].status for g in class_))
-        for i, name in enumerate(names)
+        Standing(item.id, Counter(g.result.items[i].status for g in class_))
+        for i, item in enumerate(class_[0].result.items if class_ else ())
     ]
 
 
@@ -101,7 +132,9 @@ def _roots(day: Day, graded: Graded) -> dict[str, Mark]:
     marks = {mark.id: mark for mark in graded.result.tasks}
     roots: dict[str, Mark] = {}
     for task in day.tasks:
-        mark = marks[task.id]
-        if mark.is_mistake and all(marks[need].passed for need in task.needs):
+        mark = marks.get(task.id)
+        if mark is None or not mark.is_mistake or graded.result.does_not_load:
+            continue
+        if all(marks[need].passed for need in task.needs if need in marks):
             roots.setdefault(mark.mistake, mark)
     return roots

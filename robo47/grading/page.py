@@ -4,16 +4,16 @@ import time
 from collections.abc import Callable
 from html import escape
 
-from robo47.grading import bars, overview
-from robo47.grading.course import Course
-from robo47.grading.look import STATUS, STYLE
-from robo47.grading.overview import Diagnosis, Standing
-from robo47.grading.people import list_alike, list_people, table
+from robo47.grading import overview
+from robo47.grading.charts import STATUS, STYLE, Row, chart, colour
+from robo47.grading.overview import Course, Diagnosis, Standing
+from robo47.grading.people import list_alike, list_people, list_refused, table
 from robo47.grading.sheet import printable
 
 CHARTED = 15  # diagnoses in the chart
 STATES = {  # heading, and what to say where it is nobody
     "stuck": "Who is stuck",
+    "does not load": "Files that do not load",
     "ungraded": "Could not be graded",
     "not started": "Not started",
     "under way": "Under way, without a mistake so far",
@@ -43,6 +43,7 @@ def render(course: Course) -> str:
                 _standings(course),
                 *(list_people(STATES[s], by_state[s], course) for s in STATES),
                 list_alike(course),
+                list_refused(course),
                 table(course),
                 "</body></html>\n",
             ]
@@ -53,7 +54,10 @@ def render(course: Course) -> str:
 def _about(course: Course) -> str:
     moment = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime(course.reference))
     what = "deadline" if course.deadline else "first graded"
-    return f"{len(course.class_):,} students; {what} {moment}"
+    return (
+        f"{_students(len(course.class_))}; {what} {moment}. "
+        "Commit times are the students' own: whoever commits sets the clock."
+    )
 
 
 def _tiles(course: Course, count: dict[str, int]) -> str:
@@ -61,6 +65,7 @@ def _tiles(course: Course, count: dict[str, int]) -> str:
         ("pass", count["done"], "all tasks passed"),
         ("", count["under way"], "under way"),
         ("fail" if count["stuck"] else "none", count["stuck"], "stuck"),
+        ("broken", count["does not load"], "do not load"),
         ("none", count["not started"], "not started"),
         ("limit" if count["ungraded"] else "none", count["ungraded"], "not graded"),
         ("", len(course.alike), "groups alike"),
@@ -78,7 +83,7 @@ def _mistakes(found: list[Diagnosis], size: int) -> str:
         return ""
     shown = found[:CHARTED]
     rows = [
-        bars.Row(
+        Row(
             f"{one.task}  {one.mistake}",
             _students(len(one.who)),
             [("line", len(one.who))],
@@ -86,7 +91,7 @@ def _mistakes(found: list[Diagnosis], size: int) -> str:
         )
         for one in shown
     ]
-    chart = bars.chart(rows, "students by mistake, the most common first")
+    bars = chart(rows, "students by mistake, the most common first")
     words = "".join(map(_diagnosis, shown))
     if more := "".join(map(_diagnosis, found[CHARTED:])):
         words += f"<details><summary>the others</summary>{more}</details>"
@@ -96,7 +101,7 @@ def _mistakes(found: list[Diagnosis], size: int) -> str:
         "<section><h2>What to explain again tomorrow</h2>"
         f'<div class="two"><div class="card"><h3>{kinds}{rest}</h3>'
         '<p class="muted">Counted where they were made, once per student</p>'
-        f'{chart}</div><div class="card"><h3>In the words the students saw</h3>'
+        f'{bars}</div><div class="card"><h3>In the words the students saw</h3>'
         f"{words}</div></div></section>"
     )
 
@@ -112,9 +117,9 @@ def _diagnosis(one: Diagnosis) -> str:
 
 def _standings(course: Course) -> str:
     functions = {t.id: ", ".join(t.functions) for t in course.day.tasks}
-    tasks = overview.tasks_standing(course.day, course.class_)
+    tasks = overview.tasks_standing(course.class_)
     legend = "".join(
-        f'<span><i style="background:var(--{role})"></i>{word}</span>'
+        f'<span><i style="background:{colour(role)}"></i>{word}</span>'
         for role, _, word in STATUS.values()
     )
 
@@ -124,7 +129,7 @@ def _standings(course: Course) -> str:
         rows = [_standing(one, label(one), len(course.class_)) for one in some]
         return (
             f'<div class="card"><h3>{heading}</h3><p class="legend muted">{legend}</p>'
-            f"{bars.chart(rows, heading)}</div>"
+            f"{chart(rows, heading)}</div>"
         )
 
     items = overview.items_standing(course.class_)
@@ -136,11 +141,11 @@ def _standings(course: Course) -> str:
     )
 
 
-def _standing(one: Standing, label: str, size: int) -> bars.Row:
+def _standing(one: Standing, label: str, size: int) -> Row:
     words = f"{one.counts['passed']} pass"
-    words += f", {one.stopped} stop here" if one.stopped else ""
+    words += f", {one.stopped} stopped here" if one.stopped else ""
     parts = [(role, one.counts[status]) for status, (role, *_) in STATUS.items()]
-    return bars.Row(label, words, parts, size)
+    return Row(label, words, parts, size)
 
 
 def _students(number: int) -> str:

@@ -1,32 +1,35 @@
-"""Clone what is missing and update what is there, before grading."""
+"""Clone what is missing and update what we cloned, before grading.
 
+A clone that came as an archive brings its own git configuration, which may name
+programs to run: it is graded and never pulled. Which clones are ours stands in a file
+beside them, with what their configuration was.
+"""
+
+import hashlib
+import json
 import os
-import subprocess
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from robo47.grading.history import clean_environment
+from robo47.checker.deliverables.git import GitError, run
 from robo47.grading.roster import Student
+from robo47.text import visible
 
 AT_ONCE = 8
 SECONDS = 300
-# What `git clone` and ordinary work leave in a clone's configuration. Anything else may
-# name a program to run: such a clone came as an archive, and is graded but not pulled.
-_ORDINARY = ("core.", "remote.", "branch.", "user.name", "user.email", "pull.rebase")
-_CORE = {
-    "repositoryformatversion",
-    "filemode",
-    "bare",
-    "logallrefupdates",
-    "ignorecase",
-    "precomposeunicode",
-    "symlinks",
-    "autocrlf",
-    "eol",
-    "longpaths",
+OURS = ".robo47-clones.json"  # beside the clones
+_SAFE = {
+    "core.fsmonitor": "false",
+    "core.hooksPath": os.devnull,
+    "submodule.recurse": "false",
+    "http.lowSpeedLimit": "1000",
+    "http.lowSpeedTime": "30",
 }
-_REMOTE = ("url", "fetch", "pushurl", "tagopt", "prune")
+_NOT_OURS = (
+    "make grade did not clone it, or its git configuration was changed since. Move the "
+    "folder away to have it cloned anew"
+)
 
 
 def pull_all(students: list[Student]) -> Iterator[tuple[Student, str]]:
@@ -36,75 +39,83 @@ def pull_all(students: list[Student]) -> Iterator[tuple[Student, str]]:
         The student and what went wrong, "" where nothing did.
     """
     usable = [s for s in students if not s.problem]
+    if not usable:
+        return
+    marks = usable[0].path.parent / OURS
+    ours = _read(marks)
     with ThreadPoolExecutor(AT_ONCE) as pool:
-        waiting = {pool.submit(pull, student): student for student in usable}
+        waiting = {pool.submit(pull, s, ours.get(s.folder)): s for s in usable}
         for future in as_completed(waiting):
-            yield waiting[future], future.result()
+            student = waiting[future]
+            mark, problem = future.result()
+            if mark != ours.get(student.folder):
+                ours[student.folder] = mark
+                _write(marks, ours)
+            yield student, problem
 
 
-def pull(student: Student) -> str:
-    """Clone or update one folder; return what went wrong, or ""."""
+def pull(student: Student, known: str | None) -> tuple[str | None, str]:
+    """Clone or update one folder.
+
+    Args:
+        student: whose.
+        known: the mark of our clone, or None.
+
+    Returns:
+        The mark from now on, and what went wrong, or "".
+    """
     path = student.path
     if not path.exists():
         if not student.url:
-            return "there is no such folder, and the roster has no git URL"
-        return _git(path.parent, "clone", "-q", "--", student.url, path.name)
-    if not (path / ".git").is_dir() or (path / ".git").is_symlink():
-        return "it is no git repository"
-    if odd := _odd_setting(path):
-        return f"its git configuration sets {odd}, which may run a program"
-    return _git(path, "pull", "-q", "--ff-only", "--no-recurse-submodules")
+            return known, "there is no such folder, and the roster has no git URL"
+        problem = _git(path.parent, "clone", "-q", "--", student.url, path.name)
+        return (known, problem) if problem else (_mark(path), "")
+    if known is None or known != _mark(path):
+        return known, _NOT_OURS
+    return known, _git(path, "pull", "-q", "--ff-only", "--no-recurse-submodules")
 
 
-def _odd_setting(clone: Path) -> str:
-    """Return a setting of the clone that no ordinary clone has, or ""."""
-    command = ["git", "config", "--file", str(clone / ".git" / "config")]
+def _mark(clone: Path) -> str | None:
+    """Return what tells our clone from any other: a hash of its configuration."""
+    git = clone / ".git"
     try:
-        done = subprocess.run(
-            [*command, "--no-includes", "--name-only", "--list", "-z"],
-            capture_output=True,
-            encoding="utf-8",
-            errors="replace",
-            env=clean_environment(),
-            timeout=SECONDS,
-            check=False,
-        )
-    except (OSError, subprocess.TimeoutExpired):
-        return "something git cannot read"
-    if done.returncode:
-        return "something git cannot read"
-    for name in done.stdout.split("\0"):
-        last = name.rpartition(".")[2]
-        ordinary = not name or name.startswith(_ORDINARY)
-        if name.startswith("core."):
-            ordinary = last in _CORE
-        if name.startswith("remote."):
-            ordinary = last in _REMOTE
-        if not ordinary:
-            return name
-    return ""
+        if git.is_symlink() or (git / "config").is_symlink():
+            return None
+        if not (git / "config").is_file() or os.path.lexists(git / "commondir"):
+            return None
+        return hashlib.sha256((git / "config").read_bytes()).hexdigest()
+    except OSError:
+        return None
+
+
+def _read(marks: Path) -> dict[str, str | None]:
+    try:
+        found = json.loads(marks.read_bytes())
+        return found if isinstance(found, dict) else {}
+    except (OSError, ValueError, RecursionError):
+        return {}
+
+
+def _write(marks: Path, ours: dict[str, str | None]) -> None:
+    new = marks.with_name(marks.name + ".new")
+    new.write_text(json.dumps(ours, indent=1), "ascii")
+    new.replace(marks)
 
 
 def _git(folder: Path, *arguments: str) -> str:
-    """Run git; return the last line of what it complains of, or ""."""
-    safe = ["-c", "core.fsmonitor=false", "-c", f"core.hooksPath={os.devnull}"]
+    """Run git; return the first line of what it complains of, or ""."""
+    settings = [word for pair in _SAFE.items() for word in ("-c", "=".join(pair))]
     try:
-        done = subprocess.run(
-            ["git", *safe, *arguments],
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            encoding="utf-8",
-            errors="replace",
-            env=clean_environment(),
-            timeout=SECONDS,
-            check=False,
+        done = run(
+            *settings,
+            *arguments,
+            folder=folder,
+            seconds=SECONDS,
+            GIT_LFS_SKIP_SMUDGE="1",
         )
-    except subprocess.TimeoutExpired:
-        return f"git took more than {SECONDS} s"
-    except OSError as error:
-        return f"git cannot be run: {error.strerror}"
+    except GitError as error:
+        return str(error)
     if done.returncode == 0:
         return ""
     lines = [ln for ln in done.stderr.splitlines() if ln.strip()]
-    return lines[0].strip() if lines else f"git ended with {done.returncode}"
+    return visible(lines[0], 200) if lines else f"git ended with {done.returncode}"

@@ -1,15 +1,20 @@
 """What a grade consists of, and its form in the journal and on the wire."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from robo47.checker.deliverables import item_names
 from robo47.lesson.day import Day
 
-ITEMS = ("figure", "definitions", "drawings", "checklist", "metrics", "commit")
+UNGRADED = "ungraded"  # the status of a task that nobody could look at
+STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
 # Names of what is only not there yet: nothing to explain again.
 NO_MISTAKES = ("", "unwritten", "waits", "not-started")
-UNGRADED = "ungraded"  # the status of a task that nobody could look at
+
+
+class FaultError(Exception):
+    """The machine failed, not the student; another run may fare better."""
 
 
 @dataclass(frozen=True)
@@ -18,7 +23,7 @@ class Mark:
 
     Attributes:
         id: "1.4", or "figure".
-        status: passed, close, wrong, todo or ungraded.
+        status: one of STATUSES.
         mistake: its name, "chain-reversed"; "" where nothing has one.
         message: in the student's words.
     """
@@ -41,19 +46,21 @@ class Mark:
 
 @dataclass(frozen=True)
 class Result:
-    """One student's grade.
+    """One student's grade for one day.
 
     Attributes:
-        tasks: in the manifest's order.
-        items: the deliverables, in the order of `ITEMS`.
+        tasks: those that count, in the manifest's order.
+        items: the deliverables.
         text: what `make check` would have told the student.
         error: why something could not be graded; "" where all was.
+        refused: what the code wanted and was refused, though its answers may be right.
     """
 
     tasks: tuple[Mark, ...]
     items: tuple[Mark, ...]
     text: str = ""
     error: str = ""
+    refused: tuple[str, ...] = ()
 
     @property
     def stopped_at(self) -> Mark | None:
@@ -65,23 +72,44 @@ class Result:
         """The first task with a mistake in it, or None."""
         return next((task for task in self.tasks if task.is_mistake), None)
 
+    @property
+    def does_not_load(self) -> bool:
+        """Whether there is a file that Python, or we, cannot read."""
+        return any(task.mistake == "does-not-load" for task in self.tasks)
+
     def to_json(self) -> dict[str, Any]:
         """Return it as plain data."""
         return asdict(self)
 
 
-def from_json(data: Mapping[str, Any]) -> Result:
+def from_json(data: Mapping[str, Any], day: Day) -> Result:
     """Return a result from plain data.
 
     Raises:
-        KeyError, TypeError: it is no result.
+        ValueError, KeyError, TypeError: it is no result of that day.
     """
-    return Result(
+    result = Result(
         tuple(Mark(**mark) for mark in data["tasks"]),
         tuple(Mark(**mark) for mark in data["items"]),
         data["text"],
         data["error"],
+        tuple(data["refused"]),
     )
+    marks = (*result.tasks, *result.items)
+    if [mark.id for mark in marks] != [*counted(day), *item_names(day)]:
+        raise ValueError("other tasks than the day's")
+    texts = [result.text, result.error, *result.refused]
+    texts += [text for mark in marks for text in (mark.mistake, mark.message)]
+    if not all(isinstance(text, str) for text in texts):
+        raise TypeError("no text")
+    if not all(mark.status in STATUSES for mark in marks):
+        raise ValueError("no status")
+    return result
+
+
+def counted(day: Day) -> Sequence[str]:
+    """Return the ids of the tasks that a grade counts: none that is optional."""
+    return [task.id for task in day.tasks if not task.optional]
 
 
 def ungraded(day: Day, why: str) -> Result:
@@ -92,8 +120,8 @@ def ungraded(day: Day, why: str) -> Result:
         why: one sentence, for the student and the teacher.
     """
     return Result(
-        tuple(Mark(task.id, UNGRADED) for task in day.tasks),
-        tuple(Mark(name, UNGRADED) for name in ITEMS),
+        tuple(Mark(id, UNGRADED) for id in counted(day)),
+        tuple(Mark(name, UNGRADED) for name in item_names(day)),
         f"Day {day.number}: {day.title}\n\nThis could not be graded: {why}\n",
         why,
     )

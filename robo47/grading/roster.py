@@ -1,14 +1,26 @@
-"""Who is in the class: the folders of ROOT, or the rows of a roster."""
+"""Who is in the class: the folders of ROOT, or the rows of a roster.
+
+Names are data: they are shown, and a file that is named after one is named by us.
+"""
 
 import csv
+import hashlib
 import os
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from robo47.errors import Robo47Error
 from robo47.paths import shown
+from robo47.text import visible
 
 _URL = ("git", "url", "git url", "git_url", "repo")
+_ID = ("id", "email", "username", "number")
+_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
+LONGEST = 100  # bytes of a file's name before its ending; systems allow 255
 _ASKED = "expected columns: name, folder and, for --pull, git"
 
 
@@ -17,11 +29,12 @@ class Student:
     """One row of the results.
 
     Attributes:
-        name: to show.
+        name: to show, on one line.
         folder: its name in ROOT; no two students have the same.
         path: the folder.
         url: where to clone it from; "" where the roster does not say.
         problem: why the folder cannot be used; "" where it can.
+        id: what a learning platform knows the student by; "" where the roster has none.
     """
 
     name: str
@@ -29,6 +42,7 @@ class Student:
     path: Path
     url: str = ""
     problem: str = ""
+    id: str = ""
 
 
 def find_students(root: Path, roster: Path | None = None) -> list[Student]:
@@ -64,15 +78,49 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
     return students
 
 
-def _student(name: str, folder: str, root: Path, url: str = "") -> Student:
+def file_names(folders: Iterable[str]) -> dict[str, str]:
+    """Return a file name for each student: none leaves its folder, no two are alike.
+
+    Args:
+        folders: the students' folders, whatever a roster says of them. One that any
+            system can have as a file's name is kept; others get a hash.
+    """
+    safe = {folder: _safe(folder) for folder in folders}
+    alike = Counter(_key(name) for folder, name in safe.items() if name == folder)
+    return {
+        folder: name
+        if name == folder and alike[_key(name)] == 1
+        else f"{name}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:12]}"
+        for folder, name in safe.items()
+    }
+
+
+def _safe(folder: str) -> str:
+    """Return a folder's last part without what a system may not have in a name."""
+    last = re.split(r"[/\\]", folder.rstrip("/\\"))[-1]
+    name = re.sub(r'[<>:"|?*]', "_", visible(last)).strip(". ")
+    name = name.encode()[:LONGEST].decode("utf-8", "ignore").strip(". ")
+    return f"_{name}" if not name or _DEVICES.match(name) else name
+
+
+def _key(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()  # some systems see no case
+
+
+def _student(
+    name: str, folder: str, root: Path, url: str = "", id: str = ""
+) -> Student:
     path, problem = root / folder, ""
-    if folder in ("", ".", "..") or "\0" in folder or Path(folder).name != folder:
+    if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
         path, problem = root, f"{folder!r} is no name of a folder"
     elif path.is_symlink():
         problem = "the folder is a link, which is not followed"
     elif url.startswith("-"):
         problem = f"{url!r} is no git URL"
-    return Student(name or folder, folder, path, url, problem)
+    shows = visible(
+        name or os.fsencode(folder).decode("utf-8", "backslashreplace"), 120
+    )
+    return Student(shows, folder, path, url, visible(problem), visible(id, 120))
 
 
 def _read_roster(path: Path, root: Path) -> list[Student]:
@@ -89,20 +137,28 @@ def _read_roster(path: Path, root: Path) -> list[Student]:
     head = text.partition("\n")[0]
     delimiter = max(",;\t", key=head.count)  # a spreadsheet writes its country's own
     rows = csv.reader(text.splitlines(), delimiter=delimiter)
-    columns = [name.strip().lower() for name in next(rows, [])]
+    try:
+        table = [(rows.line_num, row) for row in rows]
+    except csv.Error as error:
+        says = f"{shown(path)}, line {rows.line_num}: {error}; save it as CSV anew"
+        raise Robo47Error(says) from None
+    columns = [name.strip().lower() for name in table[0][1]] if table else []
     if "folder" not in columns:
         raise Robo47Error(f"{shown(path)} has no column folder; {_ASKED}")
     students: dict[str, Student] = {}
-    for row in rows:
+    for number, row in table[1:]:
         cells = dict(zip(columns, map(str.strip, row), strict=False))
         if not any(cells.values()):
             continue
         folder = cells.get("folder", "")
         if folder in students:
             raise Robo47Error(
-                f"{shown(path)}, line {rows.line_num}: folder {folder!r} is listed "
+                f"{shown(path)}, line {number}: folder {folder!r} is listed "
                 "twice; expected one folder per student"
             )
-        url = next((cells[name] for name in _URL if cells.get(name)), "")
-        students[folder] = _student(cells.get("name", ""), folder, root, url)
+        url, id = (
+            next((cells[name] for name in names if cells.get(name)), "")
+            for names in (_URL, _ID)
+        )
+        students[folder] = _student(cells.get("name", ""), folder, root, url, id)
     return list(students.values())

@@ -1,4 +1,4 @@
-"""The table: one row per student, for a spreadsheet or the school's own system."""
+"""What is written: the table, one row per student, and a file for each of them."""
 
 import csv
 import io
@@ -8,15 +8,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from robo47.checker.deliverables import item_names
 from robo47.errors import Robo47Error
-from robo47.grading.result import ITEMS, Result
+from robo47.grading.result import Result, counted
 from robo47.grading.roster import Student
 from robo47.lesson.day import Day
 from robo47.paths import shown
+from robo47.text import visible
 
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
-_CONTROL = re.compile(r"[\0-\x1f\x7f\u2028\u2029]+")
+_SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets split
 
 
 @dataclass(frozen=True)
@@ -27,8 +29,11 @@ class Graded:
         student: from the roster.
         result: the grade.
         commit: the hash of the last commit, or "".
-        minutes: from there to the deadline, negative past it; None without a commit.
+        minutes: from there to the deadline, by the student's own clock, negative past
+            it; None without a commit.
         note: what this run has to add to the result's error, such as a failed pull.
+        fault: whether this machine failed; the next run grades them.
+        feedback: the file's name in feedback/.
     """
 
     student: Student
@@ -36,6 +41,8 @@ class Graded:
     commit: str = ""
     minutes: int | None = None
     note: str = ""
+    fault: bool = False
+    feedback: str = ""
 
     @property
     def error(self) -> str:
@@ -54,13 +61,14 @@ def columns(day: Day) -> list[str]:
         "name",
         "folder",
         "tasks_passed",
-        *(task.id for task in day.tasks),
+        *counted(day),
         "deliverables_passed",
-        *ITEMS,
+        *item_names(day),
         "first_mistake",
         "what_it_says",
-        "minutes_since_commit",
+        "minutes_since_commit_own_clock",
         "commit_hash",
+        "refused",
         "error",
     ]
 
@@ -86,28 +94,46 @@ def _cells(graded: Graded) -> list[str | int]:
     result, mistake = graded.result, graded.result.first_mistake
     return [
         plain(graded.student.name),
-        plain(graded.student.folder),
+        plain(printable(graded.student.folder)),
         graded.tasks_passed,
-        *(task.status for task in result.tasks),
+        *(_cell(graded, task.status) for task in result.tasks),
         sum(item.passed for item in result.items),
         *(item.status for item in result.items),
         plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
         plain(mistake.message if mistake else ""),
         "" if graded.minutes is None else graded.minutes,
         graded.commit[:10],
+        plain("; ".join(result.refused)),
         plain(graded.error),
     ]
 
 
+def _cell(graded: Graded, status: str) -> str:
+    """Return a task's status; a file that does not load is more than a task to do."""
+    if status == "todo" and graded.result.does_not_load:
+        return "does not load"
+    return status
+
+
 def plain(text: str) -> str:
-    """Return a text that any spreadsheet shows as it is, on one line."""
-    line = _CONTROL.sub(" ", printable(text)).strip()
+    """Return a text that any spreadsheet shows as it is, in one cell, on one line."""
+    line = visible(printable(text), 2000).translate(_SEPARATORS)
     return f"'{line}" if _FORMULA.match(line) else line
 
 
 def printable(text: str) -> str:
     """Return a text that UTF-8 can hold: a folder's name may be any bytes."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def write_feedback(folder: Path, graded: Graded) -> None:
+    """Write a student's file.
+
+    Raises:
+        Robo47Error: it cannot be written.
+    """
+    text = f"{graded.student.name}\n\n{graded.result.text}"
+    write(folder / f"{graded.feedback}.txt", printable(text).encode("utf-8"))
 
 
 def write(path: Path, content: bytes) -> None:

@@ -12,7 +12,7 @@ import re
 import zlib
 from array import array
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -21,6 +21,9 @@ FEWEST = 24  # runs of one's own: less is too little to compare
 COMMON = 0.1  # of the class: a run that more of them have is nobody's
 FEW = 4  # but one that so few have is kept, in a class of any size
 ALIKE = 0.6  # share of the smaller submission's runs
+KITS = (
+    0.8  # share of one's own runs that stand in the kit's; right answers have a third
+)
 
 _TOKEN = re.compile(
     r"(?P<comment>#[^\n]*)"
@@ -40,10 +43,12 @@ class Group:
         keys: whose they are, sorted.
         share: of the smaller one's runs that the other has too, 0 to 1, in the most
             similar two of them.
+        with_kit: whether one of them is the kit's own solution, which has no key.
     """
 
     keys: tuple[str, ...]
     share: float
+    with_kit: bool = False
 
 
 def runs_of(source: bytes, starter: str) -> "array[int]":
@@ -74,6 +79,29 @@ def tokens(text: str) -> list[str]:
             token = "n"
         found.append(token)
     return found
+
+
+def like_the_kit(
+    runs: Mapping[str, Sequence["array[int]"]], kit: "array[int]"
+) -> list[Group]:
+    """Return whose files have what the kit's own solution has, the most alike first.
+
+    However many copy it, so not by what much of the class writes.
+
+    Args:
+        runs: of each of a submission's files, as `runs_of` gives them.
+        kit: of the solution.
+    """
+    solution, groups = set(kit), []
+    for key, files in runs.items():
+        shares = [
+            len(solution.intersection(own)) / len(own)
+            for own in files
+            if len(own) >= FEWEST
+        ]
+        if shares and max(shares) >= KITS:
+            groups.append(Group((key,), max(shares), with_kit=True))
+    return sorted(groups, key=lambda g: (-g.share, g.keys))
 
 
 def similar_groups(runs: Mapping[str, "array[int]"]) -> list[Group]:

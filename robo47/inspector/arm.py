@@ -1,7 +1,7 @@
 """What the inspector shows, as numbers: one configuration seen by two judges.
 
-Nothing here draws. MuJoCo's poses come from `robo47.verify`, those by hand from
-`robo47.kinematics`; metres and radians.
+Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
+`robo47.kinematics`; the student's own are in `robo47.inspector.ghost`. Metres, radians.
 """
 
 from dataclasses import replace
@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from robo47 import panda, se3
+from robo47 import panda
 from robo47.checks import Array, array
-from robo47.kinematics import Chain, chain_to, fk, fk_all, frame_names
+from robo47.kinematics import Chain, Joint, Link, chain_to, fk, fk_all, frame_names
 from robo47.verify import mujoco_poses, random_q
 
 AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
@@ -21,21 +21,27 @@ END = "ee"  # what the end effector's frame is called in T_world_ee
 
 
 class Step(NamedTuple):
-    """One factor of the chain: T_world_link = T_world_previous @ T_previous_link."""
+    """One factor of the chain: after = before @ factor.
+
+    Attributes:
+        link: the body that the factor leads to, or turns; short name.
+        joint: the joint that turns it; "" for the pose that the file gives.
+        name: of the factor.
+        q: the joint's value; 0 for a pose of the file.
+        before: T_world_... so far, (4, 4).
+        factor: (4, 4).
+        after: (4, 4); T_world_link once the link's own joint is in.
+        moves: which entries of the factor depend on q, (4, 4) of bool.
+    """
 
     link: str
-    previous: str
-    T_world_previous: Array
-    T_previous_link: Array
-    T_world_link: Array
-
-
-class TwoOrders(NamedTuple):
-    """The same two factors multiplied both ways, and how far apart they end."""
-
-    right: Array
-    left: Array
-    metres: float
+    joint: str
+    name: str
+    q: float
+    before: Array
+    factor: Array
+    after: Array
+    moves: NDArray[np.bool_]
 
 
 class Arm:
@@ -70,7 +76,30 @@ class Arm:
         self.by_mujoco = {
             name: T[0] for name, T in mujoco_poses(self.model, self.q[None]).items()
         }
-        self.by_hand = fk_all(self.model, self.q)
+        self.by_library = fk_all(self.model, self.q)
+
+    def pose(self, name: str) -> Array:
+        """Return MuJoCo's T_world_NAME, (4, 4).
+
+        Args:
+            name: short name of the frame, a key of `names`.
+        """
+        return self.by_mujoco[self.names[name]]
+
+    def poses_at(self, q: Array) -> dict[str, Array]:
+        """Return MuJoCo's pose of every frame at a configuration, by short name.
+
+        Args:
+            q: (nq,); the arm stays where it is.
+        """
+        if np.array_equal(q, self.q):
+            return {name: self.pose(name) for name in self.names}
+        poses = mujoco_poses(self.model, np.asarray(q)[None])
+        return {name: poses[full][0] for name, full in self.names.items()}
+
+    def body_pose(self, body: str) -> Array:
+        """Return MuJoCo's pose of any body, (4, 4), whether it has a triad or not."""
+        return self.by_mujoco[f"body:{body}"]
 
     def random_q(self, seed: int) -> Array:
         """Return a configuration within the limits, to the sliders' four decimals.
@@ -81,14 +110,14 @@ class Arm:
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
     def difference(self, name: str, T: Array | None = None) -> float:
-        """Return the largest difference of any entry between MuJoCo's pose and ours.
+        """Return the largest difference of any entry between MuJoCo's pose and another.
 
         Args:
             name: short name of the frame, a key of `names`.
-            T: our pose, (4, 4); `by_hand` unless given.
+            T: the other pose, (4, 4); the library's unless given.
         """
         full = self.names[name]
-        ours = self.by_hand[full] if T is None else T
+        ours = self.by_library[full] if T is None else T
         return float(np.abs(self.by_mujoco[full] - ours).max())
 
     def limits(self, joint: str) -> tuple[float, float]:
@@ -110,46 +139,41 @@ class Arm:
         ]
 
     def steps(self) -> list[Step]:
-        """Return the chain's product, link by link, from the world to `ee`.
+        """Return the chain's product, factor by factor, from the world to `ee`.
 
-        Every factor is composed by hand from that link alone: what the file says of
-        it and its joints' q.
+        As the lab has it: one factor per link (what the file says of it) and one per
+        joint (what q adds).
         """
-        done, steps = Step("world", "", np.eye(4), np.eye(4), np.eye(4)), []
+        so_far, steps = np.eye(4), []
+        previous = "world"
         for i, link in enumerate(self.chain.links):
-            one = replace(self.chain, links=(link,), T_link_frame=np.eye(4))
-            name = link.name.partition(":")[2]
-            if i == len(self.chain.links) - 1:  # the last body leads on to the frame
-                one, name = replace(one, T_link_frame=self.chain.T_link_frame), END
-            T_previous_link = fk(one, self.q)
-            before = done.T_world_link
-            done = Step(
-                name, done.link, before, T_previous_link, before @ T_previous_link
-            )
-            steps.append(done)
+            last = i == len(self.chain.links) - 1
+            name = END if last else link.name.partition(":")[2]
+            T_link = link.T_parent_link
+            if last:  # the last body leads on to the frame
+                T_link = T_link @ self.chain.T_link_frame
+            fixed = Step(
+                name, "", f"T_{previous}_{name}", 0.0, so_far, T_link,
+                so_far @ T_link, np.zeros((4, 4), dtype=bool),
+            )  # fmt: skip
+            steps.append(fixed)
+            so_far, previous = fixed.after, name
+            for joint in link.joints:
+                steps.append(self._joint_step(link, joint, name, so_far))
+                so_far = steps[-1].after
         return steps
 
-    def both_orders(self, angle: float, x: float) -> TwoOrders:
-        """Return T_world_ee @ T_extra (right) and T_extra @ T_world_ee (left).
-
-        Args:
-            angle: T_extra's turn about z, radians.
-            x: T_extra's shift along x, metres.
-        """
-        T_world_ee = self.by_hand[self.names[END]]
-        T_extra = extra(angle, x)
-        right, left = T_world_ee @ T_extra, T_extra @ T_world_ee
-        return TwoOrders(right, left, float(se3.pose_error(right, left)[0]))
-
-
-def extra(angle: float, x: float) -> Array:
-    """Return the lab's T_extra: turn about z, moved along x, (4, 4).
-
-    Args:
-        angle: radians.
-        x: metres.
-    """
-    return se3.make_T(se3.Rz(angle), [x, 0.0, 0.0])
+    def _joint_step(self, link: Link, joint: Joint, name: str, before: Array) -> Step:
+        """Return the factor of one joint."""
+        one = Link(link.name, np.eye(4), (joint,))
+        alone = replace(self.chain, links=(one,), T_link_frame=np.eye(4))
+        elsewhere = self.q.copy()
+        elsewhere[joint.qpos_adr] += 0.3
+        factor = fk(alone, self.q)
+        return Step(
+            name, joint.name, f"T(q of {joint.name})", float(self.q[joint.qpos_adr]),
+            before, factor, before @ factor, factor != fk(alone, elsewhere),
+        )  # fmt: skip
 
 
 def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:

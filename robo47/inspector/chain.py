@@ -1,89 +1,83 @@
-"""The tab that steps through the chain: one link, one product, one more frame lit."""
+"""The tab that multiplies the chain: one factor at a time, one more frame lit."""
 
-import asyncio
 from collections.abc import Callable
 
 import numpy as np
-import viser
 
 from robo47.checks import Array
 from robo47.inspector import words
-from robo47.inspector.arm import Arm
+from robo47.inspector.page import Page
+from robo47.inspector.tab import Tab
 
-ALL = "all frames"
-BACK, NEXT, PLAY = "back", "next", "play"
+BACK, NEXT, PLAY = "back", "next", "play / stop"
 SECONDS_PER_STEP = 0.9
 
 
-class Steps:
-    """Which step of the chain is shown, and its three matrices."""
+class Chain(Tab):
+    """Which factor of the chain is shown, and its three matrices."""
 
-    def __init__(
-        self, server: viser.ViserServer, arm: Arm, changed: Callable[[], None]
-    ) -> None:
-        """Build the tab's widgets in the container that is open.
+    title = "Chain"
+    wide = True  # three matrices of its own
 
-        Args:
-            server: whose panel.
-            arm: read, never changed here.
-            changed: called when another step was picked.
-        """
-        self.arm, self.changed = arm, changed
-        self.links = [step.link for step in arm.steps()]
-        self.playing: asyncio.Task[None] | None = None
-        self.pick = server.gui.add_dropdown("Link", (ALL, *self.links))
-        self.pick.on_update(self._picked)
-        buttons = server.gui.add_button_group("Step", (BACK, NEXT, PLAY))
-        buttons.on_click(self._pressed)
-        self.product = server.gui.add_html("")
-        self.update()
-
-    @property
-    def lit(self) -> list[str] | None:
-        """The links reached so far, the present one last; None when not stepping."""
-        if self.pick.value == ALL:
-            return None
-        return self.links[: self.links.index(self.pick.value) + 1]
-
-    def origins(self) -> Array:
-        """Return the origins of the frames lit so far, metres, (n, 3)."""
-        steps = self.arm.steps()[: len(self.lit or [])]
-        return np.array([step.T_world_link[:3, 3] for step in steps]).reshape(-1, 3)
-
-    def update(self) -> None:
-        """Show the picked link's product in the arm's present configuration."""
-        if self.lit is None:
-            self.product.content = words.line(
-                "Pick a link, or press next: T_world_link is the product of the frame "
-                "before it and one factor.",
-                "step",
+    def __init__(self, page: Page) -> None:
+        """Start at the first joint."""
+        super().__init__(page)
+        steps = page.arm.steps()
+        self.at = next(i for i, step in enumerate(steps) if step.joint)
+        page.buttons([BACK, NEXT, PLAY], self.press)
+        self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
+        self.product = page.html()
+        self.sliders = {
+            step.joint: page.slider(
+                step.joint, *page.arm.limits(step.joint), step.q, self.mover(step.joint)
             )
-            return
-        k = len(self.lit) - 1
-        this = self.arm.steps()[k]
-        apart = self.arm.difference(this.link, this.T_world_link)
-        self.product.content = words.step(this, k + 1, len(self.links), apart)
+            for step in steps
+            if step.joint
+        }
 
-    async def _picked(self, _: object) -> None:
-        self.changed()
+    def mover(self, joint: str) -> Callable[[float], None]:
+        """Return what sets one joint and leaves the others."""
+        adr = int(self.page.model.joint(joint).qposadr[0])
 
-    async def _pressed(self, event: viser.GuiEvent) -> None:
-        if self.playing is not None:
-            self.playing.cancel()
-        if event.target.value == PLAY:
-            self.playing = asyncio.create_task(self._play())
+        def set_joint(value: float) -> None:
+            q = self.page.q
+            q[adr] = value
+            self.page.move(q)
+
+        return set_joint
+
+    def press(self, name: str) -> None:
+        """Go one factor back or on, or play them all."""
+        if name != PLAY:
+            self.playing.stop()
+            self.go(self.at + (1 if name == NEXT else -1))
+        elif self.playing.running:
+            self.playing.stop()
         else:
-            self._go(+1 if event.target.value == NEXT else -1)
+            self.playing.start()
 
-    def _go(self, by: int) -> None:
-        options = (ALL, *self.links)
-        at = options.index(self.pick.value) + by
-        self._show(options[min(max(at, 0), len(options) - 1)])
+    def play(self, seconds: float) -> bool:
+        """Show the next factor; return whether there is one more."""
+        self.go(round(seconds / SECONDS_PER_STEP))
+        return self.at < len(self.page.arm.steps()) - 1
 
-    def _show(self, link: str) -> None:
-        self.pick.value = link  # type: ignore[misc]  # tells _picked, too
+    def go(self, at: int) -> None:
+        """Show a factor by its place in the product."""
+        self.at = min(max(at, 0), len(self.page.arm.steps()) - 1)
+        self.on_move(self.page.q)
 
-    async def _play(self) -> None:
-        for link in self.links:
-            self._show(link)
-            await asyncio.sleep(SECONDS_PER_STEP)
+    def on_move(self, q: Array) -> None:
+        """Show the factor in the arm's present configuration."""
+        steps = self.page.arm.steps()
+        this = steps[self.at]
+        whole = self.at + 1 == len(steps) or steps[self.at + 1].link != this.link
+        says = words.step(this, self.at + 1, len(steps), whole)
+        if whole:  # every factor of this link is in: MuJoCo has that pose, too
+            says += words.verdict(self.page.arm.difference(this.link, this.after))
+        self.product.content = says
+        for joint, slider in self.sliders.items():
+            slider.handle.visible = joint == this.joint
+            slider.set(float(q[self.page.model.joint(joint).qposadr[0]]))
+        done = steps[: self.at + 1]
+        self.page.light(this.link, {step.link for step in done})
+        self.page.trace(np.array([step.after[:3, 3] for step in done]))

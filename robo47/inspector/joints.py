@@ -5,66 +5,78 @@ import secrets
 from collections.abc import Callable
 
 import mujoco
-import viser
-from numpy.typing import ArrayLike
 
-from robo47.inspector import words
-from robo47.inspector.arm import Arm
+from robo47.checks import Array
+from robo47.inspector import controls, words
+from robo47.inspector.page import Page
+from robo47.inspector.tab import Tab
 
-STEP = 1e-4  # the Panda's limits have four decimals, so every value on the way too
-RANDOM = "random"
+RANDOM, UNDO = "random", "undo"
+# "home" is two things in this course; the text under the buttons says which is which.
+ABOUT = (
+    "ready is READY_Q of the labs, home the model's own key. Arrow keys move a joint "
+    "by 0.01 rad, with Shift by 0.1, with Alt by 0.001. Type pi/2 or 90 deg."
+)
 
 
-class Joints:
+class Joints(Tab):
     """Sliders and buttons that move the arm."""
 
-    def __init__(
-        self, server: viser.ViserServer, arm: Arm, move: Callable[[ArrayLike], None]
-    ) -> None:
-        """Build the tab's widgets in the container that is open.
+    title = "Joints"
 
-        Args:
-            server: whose panel.
-            arm: read, never changed here.
-            move: called with a new configuration, (nq,).
-        """
-        self.arm, self.move = arm, move
-        buttons = server.gui.add_button_group("Go to", (*arm.named_q, RANDOM))
-        buttons.on_click(self._go_to)
-        self.sliders = [self._slider(server, i) for i in range(len(arm.joints))]
-        self.exact = server.gui.add_html("")
-        self.update()
+    def __init__(self, page: Page) -> None:
+        """Make a slider for every joint, and the buttons."""
+        super().__init__(page)
+        page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
+        self.sliders = [
+            page.slider(
+                joint, *page.arm.limits(joint), float(page.q[i]), self.mover(i),
+                unit=self.unit(joint),
+            )
+            for i, joint in enumerate(page.arm.joints)
+        ]  # fmt: skip
+        self.exact = page.html()
 
-    def update(self) -> None:
-        """Set every slider to the arm's present configuration."""
-        for slider, q in zip(self.sliders, self.arm.q, strict=True):
-            slider.value = float(q)  # type: ignore[misc]
-        numbers = ", ".join(f"{q:.5g}" for q in self.arm.q)
-        self.exact.content = words.line(f"q = [{numbers}]", "q")
+    def unit(self, joint: str) -> str:
+        """Return the unit of a joint's number."""
+        slides = self.page.model.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
+        return "m" if slides else "rad"
 
-    def _slider(
-        self, server: viser.ViserServer, i: int
-    ) -> viser.GuiSliderHandle[float]:
-        joint = self.arm.joints[i]
-        low, high = self.arm.limits(joint)
-        kind = self.arm.model.joint(joint).type[0]
-        unit = " (m)" if kind == mujoco.mjtJoint.mjJNT_SLIDE else ""
-        start = min(max(float(self.arm.q[i]), low), high)
-        slider = server.gui.add_slider(f"{joint}{unit}", low, high, STEP, start)
+    def mover(self, i: int) -> Callable[[float], None]:
+        """Return what sets one number of the configuration and leaves the others."""
 
-        @slider.on_update
-        async def _(_: object) -> None:
-            # Also called when the program sets it; then there is nothing to do.
-            if slider.value != self.arm.q[i] and math.isfinite(slider.value):
-                q = self.arm.q.copy()
-                q[i] = slider.value
-                self.move(q)
+        def set_joint(value: float) -> None:
+            q = self.page.q
+            q[i] = value
+            self.page.move(q)
 
-        return slider
+        return set_joint
 
-    async def _go_to(self, event: viser.GuiEvent) -> None:
-        name = event.target.value
-        if name == RANDOM:
-            self.move(self.arm.random_q(secrets.randbits(32)))
+    def go_to(self, name: str) -> None:
+        """Take the arm to a configuration with a name, or anywhere."""
+        if name == UNDO:
+            self.page.undo()
+        elif name == RANDOM:
+            self.page.move(self.page.arm.random_q(secrets.randbits(32)))
         else:
-            self.move(self.arm.named_q[name])
+            self.page.move(self.page.arm.named_q[name])
+
+    def on_move(self, q: Array) -> None:
+        """Set every slider, and the line that says q with all its digits."""
+        for slider, value in zip(self.sliders, q, strict=True):
+            slider.set(float(value))
+        numbers = ", ".join(f"{x:.10g}" for x in q)
+        degrees = ", ".join(
+            f"{math.degrees(x):.4g}°" if self.unit(joint) == "rad" else f"{x:.4g} m"
+            for joint, x in zip(self.page.arm.joints, q, strict=True)
+        )
+        T = self.page.pose("ee")
+        self.exact.content = (
+            words.line(f"q = [{numbers}]", "q")
+            + words.line(degrees, "degrees", "quiet")
+            + '<div class="r47-row">'
+            + controls.copy_button("copy q as NumPy", words.numpy_q(q))
+            + controls.copy_button("copy T_world_ee", words.numpy_T(T))
+            + "</div>"
+            + words.line(ABOUT, "about-buttons", "quiet")
+        )

@@ -1,70 +1,113 @@
-"""Draws the arm: meshes where MuJoCo puts the bodies, triads where we put the frames.
+"""Draws the arm: meshes where MuJoCo puts the bodies, triads where the library does.
 
-Red, green and blue are a frame's x, y and z axes. Metres.
+The triads are there at once; the meshes come later, first the simple ones that MuJoCo
+collides with, then those that one looks at. Metres.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import numpy as np
 import viser
 
-from robo47 import se3
 from robo47.checks import Array
 from robo47.inspector.arm import Arm
-from robo47.inspector.shapes import shapes
+from robo47.inspector.shapes import Shape
+from robo47.inspector.triad import Anchor, Triad, place
 
 # Seen from its right and front; aimed beside the arm, since the panel covers the
 # right third of the page.
 CAMERA, LOOK_AT, FOV = (1.75, -1.45, 0.95), (0.42, 0.24, 0.4), 0.72
-BACKDROP = (214, 220, 228)  # a white arm needs something darker behind it
-PLAIN = {"axes_length": 0.11, "axes_radius": 0.0035, "origin_radius": 0.008}
-CHOSEN = {"axes_length": 0.16, "axes_radius": 0.006, "origin_radius": 0.014}
-ORIGIN_PLAIN, ORIGIN_CHOSEN = (120, 124, 130), (255, 176, 0)
+# For a page that is higher than wide: from further away, the arm above the panel.
+PHONE_CAMERA, PHONE_LOOK_AT = (2.7, -2.3, 1.2), (0.2, 0.0, -0.1)
+BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
-ANCHORS = ("bottom-left", "center-left", "center-right", "center-left")
-SEE_THROUGH = 0.45  # opacity that lets the triads inside the links be seen
+ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
+SEE_THROUGH = 0.5  # opacity
+# What a see-through arm's colours are multiplied by: white would vanish before the
+# backdrop; it turns green where the student's own code puts every link.
+GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
+HIGHLIGHT = (255, 176, 0)
+GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.6
+Colour = tuple[int, int, int]
 
 
-class Triad:
-    """A frame drawn as three arrows with its name beside it."""
+class Skin:
+    """The meshes of an arm, each hanging from a node that is its body."""
 
-    def __init__(
-        self, server: viser.ViserServer, path: str, text: str, anchor: str
-    ) -> None:
-        """Draw it at the world's origin.
+    def __init__(self, server: viser.ViserServer, path: str) -> None:
+        """Start without meshes.
 
         Args:
             server: where to draw.
             path: its name in the scene tree.
-            text: the label.
-            anchor: which side of the label touches the frame.
         """
-        self.frame = server.scene.add_frame(path)
-        self.label = server.scene.add_label(
-            f"{path}/name",
-            text,
-            anchor=anchor,  # type: ignore[arg-type]
-            font_screen_scale=0.8,
-        )
-        self.show(visible=True, chosen=False)
+        self.server, self.path = server, path
+        self.bodies: dict[str, viser.FrameHandle] = {}
+        self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
 
-    def place(self, T: Array) -> None:
-        """Move it to a pose, (4, 4)."""
-        place(self.frame, T)
+    def put_on(self, shapes: list[Shape], colour: Colour | None = None) -> None:
+        """Replace its meshes.
 
-    def show(self, visible: bool, chosen: bool) -> None:
-        """Show or hide it; the chosen one is larger."""
-        self.frame.visible = visible
-        for name, value in (CHOSEN if chosen else PLAIN).items():
-            setattr(self.frame, name, value)
-        self.frame.origin_color = ORIGIN_CHOSEN if chosen else ORIGIN_PLAIN
+        Args:
+            shapes: what to draw.
+            colour: of all of them; None for their own.
+        """
+        old, self.meshes = self.meshes, []
+        for i, shape in enumerate(shapes):
+            path = f"{self.path}/{shape.body}"
+            if shape.body not in self.bodies:
+                self.bodies[shape.body] = self.server.scene.add_frame(
+                    path, show_axes=False
+                )
+            r, g, b = (int(255 * c) for c in shape.rgba[:3])
+            mesh = self.server.scene.add_mesh_simple(
+                f"{path}/{len(shapes)}_{i}",
+                shape.vertices.astype(np.float32),
+                shape.faces,
+                color=colour or (r, g, b),
+            )
+            self.meshes.append((mesh, shape))
+        for mesh, _ in old:  # after the new ones: no moment without an arm
+            mesh.remove()
+
+    def pose(self, poses: Mapping[str, Array | None]) -> None:
+        """Move its bodies; one without a pose is hidden.
+
+        Args:
+            poses: {body: T_world_body (4, 4)}.
+        """
+        for name, body in self.bodies.items():
+            T = poses.get(name)
+            body.visible = T is not None
+            if T is not None:
+                place(body, T)
+
+    def look(
+        self, opacity: float | None, shade: tuple[float, float, float] = (1, 1, 1)
+    ) -> None:
+        """Make it see-through, and darker.
+
+        Args:
+            opacity: 0 to 1; None for solid.
+            shade: its colours (r, g, b) are multiplied by it.
+        """
+        for mesh, shape in self.meshes:
+            rgb = zip(shape.rgba[:3], shade, strict=True)
+            r, g, b = (int(255 * c * s) for c, s in rgb)
+            mesh.color, mesh.opacity = (r, g, b), opacity
+
+    def remove(self) -> None:
+        """Take it off the scene."""
+        for body in self.bodies.values():
+            body.remove()
+        self.bodies, self.meshes = {}, []
 
 
 class ArmScene:
-    """The arm on its floor, with a triad per frame."""
+    """The arm on its floor with a triad per frame, and the student's as a ghost."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        """Draw everything once; `update` only moves it.
+        """Draw everything but the meshes; `update` only moves it.
 
         Args:
             server: where to draw.
@@ -72,32 +115,58 @@ class ArmScene:
         """
         self.arm = arm
         _set_stage(server)
-        self.meshes: list[viser.MeshHandle] = []
-        self.bodies: dict[str, viser.FrameHandle] = {}
-        for i, shape in enumerate(shapes(arm.model)):
-            path = f"/arm/{shape.body}"
-            if shape.body not in self.bodies:
-                self.bodies[shape.body] = server.scene.add_frame(path, show_axes=False)
-            mesh = server.scene.add_mesh_simple(
-                f"{path}/{i}",
-                shape.vertices.astype(np.float32),
-                shape.faces,
-                color=shape.rgba[:3],
-            )
-            self.meshes.append(mesh)
         self.triads = {
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        self.way = _lines(server, "/way")
+        Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
+        self.yours = Triad(server, "/yours_end", "yours", letters=True)
+        self.yours.show(visible=False, chosen=True)
+        self.way = _lines(server, "/way", HIGHLIGHT)
+        self.gap = _lines(server, "/gap", GHOST_COLOUR)
+        self.opaque, self.agrees = False, False
+        self.coarse: list[Shape] = []
+        self.update()
+
+    def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
+        """Put meshes on the arm.
+
+        Args:
+            shapes: of every body.
+            ghosts: draw the ghost with them, too.
+        """
+        self.skin.put_on(shapes)
+        self.paint()
+        if ghosts:
+            self.coarse = shapes
+            self.ghost.put_on(shapes, GHOST_COLOUR)
+            self.ghost.pose({})
+            for mesh, _ in self.ghost.meshes:
+                mesh.opacity = GHOST_OPACITY
         self.update()
 
     def update(self) -> None:
         """Move everything to the arm's present configuration."""
-        for name, body in self.bodies.items():
-            place(body, self.arm.by_mujoco[f"body:{name}"])
+        self.skin.pose({name: self.arm.body_pose(name) for name in self.skin.bodies})
         for name, triad in self.triads.items():
-            triad.place(self.arm.by_hand[self.arm.names[name]])
+            triad.place(self.arm.by_library[self.arm.names[name]])
+
+    def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
+        """Draw the student's arm where it is not the real one.
+
+        Args:
+            poses: {short name of a frame: its pose, where it differs}.
+            end: the frame from whose true place a line leads to the student's.
+        """
+        self.ghost.pose(poses)
+        there = poses.get(end)
+        self.yours.show(there is not None, chosen=True)
+        self.gap.visible = there is not None
+        if there is not None:
+            self.yours.place(there)
+            ends = [self.arm.pose(end)[:3, 3], there[:3, 3]]
+            self.gap.points = np.array([ends], dtype=np.float32)
 
     def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
         """Make one frame stand out.
@@ -116,40 +185,37 @@ class ArmScene:
         if self.way.visible:
             self.way.points = np.stack([joined[:-1], joined[1:]], axis=1)
 
-    def see_through(self, on: bool) -> None:
-        """Make the arm's meshes see-through, or solid again."""
-        for mesh in self.meshes:
-            mesh.opacity = SEE_THROUGH if on else None
+    def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
+        """Make the arm solid or see-through, and green or not.
 
+        Args:
+            opaque: None leaves it as it is.
+            agrees: whether the student's code puts every link here.
+        """
+        before = self.opaque, self.agrees
+        self.opaque = self.opaque if opaque is None else opaque
+        self.agrees = self.agrees if agrees is None else agrees
+        if before != (self.opaque, self.agrees):
+            self.paint()
 
-class TwoOrdersScene:
-    """Both results of T_extra, drawn beside the end effector's frame."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        """Draw them hidden."""
-        self.right = Triad(server, "/extra/right", "T_world_ee @ T_extra", "top-right")
-        self.left = Triad(server, "/extra/left", "T_extra @ T_world_ee", "bottom-left")
-        self.lines = _lines(server, "/extra/lines")
-        self.show(None)
-
-    def update(self, T_world_ee: Array, right: Array, left: Array) -> None:
-        """Move both, and the lines that lead to them from the end effector."""
-        self.right.place(right)
-        self.left.place(left)
-        ends = [[T_world_ee[:3, 3], T[:3, 3]] for T in (right, left)]
-        self.lines.points = np.array(ends, dtype=np.float32)
-
-    def show(self, chosen: str | None) -> None:
-        """Show both with one of them ("right" or "left") standing out, or neither."""
-        self.right.show(chosen is not None, chosen == "right")
-        self.left.show(chosen is not None, chosen == "left")
-        self.lines.visible = chosen is not None
+    def paint(self) -> None:
+        """Give the meshes their colours."""
+        if self.opaque:
+            self.skin.look(None)
+        else:
+            self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
 
 
 def _set_stage(server: viser.ViserServer) -> None:
     """Set camera, backdrop and floor."""
     camera = server.initial_camera
     camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
+
+    @server.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        if client.camera.aspect < 1.0:
+            client.camera.position, client.camera.look_at = PHONE_CAMERA, PHONE_LOOK_AT
+
     backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(
@@ -164,18 +230,15 @@ def _set_stage(server: viser.ViserServer) -> None:
     )
 
 
-def _lines(server: viser.ViserServer, path: str) -> viser.LineSegmentsHandle:
+def _lines(
+    server: viser.ViserServer, path: str, colour: Colour
+) -> viser.LineSegmentsHandle:
     """Add line segments that have their points yet to come."""
     return server.scene.add_line_segments(
         path,
         np.zeros((1, 2, 3), dtype=np.float32),
-        ORIGIN_CHOSEN,
+        colour,
         thickness=2.5,
         thickness_units="screen",
         visible=False,
     )
-
-
-def place(node: viser.SceneNodeHandle, T: Array) -> None:
-    """Put a node of the scene at a pose, (4, 4)."""
-    node.wxyz, node.position = se3.R_to_quat(T[:3, :3]), T[:3, 3]

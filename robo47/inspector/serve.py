@@ -1,62 +1,172 @@
-"""Serves the inspector on this machine until Ctrl-C, and says where to look."""
+"""Serves the inspector on this machine until Ctrl-C, and says where to look.
 
+The page is there before the arm's meshes are: numbers and triads first, then simple
+meshes, then the fine ones.
+"""
+
+import asyncio
+import contextlib
 import getpass
 import os
 import signal
 import socket
+import threading
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
+
+import mujoco
+import viser
 
 from robo47 import cli
+from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.inspector.app import Inspector
+from robo47.inspector import behind
+from robo47.inspector.app import Inspector, Meshes
 from robo47.inspector.arm import Arm
+from robo47.inspector.checks import Checks
 from robo47.inspector.guard import LOOPBACK, LocalServer
+from robo47.inspector.shapes import COLLISION_GROUPS, shapes
+from robo47.inspector.student import Student
+from robo47.inspector.tab import day_tabs
+from robo47.lesson.day import Day
+from robo47.paths import shown
 
 PORTS_TRIED = 100
+WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
+T = TypeVar("T")
+WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
 
 
-def serve(arm: Arm, about: str, port: int) -> int:
+@dataclass(frozen=True)
+class Show:
+    """What to show.
+
+    Attributes:
+        day: whose tabs and whose file.
+        arm: without its looks; the numbers need none.
+        about: the line that says which robot this is.
+        dressed: loads the same model with its meshes; takes seconds.
+        simple: leave the fine meshes out, for a computer that draws without a GPU.
+    """
+
+    day: Day
+    arm: Arm
+    about: str
+    dressed: Callable[[], mujoco.MjModel]
+    simple: bool = False
+
+
+def serve(show: Show, port: int) -> int:
     """Serve the page until Ctrl-C.
 
     Args:
-        arm: what to show.
-        about: the line that says which robot this is.
+        show: what to show.
         port: the wish; the next free one is taken where it is busy.
 
     Returns:
         The exit code.
 
     Raises:
-        Robo47Error: no port is free.
+        Robo47Error: no port is free, or the day's tabs do not load.
     """
     # A shell that starts a job with & has it ignore Ctrl-C; `kill` ends as well.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
+    tabs = day_tabs(show.day)
     server = LocalServer(free_port(port))
+    with contextlib.ExitStack() as ends:
+        ends.callback(server.stop)
+        try:
+            server._websock_server.get_message_buffer().max_window_size = WINDOW
+            page = on_loop(
+                server, lambda: Inspector(server, show.arm, show.about, tabs)
+            )
+            server.door.receive = page.controls.receive
+            print("\n".join(where_to_look(port, server)), flush=True)
+            if page.day.ghost is not None:
+                student = watch(page, show, ends)
+                ends.callback(student.close)
+            threading.Thread(target=dress, args=(page, show), daemon=True).start()
+            while True:
+                time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
+        except KeyboardInterrupt:
+            print("\ninspector stopped")
+            return cli.EXIT_OK
+
+
+def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:
+    """Call something on the server's event loop, where the page lives."""
+
+    async def called() -> T:
+        return call()
+
+    return asyncio.run_coroutine_threadsafe(called(), server.get_event_loop()).result()
+
+
+def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
+    """Start the thread that asks the student's file, and the checks after a save.
+
+    Args:
+        page: where it is shown.
+        show: the day and the arm.
+        ends: what is to be closed in the end.
+    """
+    assert page.day.ghost is not None
+    sandbox = ends.enter_context(Sandbox())
+    checks = Checks(partial(behind.verdicts, show.day), page.on_loop(page.judge))
+
+    def saved() -> None:
+        if show.day.work.is_file():
+            checks.again()
+
+    student = Student(
+        behind.source_of(show.day, show.arm.model, sandbox), page.day.ghost,
+        show.arm.model, page.on_loop(page.hear), saved,
+    )  # fmt: skip
+
+    def begin() -> None:
+        page.panel.no_file = (
+            f"No {shown(show.day.work)} yet: make start DAY={show.day.number}. "
+            "Shown is the kit's library."
+        )
+        page.student = student
+        page.update()
+
+    on_loop(page.server, begin)
+    student.start()
+    return student
+
+
+def dress(page: Inspector, show: Show) -> None:
+    """Load the meshes and put them on: the simple ones, then the fine ones."""
     try:
-        Inspector(server, arm, about)
-        print("\n".join(where_to_look(port, server.get_port())), flush=True)
-        while True:
-            time.sleep(1.0)  # in pieces: on Windows a long sleep would sit out Ctrl-C
-    except KeyboardInterrupt:
-        print("\ninspector stopped")
-        return cli.EXIT_OK
-    finally:
-        server.stop()
+        model = show.dressed()
+    except Robo47Error as error:
+        print(f"the arm stays without its meshes: {error}", flush=True)
+        return
+    put_on = page.on_loop(partial(page.dress, model))
+    coarse = [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
+    if coarse:
+        put_on(Meshes(coarse, True))
+    if not (coarse and show.simple):
+        put_on(Meshes(shapes(model), not coarse))
 
 
-def where_to_look(wish: int, port: int) -> list[str]:
+def where_to_look(wish: int, server: LocalServer) -> list[str]:
     """Return the lines that tell a person where the page is.
 
     Args:
         wish: the port that was asked for; 0 for any.
-        port: the one that was free.
+        server: listening.
     """
-    url = f"http://{LOOPBACK}:{port}"
+    port = server.get_port()
     moved = [f"port {wish} is taken; using {port}"] if wish not in (0, port) else []
     return [
         *moved,
-        f"inspector: {url}   (Ctrl-C here ends it)",
+        f"inspector: {server.url}   (Ctrl-C here ends it)",
         "From another computer: run this on it, then open the same address there.",
         f"  {ssh_line(port)}",
     ]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from robo47 import se3
 from robo47.checks import Array
 
-VISIBLE_GROUPS = (0, 1, 2)
+VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
 Faces = NDArray[np.int32]
 Rgba = tuple[float, float, float, float]
 
@@ -36,15 +36,18 @@ class Shape(NamedTuple):
     faces: Faces
 
 
-def shapes(model: mujoco.MjModel) -> list[Shape]:
+def shapes(
+    model: mujoco.MjModel, groups: tuple[int, ...] = VISIBLE_GROUPS
+) -> list[Shape]:
     """Return the model's looks, one shape per body and colour.
 
     Args:
         model: compiled with its meshes; planes and height fields are left out.
+        groups: of geoms; the collision shapes are some 60 times simpler.
     """
     parts: dict[tuple[str, Rgba], list[tuple[Array, Faces]]] = {}
     for geom in range(model.ngeom):
-        if model.geom_group[geom] in VISIBLE_GROUPS:
+        if model.geom_group[geom] in groups:
             for vertices, faces in _triangles(model, geom):
                 R = se3.quat_to_R(model.geom_quat[geom])
                 placed = vertices @ R.T + model.geom_pos[geom]

@@ -1,6 +1,7 @@
 """What a day is: one folder, `w*/dayN/`, that the machine reads by path.
 
-    day        its manifest, day.toml: tasks, hints, deliverables, limits
+    day        finds and loads its manifest, day.toml
+    content    what a manifest holds: tasks, hints, deliverables, limits
     entries    the tables of a manifest, fetched by name and type
     folder     its Python files (questions.py and others), imported by path
     starter    the student's copy of its lab script, with the tasks taken out

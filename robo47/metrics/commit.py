@@ -16,7 +16,7 @@ def short_sha(folder: Path) -> str:
         folder: the working tree's top folder: a clone or a linked worktree.
     """
     try:
-        git = _git_folder(str(folder))
+        git = git_folder(str(folder))
         head = _read(git, "HEAD")
         if head.startswith("ref: "):
             head = _resolve(git, head[5:])
@@ -25,7 +25,7 @@ def short_sha(folder: Path) -> str:
         return ""
 
 
-def _git_folder(folder: str) -> str:
+def git_folder(folder: str) -> str:
     """Return the git folder; in a worktree `.git` is a file that names it."""
     git = os.path.join(folder, ".git")
     if os.path.isdir(git):

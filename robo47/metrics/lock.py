@@ -1,11 +1,19 @@
 """An advisory lock on an open file, which the system releases if we are killed."""
 
+import errno
+import functools
 import os
 import sys
 import time
+import warnings
 
 PATIENCE_S = 60.0  # a row takes microseconds: whoever holds it longer is stuck
 PAUSE_S = 0.001
+# What a file system without locks answers (NFS without its lock service, some FUSE).
+NO_LOCKS = {
+    getattr(errno, name, errno.ENOSYS)
+    for name in ("ENOLCK", "ENOTSUP", "EOPNOTSUPP", "ENOSYS")
+}
 
 if sys.platform == "win32":
     import msvcrt
@@ -13,7 +21,8 @@ if sys.platform == "win32":
     # Windows locks bytes, and against readers too: so one that no file reaches.
     _FAR = 2**31 - 2
 
-    def _try_lock(fd: int) -> bool:
+    def try_lock(fd: int) -> bool:
+        """Return whether the file is ours alone now, and until it is closed."""
         os.lseek(fd, _FAR, os.SEEK_SET)
         try:
             msvcrt.locking(fd, msvcrt.LK_NBLCK, 1)
@@ -29,7 +38,8 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-    def _try_lock(fd: int) -> bool:
+    def try_lock(fd: int) -> bool:
+        """Return whether the file is ours alone now, and until it is closed."""
         try:
             fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -40,14 +50,36 @@ else:
         """Nothing to do: closing the file lets go at once."""
 
 
-def lock(fd: int) -> None:
+def lock(fd: int) -> bool:
     """Wait until this process alone holds the file.
+
+    Returns:
+        Whether it does; False where the file system has no locks. There, appends that
+        come one at a time still arrive whole.
 
     Raises:
         TimeoutError: somebody else has held it for PATIENCE_S seconds.
     """
     deadline = time.monotonic() + PATIENCE_S
-    while not _try_lock(fd):
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"another program has held it for {PATIENCE_S:.0f} s")
-        time.sleep(PAUSE_S)
+    try:
+        while not try_lock(fd):
+            if time.monotonic() > deadline:
+                raise TimeoutError(
+                    f"another program has held it for {PATIENCE_S:.0f} s"
+                )
+            time.sleep(PAUSE_S)
+    except OSError as error:
+        if error.errno not in NO_LOCKS:
+            raise
+        return False
+    return True
+
+
+@functools.cache
+def warn_once() -> None:
+    """Say once that rows are recorded without a lock."""
+    warnings.warn(
+        "this file system has no locks: do not let two programs write the log at the"
+        " same time",
+        stacklevel=2,
+    )

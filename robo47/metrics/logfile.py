@@ -82,17 +82,23 @@ def append(path: StrPath, text: str, sync: bool) -> None:
 @contextlib.contextmanager
 def locked(name: str) -> Iterator[int]:
     """Open a file, made if absent, to read and append; nobody else may append."""
+    with contextlib.suppress(FileNotFoundError):  # opening a pipe would wait for ever
+        if not stat.S_ISREG(os.stat(name).st_mode):
+            raise OSError(errno.EINVAL, "not a file")
     fd = os.open(name, _FLAGS, 0o666)
     try:
         if not stat.S_ISREG(os.fstat(fd).st_mode):
             raise OSError(errno.EINVAL, "not a file")
-        lock.lock(fd)
+        alone = lock.lock(fd)
         try:
             yield fd
         finally:
-            lock.unlock(fd)
+            if alone:
+                lock.unlock(fd)
     finally:
         os.close(fd)
+    if not alone:
+        lock.warn_once()  # afterwards, so that the row is there whatever it does
 
 
 def note_repair(path: StrPath, line: str) -> None:

@@ -43,21 +43,36 @@ def scan(path: str | os.PathLike[str], as_is: bool = False) -> Iterator[Line]:
         Robo47Error: no file; a first line that is not the header, unless `as_is` and
             it can be told which column is which.
     """
+    with _opened(Path(path)) as file:
+        yield from scan_file(file, path, as_is)
+
+
+def scan_file(
+    file: BinaryIO, path: str | os.PathLike[str], as_is: bool = False
+) -> Iterator[Line]:
+    """Yield the lines of a log that is open already, as `scan` does.
+
+    Args:
+        file: at its start.
+        path: the log's name; lines that were noted as repaired stand beside it.
+        as_is: as for `scan`.
+    """
     chosen = Path(path)
-    with _opened(chosen) as file:
-        head = file.read(header.LONGEST)
-        if head in (b"", header.BOM):
-            return
-        plan = Layout() if header.line_end(head) else header.layout(head)
-        if not header.line_end(head) and not (as_is and plan.is_clear):
-            raise Robo47Error(f"{shown(chosen)}: {header.problem(head, chosen)}")
-        file.seek(0)
-        lines: BinaryIO = io.BytesIO(_from_utf16(file)) if plan.utf16 else file
-        yield from _lines(lines, plan, _known_repairs(chosen))
+    head = file.read(header.LONGEST)
+    if head in (b"", header.BOM):
+        return
+    plan = Layout() if header.line_end(head) else header.layout(head)
+    if not header.line_end(head) and not (as_is and plan.is_clear):
+        raise Robo47Error(f"{shown(chosen)}: {header.problem(head, chosen)}")
+    file.seek(0)
+    lines: BinaryIO = io.BytesIO(_from_utf16(file)) if plan.utf16 else file
+    yield from _lines(lines, plan, _known_repairs(chosen))
 
 
 def _opened(path: Path) -> BinaryIO:
     try:
+        if path.exists() and not path.is_file():
+            raise OSError("it is no regular file")  # a pipe would wait for ever
         return open(path, "rb")
     except FileNotFoundError:
         raise Robo47Error(

@@ -82,8 +82,9 @@ def render(report: Report, heading: str) -> str:
             f"<title>robo47 metrics</title><style>{STYLE}</style></head><body>",
             f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}</p>',
             _tiles(report),
+            *([] if report.rows else [_nothing()]),
+            _jumps(report),
             *(_day(day, list(series)) for day, series in days),
-            *([] if report.series else [_nothing()]),
             _look("Repaired while reading", report.repaired),
             _look("Could not be read", report.unread),
             "</body></html>\n",
@@ -94,7 +95,7 @@ def render(report: Report, heading: str) -> str:
 def _tiles(report: Report) -> str:
     attention = len(report.repaired) + len(report.unread)
     tiles = [
-        ("pass", report.count("pass"), "passing"),
+        ("pass" if report.count("pass") else "none", report.count("pass"), "passing"),
         ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
         ("none", report.count("open"), "without a threshold"),
         ("none", report.count("none"), "not run yet"),
@@ -110,13 +111,36 @@ def _tiles(report: Report) -> str:
 
 
 def _nothing() -> str:
-    return '<h2>Nothing recorded yet</h2><p class="muted">Run: make day1</p>'
+    return (
+        '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
+        "<code>make run DAY=1</code></p>"
+    )
+
+
+def _title(day: int | None) -> str:
+    return "No day" if day is None else f"Day {day}"
+
+
+def _jumps(report: Report) -> str:
+    """Return a link to each day, where there are several."""
+    days = dict.fromkeys(series.day for series in report.series)
+    failing = {series.day for series in report.series if series.status == "fail"}
+    if len(days) < 2:
+        return ""
+    links = ", ".join(
+        f'<a class="{"fail" if day in failing else "open"}" href="#{day}">'
+        f"{_title(day)}</a>"
+        for day in days
+    )
+    return f"<p>{links}</p>"
 
 
 def _day(day: int | None, series: list[Series]) -> str:
-    title = "No day" if day is None else f"Day {day}"
     cards = "".join(_card(one) for one in series)
-    return f'<section><h2>{title}</h2><div class="cards">{cards}</div></section>'
+    return (
+        f'<section id="{day}"><h2>{_title(day)}</h2><div class="cards">{cards}</div>'
+        "</section>"
+    )
 
 
 def _card(series: Series) -> str:
@@ -127,7 +151,7 @@ def _card(series: Series) -> str:
         ("latest", plot.number(latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
-        ("threshold", str(series.threshold or "–")),
+        ("threshold", series.limits),
     ]
     terms = "".join(
         f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
@@ -137,8 +161,18 @@ def _card(series: Series) -> str:
         f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
         f'<span class="muted">{_text(series.metric)}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
-        f"<dl>{terms}</dl>{_svg(series)}{_recent(series.rows)}</article>"
+        f"<dl>{terms}</dl>{_failures(series)}{_svg(series)}{_recent(series.rows)}"
+        "</article>"
     )
+
+
+def _failures(series: Series) -> str:
+    """Return in how many trials the latest run failed, or nothing."""
+    latest = series.rows[-1] if series.rows else None
+    if latest is None or not latest["n_failures"]:
+        return ""
+    trials = latest["n_trials"] or "?"
+    return f'<p class="fail">failed in {latest["n_failures"]} of {trials} trials</p>'
 
 
 def _colour(name: str, series: Series) -> str:

@@ -122,7 +122,7 @@ def _card(series: Series) -> Image.Image:
         ("latest", plot.number(latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
-        ("threshold", str(series.threshold or "–")),
+        ("threshold", series.limits),
     ]
     for i, (name, value) in enumerate(facts):
         x = 16 + i * 96

@@ -65,14 +65,13 @@ def draw(series: Series) -> list[Shape]:
         shapes.append(Path([(LEFT, y), (RIGHT, y)], "grid"))
         shapes.append(Words(LEFT - 6, y + 3.5, axis.label(tick), "end"))
     shapes += _threshold(series, axis)
-    chosen = _thinned([row for row in series.rows if _finite(row)])
+    chosen = _thinned(series.rows)
     places = [(_x(i, len(chosen)), row) for i, row in enumerate(chosen)]
-    shapes.append(Path([(x, axis.y(_finite_value(row))) for x, row in places], "line"))
+    line = [(x, axis.y(_finite_value(row))) for x, row in places if _finite(row)]
+    shapes.append(Path(line, "line"))
     shapes += [_dot(series, axis, x, row, len(places)) for x, row in places[:-1]]
-    x, row = places[-1]
-    y = axis.y(_finite_value(row))
-    shapes.append(Dot(x, y, 8, "halo", ""))
-    shapes.append(_dot(series, axis, x, row, 1))
+    last = _dot(series, axis, *places[-1], 1)
+    shapes += [Dot(last.x, last.y, 8, "halo", ""), last]
     return shapes + _under_axis(places)
 
 
@@ -147,12 +146,17 @@ def _threshold(series: Series, axis: _Axis) -> list[Shape]:
 
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, count: int) -> Dot:
-    value = _finite_value(row)
+    """Return a run's dot; one whose value is no number sits hollow at the top."""
     role = "line"
     if series.threshold:
-        role = "pass" if series.threshold.passes(value) else "fail"
-    tip = f"{value!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
+        role = "pass" if series.passes(row) else "fail"
+    tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
+    if row["n_failures"]:
+        tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
     radius = 4 if count <= 40 else 2
+    if not _finite(row):
+        return Dot(x, TOP, radius, role, tip, hollow=True)
+    value = _finite_value(row)
     return Dot(x, axis.y(value), radius, role, tip, axis.log and value <= 0)
 
 
@@ -187,11 +191,15 @@ def _thinned(rows: list[Row]) -> list[Row]:
     kept = []
     for start in range(0, len(rows), size):
         bin_ = range(start, min(start + size, len(rows)))
-        by_value = sorted(bin_, key=lambda i: _finite_value(rows[i]))
+        by_value = sorted(bin_, key=lambda i: _height(rows[i]))
         kept += sorted({by_value[0], by_value[-1]})
     if kept[-1] != len(rows) - 1:
         kept.append(len(rows) - 1)
     return [rows[i] for i in kept]
+
+
+def _height(row: Row) -> float:
+    return _finite_value(row) if _finite(row) else math.inf
 
 
 def _finite(row: Row) -> bool:

@@ -4,17 +4,16 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from robo47.lesson.day import Metric
 from robo47.metrics.rows import Row
 from robo47.metrics.scan import Line
-from robo47.report.thresholds import Threshold
-
-Key = tuple[int | None, str, str]  # day, check, metric
+from robo47.report.thresholds import Key
 
 
 class Series:
     """The runs of one check's metric, oldest first, and what they must reach."""
 
-    def __init__(self, key: Key, threshold: Threshold | None) -> None:
+    def __init__(self, key: Key, threshold: Metric | None) -> None:
         """Start with no runs."""
         self.day, self.check, self.metric = key
         self.threshold = threshold
@@ -33,7 +32,24 @@ class Series:
             return "none"
         if self.threshold is None:
             return "open"
-        return "pass" if self.threshold.passes(value_of(self.rows[-1])) else "fail"
+        return "pass" if self.passes(self.rows[-1]) else "fail"
+
+    def passes(self, row: Row) -> bool:
+        """Return whether a run reached the threshold, in all of its trials."""
+        value = value_of(row)
+        if self.threshold is None or value is None or row["n_failures"]:
+            return False
+        return self.threshold.passes(value)
+
+    @property
+    def limits(self) -> str:
+        """The threshold in signs, "≤ 1e-08"; "–" where there is none."""
+        if self.threshold is None:
+            return "–"
+        low, high = self.threshold.min, self.threshold.max
+        parts = [] if low is None else [f"≥ {low:g}"]
+        parts += [] if high is None else [f"≤ {high:g}"]
+        return ", ".join(parts)
 
     @property
     def best(self) -> float | None:
@@ -76,7 +92,7 @@ def value_of(row: Row) -> float | None:
 
 def collect(
     lines: Iterable[Line],
-    thresholds: Mapping[tuple[str, str], Threshold],
+    thresholds: Mapping[Key, Metric],
     since: str = "",
     day: int | None = None,
     check: str = "",
@@ -85,15 +101,14 @@ def collect(
 
     Args:
         lines: what `scan` yields.
-        thresholds: by (check, metric).
+        thresholds: by day, check and metric.
         since: the first date, YYYY-MM-DD; "" is all.
         day: the course's day; None is all.
         check: a check's name; "" is all.
     """
     found: dict[Key, Series] = {}
-    for (name, metric), threshold in thresholds.items():
-        if day in (None, threshold.day) and check in ("", name):
-            key = (threshold.day, name, metric)
+    for key, threshold in thresholds.items():
+        if day in (None, key[0]) and check in ("", key[1]):
             found[key] = Series(key, threshold)
     report = Report([])
     for line in lines:
@@ -123,19 +138,21 @@ def _wanted(row: Row, since: str, day: int | None, check: str) -> bool:
 
 def _add(
     found: dict[Key, Series],
-    thresholds: Mapping[tuple[str, str], Threshold],
+    thresholds: Mapping[Key, Metric],
     row: Row,
 ) -> None:
-    day, name, metric = row["day"], str(row["check"]), str(row["metric"])
-    threshold = thresholds.get((name, metric))
-    if day is None and threshold:
-        day = threshold.day
-    key = (day if isinstance(day, int) else None, name, metric)
+    name, metric = str(row["check"]), str(row["metric"])
+    day = row["day"] if isinstance(row["day"], int) else None
+    if day is None:  # a row without its day belongs to the only day that asks for it
+        days = [key[0] for key in thresholds if key[1:] == (name, metric)]
+        day = days[0] if len(days) == 1 else None
+    key = (day, name, metric)
     if key not in found:
-        found[key] = Series(key, threshold)
+        found[key] = Series(key, thresholds.get(key))
     found[key].rows.append(row)
 
 
-def _place(series: Series) -> tuple[float, str, str]:
+def _place(series: Series) -> tuple[float, bool, str, str]:
+    """Return what orders the series: by day, and what fails first."""
     day = math.inf if series.day is None else series.day
-    return (day, series.check, series.metric)
+    return (day, series.status != "fail", series.check, series.metric)

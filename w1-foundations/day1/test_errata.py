@@ -13,7 +13,8 @@ from test_day1 import lab
 from conftest import ROOT
 from robo47 import kinematics, panda, se3
 
-ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
+PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
+ERRATA = PAGE.partition("\n## Day 1\n")[2].partition("\n## ")[0]
 GUIDE = (ROOT / "w1-foundations/docs/day1-lab.md").read_text("utf-8")
 
 

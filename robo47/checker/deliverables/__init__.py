@@ -1,24 +1,37 @@
 """What a day hands in beside its code. Read here, never edited.
 
+    handin      which files, read without trusting the folder
     figure      the student's picture
     worksheet   definitions, drawings, checklist
     rows        the numbers in the metrics log
-    commit      all of it in git
+    commit      all of it in git; `git` asks
 
-Each returns an `Item`: how it stands, and what to do about it.
+Each check returns an `Item`: how it stands, and what to do about it.
 """
 
 from pathlib import Path
 
-from robo47.checker.deliverables.commit import check_commit
+from robo47.checker.deliverables.commit import check_commit, wanted_names
 from robo47.checker.deliverables.figure import check_figure
+from robo47.checker.deliverables.git import GitError, read_history
+from robo47.checker.deliverables.handin import Handin, day_files, read_handin
 from robo47.checker.deliverables.item import Item
 from robo47.checker.deliverables.rows import check_rows
 from robo47.checker.deliverables.worksheet import check_worksheet
 from robo47.lesson.day import Day
 from robo47.paths import ROOT
 
-__all__ = ["Item", "check_deliverables"]
+__all__ = ["Item", "check_deliverables", "check_files", "item_names"]
+
+
+def item_names(day: Day) -> list[str]:
+    """Return the names of a day's deliverables, in the order of the checks."""
+    names = ["figure"] if day.figure else []
+    if day.worksheet:
+        names += ["definitions"] if day.terms or day.questions else []
+        names += ["drawings"] if day.drawings else []
+        names += ["checklist"]
+    return [*names, *(["metrics"] if day.metrics else []), "commit"]
 
 
 def check_deliverables(
@@ -29,15 +42,43 @@ def check_deliverables(
     Args:
         day: from the kit's manifest.
         root: the student's clone.
-        tasks_pass: whether the day's tasks do; until then no row is the student's.
+        tasks_pass: whether the day's tasks do; until then no row counts.
 
     Returns:
-        One item per deliverable.
+        One item per deliverable that the day has.
     """
-    week = root / day.folder.name
-    return [
-        check_figure(day, week),
-        *check_worksheet(day, week),
-        check_rows(day, root, tasks_pass),
-        check_commit(day, root),
-    ]
+    handin = read_handin(day, root)
+    try:
+        history = read_history(root, wanted_names(day, handin), own=True)
+        commit = check_commit(day, handin, history)
+    except GitError as error:
+        commit = Item("commit", "todo", f"Nobody can tell: {error}.")
+    return [*check_files(day, handin, tasks_pass=tasks_pass), commit]
+
+
+def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[Item]:
+    """Check what a day hands in, but for the commit.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+        tasks_pass: whether the day's tasks do; until then no row counts.
+    """
+    files = day_files(day)
+    found: dict[str, Item] = {}
+    checks = {
+        "figure": lambda: [check_figure(day, handin)],
+        "worksheet": lambda: check_worksheet(day, handin),
+        "log": lambda: [check_rows(day, handin, tasks_pass=tasks_pass)],
+    }
+    covers = {"figure": ["figure"], "log": ["metrics"]}
+    written = ["definitions", "drawings", "checklist"]
+    for what, check in checks.items():
+        name = files.get(what, "")
+        if name in handin.unread:
+            says = f"{name} {handin.unread[name]}."
+            items = [Item(n, "wrong", says) for n in covers.get(what, written)]
+        else:
+            items = check() if name else []
+        found |= {item.name: item for item in items}
+    return [found[name] for name in item_names(day) if name in found]

@@ -1,16 +1,19 @@
 """The student's picture: there, real, of a plausible size, and their own."""
 
+import math
 import struct
+import zlib
 from pathlib import Path
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from robo47.checker.deliverables.item import Item, from_root
+from robo47.checker.deliverables.handin import Handin, day_files
+from robo47.checker.deliverables.item import Item
 from robo47.lesson.day import Day
 
-SMALLEST, LARGEST = (320, 240), 50_000_000  # pixels: width and height; in all
+SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all
 DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one
 SAME = 0.5  # of 255: mean difference to a picture that was only saved again
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -22,37 +25,44 @@ class FlawError(Exception):
     """Not a picture that can be judged; its text says why."""
 
 
-def check_figure(day: Day, week: Path) -> Item:
+def check_figure(day: Day, handin: Handin) -> Item:
     """Check the day's figure.
 
     Args:
         day: from the kit's manifest.
-        week: the week's folder in the student's clone.
+        handin: what the student's folder holds.
     """
-    path = week / day.figure
-    shown = from_root(path, week)
-    if not path.is_file():
-        return Item("figure", "todo", f"Save your picture of the arm as {shown}.")
+    name = day_files(day)["figure"]
+    data = handin.files.get(name)
+    if data is None:
+        command = f'make view DAY={day.number} ARGS="--screenshot {name}"'
+        says = f"Save your picture of the arm as {name}:\n{command}"
+        return Item("figure", "todo", says)
     try:
-        picture = read_png(path.read_bytes())
-        height, width = picture.shape[:2]
-        if width < SMALLEST[0] or height < SMALLEST[1]:
-            raise FlawError(
-                f"it is {width}x{height} pixels; at least "
-                f"{SMALLEST[0]}x{SMALLEST[1]} are wanted"
-            )
-        if picture.max() < DARK:
-            raise FlawError("it is black; call mj_forward before rendering")
-        if picture.std() < FLAT:
-            raise FlawError("it is one colour from edge to edge, without an arm")
-        for name in day.kit_figures:
-            if _is_copy(picture, path, day.folder / name):
-                raise FlawError(f"it is {name} of the kit; make one of your own")
+        picture = read_png(data)
+        _look(picture)
+        for kit in day.kit_figures:
+            if _is_copy(picture, day.folder / kit):
+                raise FlawError(f"it is {kit} of the kit; make one of your own")
     except FlawError as error:
-        return Item("figure", "wrong", f"{shown}: {error}.")
-    except OSError as error:
-        return Item("figure", "wrong", f"{shown} cannot be read: {error.strerror}.")
+        return Item("figure", "wrong", f"{name}: {error}.")
     return Item("figure")
+
+
+def _look(picture: NDArray[np.uint8]) -> None:
+    """Raise FlawError for a picture that shows nothing."""
+    height, width = picture.shape[:2]
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        raise FlawError(
+            f"it is {width}x{height} pixels; at least "
+            f"{SMALLEST[0]}x{SMALLEST[1]} are wanted"
+        )
+    step = max(1, math.isqrt(width * height // 1_000_000))  # some pixels tell as much
+    some = picture[::step, ::step]
+    if some.max() < DARK:
+        raise FlawError("it is black; call mj_forward before rendering")
+    if some.std() < FLAT:
+        raise FlawError("it is one colour from edge to edge, without an arm")
 
 
 def read_png(data: bytes) -> NDArray[np.uint8]:
@@ -71,6 +81,8 @@ def read_png(data: bytes) -> NDArray[np.uint8]:
     width, height = struct.unpack(">II", data[16:24])
     if width * height > LARGEST:  # before decoding: a small file can claim any size
         raise FlawError(f"it claims {width}x{height} pixels: too many")
+    if not _inflates(data, width, height):
+        raise FlawError("the PNG is cut off or damaged")
     try:
         model = mujoco.MjModel.from_xml_string(_TEXTURE, {"f.png": data})
     except ValueError:
@@ -78,8 +90,31 @@ def read_png(data: bytes) -> NDArray[np.uint8]:
     return model.tex_data.reshape(height, width, -1)
 
 
-def _is_copy(picture: NDArray[np.uint8], path: Path, kits: Path) -> bool:
-    if not kits.is_file() or kits.resolve() == path.resolve():
+def _inflates(data: bytes, width: int, height: int) -> bool:
+    """Return whether a PNG's data has no more bytes than its size asks for.
+
+    Counted piece by piece: a megabyte may claim to be a gigabyte.
+    """
+    most = 8 * (width + 8) * (height + 8) + 16 * height  # 64 bits a pixel, interlaced
+    unpack, at = zlib.decompressobj(), 8
+    try:
+        while at + 8 <= len(data):
+            size, kind = struct.unpack(">I4s", data[at : at + 8])
+            piece = data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""
+            while piece:
+                most -= len(unpack.decompress(piece, 1_000_000))
+                piece = unpack.unconsumed_tail
+                if most < 0:
+                    return False
+            at += size + 12
+    except zlib.error:
+        return False
+    return True
+
+
+def _is_copy(picture: NDArray[np.uint8], kits: Path) -> bool:
+    """Return whether a picture is one of the kit's, though it was saved again."""
+    if not kits.is_file():
         return False
     try:
         other = read_png(kits.read_bytes())

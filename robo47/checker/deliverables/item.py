@@ -1,7 +1,6 @@
 """How a deliverable stands."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -22,8 +21,3 @@ class Item:
     def passed(self) -> bool:
         """Whether nothing is left to do."""
         return self.status == "passed"
-
-
-def from_root(path: Path, week: Path) -> str:
-    """Return a path as the student types it, from the top of the clone."""
-    return path.relative_to(week.parent).as_posix()

@@ -1,53 +1,75 @@
 """The student's worksheet: definitions in their own words, drawings, checklist."""
 
 import re
-from pathlib import Path
 
-from robo47.checker.deliverables.item import Item, from_root
+from robo47.checker.deliverables.handin import (
+    Handin,
+    day_files,
+    image_names,
+    picture_path,
+)
+from robo47.checker.deliverables.item import Item
 from robo47.lesson.day import Day
+from robo47.text import visible
 
-FEWEST_WORDS = 8  # of a definition
+FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # of a definition
 SHINGLE = 5  # words in a row that count as taken over
 TAKEN_OVER = 0.5  # share of a definition's shingles that may stand in the lab guide
 DRAWN_LINES = 3  # of a drawing made of text
 FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
+LONGEST = 2000  # characters of a line that are looked at
 
-_HEADING = re.compile(r"(#{1,6})\s+(.*?)\s*#*$")
-_FENCE = re.compile(r"\s*(```|~~~)")
-_IMAGE = re.compile(r"!\[[^\]]*\]\(\s*<?([^)>\s]+)[^)]*\)|<img[^>]+src=[\"']([^\"']+)")
-_QUESTION = re.compile(r"\s{0,3}\d+[.)]\s+\S")
-_BOX = re.compile(r"\s*[-*+]\s+\[([ xX])\]\s*(.*)")
-# A template's own words: quoted or italic instructions, and lines to write on.
-_PROMPT = re.compile(r"\s*(>.*|_[^_]+_|\*[^*]+\*|[._\s…]*|TODO.*)$")
+# Searched in one line, without the spaces around it: no search takes long.
+_FENCE = re.compile(r"```|~~~")
+_QUESTION = re.compile(r"\d+[.)]\s+\S")
+_BOX = re.compile(r"[-*+]\s+\[\s{0,9}([xX]?)\s{0,9}\]\s*(.*)")
+# A template's own words: quoted instructions, those in italics and brackets, and lines
+# to write on. What somebody types between the template's asterisks is theirs.
+_PROMPT = re.compile(r">.*|\*\([^*]*\)\*|_\([^_]*\)_|[._\s…]*|TODO.*")
+# Where people put no spaces between words, a letter counts as one.
+_ALONE = "\u0e00-\u0eff\u1000-\u109f\u1780-\u17ff\u3040-\u30ff\u3400-\u9fff"
+_WORD = re.compile(f"[{_ALONE}]|[^\\W_{_ALONE}]+")
 
 
-def check_worksheet(day: Day, week: Path) -> list[Item]:
+def check_worksheet(day: Day, handin: Handin) -> list[Item]:
     """Check the day's worksheet: definitions, drawings and checklist.
 
     Args:
         day: from the kit's manifest.
-        week: the week's folder in the student's clone.
+        handin: what the student's folder holds.
     """
-    path = week / day.worksheet
+    where = day_files(day)["worksheet"]
     names = ("definitions", "drawings", "checklist")
+    data = handin.files.get(where)
+    if data is None:
+        return [Item(name, "todo", f"{where} is not there.") for name in names]
     try:
-        text = path.read_text("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        missing = isinstance(error, FileNotFoundError)
-        why = "is not there" if missing else "cannot be read as text in UTF-8"
-        says = f"{from_root(path, week)} {why}."
-        return [Item(name, "todo" if missing else "wrong", says) for name in names]
-    sections = split_sections(re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL))
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        says = f"{where} cannot be read as text in UTF-8."
+        return [Item(name, "wrong", says) for name in names]
+    sections = split_sections(_without_comments(text))
     try:
         guide = (day.folder / day.guide).read_text("utf-8")
     except OSError:
         guide = ""
-    where = from_root(path, week)
     return [
         _in_words(sections, day, guide, where),
-        _drawings(sections, day, path.parent, where),
+        _drawings(sections, day, handin, where),
         _checklist(sections, where),
     ]
+
+
+def _without_comments(text: str) -> str:
+    """Return Markdown without its comments; one that is never closed stays."""
+    kept, at = [], 0
+    while (start := text.find("<!--", at)) >= 0:
+        end = text.find("-->", start)
+        if end < 0:
+            break
+        kept.append(text[at:start])
+        at = end + 3
+    return "".join([*kept, text[at:]])
 
 
 def split_sections(text: str) -> dict[str, str]:
@@ -60,11 +82,12 @@ def split_sections(text: str) -> dict[str, str]:
     open_now: list[tuple[int, str]] = []
     fenced = False
     for line in text.splitlines():
-        if _FENCE.match(line):
+        line = line[:LONGEST]
+        if _FENCE.match(line.strip()):
             fenced = not fenced
-        heading = None if fenced else _HEADING.match(line)
-        if heading:
-            level, name = len(heading[1]), heading[2].strip(" *_`").lower()
+        level = len(line) - len(line.lstrip("#"))
+        if not fenced and 1 <= level <= 6 and line[level : level + 1].isspace():
+            name = line.strip("# \t").strip(" *_`").lower()
             open_now = [(depth, other) for depth, other in open_now if depth < level]
             open_now.append((level, name))
             sections.setdefault(name, [])
@@ -72,11 +95,6 @@ def split_sections(text: str) -> dict[str, str]:
             for _, name in open_now:
                 sections[name].append(line)
     return {name: "\n".join(lines) for name, lines in sections.items()}
-
-
-def image_names(text: str) -> list[str]:
-    """Return the addresses of the images in a Markdown text, as they stand there."""
-    return [first or second for first, second in _IMAGE.findall(text)]
 
 
 def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
@@ -98,10 +116,10 @@ def _unanswered(section: str, number: int) -> list[int]:
     """
     found: list[list[str]] = []
     for line in section.splitlines():
-        if _QUESTION.match(line):
+        if _QUESTION.match(line.strip()):
             found.append([])
         if found:
-            found[-1].append("" if _PROMPT.match(line) else line)
+            found[-1].append("" if _PROMPT.fullmatch(line.strip()) else line)
     answered = []
     for lines in found:
         first, _, rest = "\n".join(lines).partition("\n\n")
@@ -119,11 +137,12 @@ def _definitions(
     empty, short, taken = [], [], []
     for term in terms:
         lines = sections.get(term.lower(), "").splitlines()
-        words = _words(" ".join(ln for ln in lines if not _PROMPT.match(ln)))
+        written = (ln for ln in lines if not _PROMPT.fullmatch(ln.strip()))
+        words = _words(" ".join(written))
         own = _shingles(words)
         if not words:
             empty.append(term)
-        elif len(words) < FEWEST_WORDS:
+        elif len(words) < FEWEST_WORDS or len(set(words)) < FEWEST_DIFFERENT:
             short.append(term)
         elif own and len(own & given) > TAKEN_OVER * len(own):
             taken.append(term)
@@ -141,52 +160,52 @@ def _definitions(
     return Item("definitions", "todo" if untouched else "wrong", " ".join(says))
 
 
-def _drawings(sections: dict[str, str], day: Day, folder: Path, where: str) -> Item:
+def _drawings(sections: dict[str, str], day: Day, handin: Handin, where: str) -> Item:
     """Check that each drawing is an image of the student's, or drawn as text."""
     number = day.drawings
-    missing: list[str] = []
-    broken: list[str] = []
-    kits: list[str] = []
-    pictures = [day.folder / name for name in day.kit_figures]
+    states: dict[str, list[str]] = {"missing": [], "broken": [], "kits": [], "done": []}
     for index in range(1, number + 1):
-        start = f"drawing {index}"
-        text = next(
-            (
-                body
-                for name, body in sections.items()
-                if re.match(rf"{start}\b", name)  # "Drawing 1: the hand's frame"
-            ),
-            "",
-        )
-        images = image_names(text)
-        there = [name for name in images if _is_image(name, folder)]
-        own = [name for name in there if not _is_one_of(pictures, name, folder)]
-        if own or _is_drawn(text):
-            continue
-        (kits if there else broken if images else missing).append(str(index))
-    if not (missing or broken or kits):
+        start = rf"drawing {index}\b"  # "Drawing 1: the hand's frame"
+        named = (body for name, body in sections.items() if re.match(start, name))
+        states[_drawing(next(named, ""), handin, where)].append(str(index))
+    missing, broken, kits, done = states.values()
+    if len(done) == number:
         return Item("drawings")
-    done = number - len(missing) - len(broken) - len(kits)
-    says = [f"{done} of {number} in {where}."]
+    says = [f"{len(done)} of {number} in {where}."]
     if missing:
         says.append(
             f"Drawing {', '.join(missing)}: add ![](photo.jpg), or draw it as text, "
             f"of {DRAWN_LINES} lines or more, between two lines of ```."
         )
     if broken:
-        says.append(f"Drawing {', '.join(broken)}: its image file is not there.")
+        says.append(
+            f"Drawing {', '.join(broken)}: its image file is not there. A picture is "
+            "a file of your own, such as ../figures/photo.jpg, and no web address."
+        )
     if kits:
         says.append(f"Drawing {', '.join(kits)}: the kit's picture; draw your own.")
     untouched = len(missing) == number
     return Item("drawings", "todo" if untouched else "wrong", " ".join(says))
 
 
+def _drawing(text: str, handin: Handin, where: str) -> str:
+    """Return how one drawing stands."""
+    if _is_drawn(text):
+        return "done"
+    addresses = image_names(text)
+    paths = [picture_path(address, where) for address in addresses]
+    kits = [handin.pictures[path] for path in paths if path in handin.pictures]
+    if kits:
+        return "kits" if all(kits) else "done"
+    return "broken" if addresses else "missing"
+
+
 def _checklist(sections: dict[str, str], where: str) -> Item:
     """Check that every box is ticked."""
     boxes = [
-        (box[1] != " ", box[2])
+        (bool(box[1]), box[2])
         for line in sections.get("checklist", "").splitlines()
-        if (box := _BOX.match(line))
+        if (box := _BOX.fullmatch(line.strip()))
     ]
     if not boxes:
         return Item("checklist", "wrong", f"{where} has no checklist: put it back.")
@@ -194,33 +213,14 @@ def _checklist(sections: dict[str, str], where: str) -> Item:
     if not left:
         return Item("checklist")
     says = f"{len(boxes) - len(left)} of {len(boxes)} ticked in {where}."
-    return Item("checklist", "todo", f"{says} Next: {left[0]}")
-
-
-def _is_image(name: str, folder: Path) -> bool:
-    """Return whether an image's address leads to a file with something in it."""
-    if re.match(r"https?:|data:image/", name):
-        return True
-    try:
-        return (folder / name.replace("%20", " ")).stat().st_size > 0
-    except (OSError, ValueError):
-        return False
-
-
-def _is_one_of(pictures: list[Path], name: str, folder: Path) -> bool:
-    """Return whether an image is one of the kit's, even under another name."""
-    try:
-        data = (folder / name.replace("%20", " ")).read_bytes()
-    except (OSError, ValueError):
-        return False
-    return any(path.is_file() and path.read_bytes() == data for path in pictures)
+    return Item("checklist", "todo", f"{says} Next: {visible(left[0], 120)}")
 
 
 def _is_drawn(text: str) -> bool:
     """Return whether a fenced block holds a drawing made of characters."""
     fenced, lines = False, 0
     for line in text.splitlines():
-        if _FENCE.match(line):
+        if _FENCE.match(line.strip()):
             fenced = not fenced
         elif fenced and line.strip():
             lines += 1
@@ -228,7 +228,7 @@ def _is_drawn(text: str) -> bool:
 
 
 def _words(text: str) -> list[str]:
-    return re.findall(r"[^\W_]+", text.lower())
+    return _WORD.findall(text.lower())
 
 
 def _shingles(words: list[str]) -> set[tuple[str, ...]]:

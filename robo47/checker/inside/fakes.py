@@ -120,6 +120,7 @@ class Fakes:
         self._has: dict[str, dict[str, Any]] = {
             "mujoco": _mujoco(refuse, facts),
             "robo47": {},
+            "kit": {},  # a lab's first import, which finds the kit's Python
             "robo47.panda": {
                 **constants,
                 "load": self._load,

@@ -24,7 +24,11 @@ class Finder:
         """
         self._sources = {
             **{name: (text.encode(), f"<{name}>") for name, text in library.items()},
-            **{name: (text, f"{name}.py") for name, text in beside.items()},
+            **{
+                name: (text, f"{name}.py")
+                for name, text in beside.items()
+                if name not in fakes.known
+            },
         }
         self._fakes = fakes
         fakes.known |= {*library, *_packages(library)}

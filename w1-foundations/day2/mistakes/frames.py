@@ -8,7 +8,7 @@ from robo47.checks import Array
 from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake, lifted
 
-from .moves import skew
+from .moves import skew, without
 from .turns import SKEW
 
 Corner = Callable[[Array, Array], Array]  # from R and [p] to a 3x3 block
@@ -110,7 +110,7 @@ ADJOINT = [
         lambda T: transposed(adjoint(T)),
         "its transpose",
     ),
-    *lifted(SKEW, "in [p], ", lambda redo: _blocks(bracket=redo)),
+    *lifted(without(SKEW, "p-cross-w"), "in [p], ", lambda redo: _blocks(bracket=redo)),
 ]
 
 
@@ -147,7 +147,7 @@ BODY_SCREWS = [
         "Ad S with t negated",
     ),
     *lifted(
-        ADJOINT,
+        without(ADJOINT, "of-the-inverse", "transposed"),
         "in the adjoint, ",
         lambda redo: lambda S, M: _carried(S, redo(rigid_inverse(M))),
     ),

@@ -159,12 +159,6 @@ JOINT_SCREWS = [
         "the screws with R^T p",
     ),
     Mistake(
-        "point-of-the-bottom-row",
-        "the point is taken from the bottom row, which is (0, 0, 0, 1) in every pose",
-        _lines(point=lambda T: T[..., 3, :3]),
-        "the screws with that point",
-    ),
-    Mistake(
         "next-links-point",
         "each joint's point is the next link's origin, which need not be on its axis",
         _lines(point=lambda T: np.roll(T[..., :3, 3], -1, axis=-2)),

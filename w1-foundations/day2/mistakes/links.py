@@ -62,16 +62,13 @@ DH_LINK = [
             _in_order(order),
             "the product in that order",
         )
-        for order in ("zxXZ", "zXxZ", "zXZx", "XzxZ", "XzZx", "ZXzx")
+        for order in ("zxXZ", "XzxZ", "XzZx")
     ),
-    *(
-        Mistake(
-            "order-of-moves",
-            "the four moves are right, but not their order",
-            _in_order(order),
-            "the product in that order",
-        )
-        for order in ("XZxz", "ZxzX", "xzZX")
+    Mistake(
+        "order-of-moves",
+        "the four moves are right, but not their order",
+        _in_order("ZxzX"),
+        "the product in that order",
     ),
     Mistake(
         "a-and-d-swapped",
@@ -126,16 +123,6 @@ DH_LINK = [
         "theta has no effect",
         lambda alpha, a, d, theta: link(alpha, a, d, 0.0 * theta),
         "the right one with theta = 0",
-    ),
-    Mistake(
-        "d-not-turned",
-        "R is right, but the translation is (a, 0, d): d is along the new z axis, "
-        "which alpha has turned",
-        lambda alpha, a, d, theta: pose(
-            link(alpha, a, d, theta)[..., :3, :3],
-            np.stack(np.broadcast_arrays(a, 0.0 * a, d), axis=-1),
-        ),
-        "the right one with (a, 0, d)",
     ),
     Mistake(
         "radians-taken-for-degrees",

@@ -7,7 +7,7 @@ from robo47.diagnose.finished import of_a_pose
 from robo47.diagnose.matrices import pose, times
 from robo47.diagnose.mistake import Mistake, applied, lifted
 
-from .moves import Function, motion, rest, rotation, skew, travel, versine
+from .moves import Function, motion, rest, rotation, skew, travel, versine, without
 from .turns import EXP_ROTATION, OF_A_UNIT_VECTOR
 
 
@@ -64,12 +64,6 @@ _OWN = [
         "the halves are read as (v; omega); omega comes first",
         lambda S, theta: motion(_swapped(S), theta),
         "the motion with the halves swapped",
-    ),
-    Mistake(
-        "turns-backwards",
-        "it moves the other way, by -theta",
-        lambda S, theta: motion(S, -theta),
-        "the motion by -theta",
     ),
     Mistake(
         "identity-for-theta",
@@ -187,6 +181,24 @@ _OWN = [
         "np.exp of [S] theta",
     ),
     Mistake(
+        "moment-used-as-point",
+        "v is taken for a point on the axis; it is the velocity of the origin",
+        lambda S, theta: pose(
+            rotation(S[..., :3], theta),
+            S[..., 3:] - times(rotation(S[..., :3], theta), S[..., 3:]),
+        ),
+        "the turn about the line through v",
+    ),
+]
+
+_OF_THE_ANGLE = [
+    Mistake(
+        "turns-backwards",
+        "it moves the other way, by -theta",
+        lambda S, theta: motion(S, -theta),
+        "the motion by -theta",
+    ),
+    Mistake(
         "radians-taken-for-degrees",
         "the angle is in radians already, and is converted from degrees once more",
         lambda S, theta: motion(S, np.deg2rad(theta)),
@@ -198,19 +210,11 @@ _OWN = [
         lambda S, theta: motion(S, np.rad2deg(theta)),
         "the motion by 180 / pi times the angle",
     ),
-    Mistake(
-        "moment-used-as-point",
-        "v is taken for a point on the axis; it is the velocity of the origin",
-        lambda S, theta: pose(
-            rotation(S[..., :3], theta),
-            S[..., 3:] - times(rotation(S[..., :3], theta), S[..., 3:]),
-        ),
-        "the turn about the line through v",
-    ),
 ]
 
 EXP_SCREW = [
     *_OWN,
+    *_OF_THE_ANGLE,
     *lifted(
         OF_A_UNIT_VECTOR,
         "in [omega], ",
@@ -228,8 +232,10 @@ EXP_SCREW = [
         "in the rotation, ",
         lambda redo: lambda S, theta: motion(S, theta, turn=redo),
     ),
-    *applied(of_a_pose(), motion),
+    # The other two are the angle's sign.
+    *applied(without(of_a_pose(), "R-transposed", "inverse-returned"), motion),
 ]
 
-# What shows in an arm of plain hinges too.
+# What shows in an arm of plain hinges too, and what is no mistake in all of q.
 OF_A_HINGE = [m for m in EXP_SCREW if m.slug.split("-")[0] not in ("pitch", "slide")]
+OF_THE_FORMULA = [m for m in OF_A_HINGE if m not in _OF_THE_ANGLE]

@@ -10,6 +10,7 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.diagnose.matrices import pose, times
+from robo47.diagnose.mistake import Mistake
 
 Function = Callable[..., Any]
 
@@ -84,3 +85,8 @@ def motion(
 def factors(step: Function, *columns: Array) -> list[Array]:
     """Return a chain's factors, (n, 4, 4) each, from columns (n, joints, ...)."""
     return list(np.moveaxis(step(*columns), 1, 0))
+
+
+def without(mistakes: list[Mistake], *slugs: str) -> list[Mistake]:
+    """Return mistakes but those that another one of the larger function covers."""
+    return [mistake for mistake in mistakes if mistake.slug not in slugs]

@@ -14,7 +14,7 @@ from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake, lifted
 
 from .frames import adjoint
-from .motions import OF_A_HINGE
+from .motions import OF_THE_FORMULA
 from .moves import Function, factors, motion
 
 
@@ -183,7 +183,7 @@ FK_SPACE = [
         "that product",
     ),
     *lifted(
-        OF_A_HINGE,
+        OF_THE_FORMULA,
         "in every exponential, ",
         lambda redo: lambda S, M, q: space(S, M, q, redo),
     ),
@@ -198,14 +198,8 @@ FK_BODY = [
         "the product with M last",
     ),
     *_shared(body, "M, the one at q = 0"),
-    Mistake(
-        "to-the-hand-twice",
-        "the screws are taken to the hand's frame once more; they are in it already",
-        lambda B, M, q: body(B @ transposed(adjoint(rigid_inverse(M))), M, q),
-        "that product",
-    ),
     *lifted(
-        OF_A_HINGE,
+        OF_THE_FORMULA,
         "in every exponential, ",
         lambda redo: lambda B, M, q: body(B, M, q, redo),
     ),

@@ -10,7 +10,7 @@ from robo47.diagnose.chain import product
 from robo47.diagnose.mistake import Mistake, lifted
 
 from .links import DH_LINK, link
-from .moves import Function, factors
+from .moves import Function, factors, without
 
 
 def rows(table: Array, theta: Array, step: Function = link) -> list[Array]:
@@ -115,7 +115,7 @@ DH_FK = [
         "the eighth link alone",
     ),
     *lifted(
-        DH_LINK,
+        without(DH_LINK, "a-and-d-swapped", "theta-forgotten"),
         "in every row, ",
         lambda redo: lambda table, q: dh(table, q, redo),
     ),

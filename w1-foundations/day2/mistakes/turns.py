@@ -6,7 +6,7 @@ from robo47 import se3
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake, lifted
 
-from .moves import from_rows, rotation, sine, skew, versine
+from .moves import from_rows, rotation, sine, skew, versine, without
 
 
 def _outer(w: Array) -> Array:
@@ -98,7 +98,7 @@ SKEW = [
 ]
 
 
-OF_A_UNIT_VECTOR = [m for m in SKEW if m.slug != "made-unit"]  # which changes nothing
+OF_A_UNIT_VECTOR = without(SKEW, "made-unit")  # which changes nothing
 
 
 def _entry_by_entry(axis: Array, theta: Array) -> Array:
@@ -220,7 +220,7 @@ EXP_ROTATION = [
         "the rotation by half of it",
     ),
     *lifted(
-        OF_A_UNIT_VECTOR,
+        without(OF_A_UNIT_VECTOR, "p-cross-w"),  # the angle's sign
         "in [axis], ",
         lambda redo: lambda axis, theta: rotation(axis, theta, bracket=redo),
     ),

@@ -1,7 +1,8 @@
 # task 2.2: passed
 # By a quaternion and Day 1's library.
-from robo47.se3 import quat_to_R
 import numpy as np
+
+from robo47.se3 import quat_to_R
 
 
 def exp_rotation(axis, theta):

@@ -1,4 +1,4 @@
-# task 2.5: point-of-the-bottom-row
+# task 2.5: moment-forgotten
 # The bottom row for the last column.
 import numpy as np
 

@@ -1,0 +1,99 @@
+"""The page's side of the checker: opens a file in the sandbox, asks for verdicts."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import mujoco
+
+from robo47.checker import model_copy
+from robo47.checker.library import library_of
+from robo47.checker.replies import Reply
+from robo47.checker.sandbox import Sandbox
+from robo47.checker.tasks import check_tasks
+from robo47.checker.verdicts import why_not_loaded
+from robo47.inspector.checks import TaskState
+from robo47.inspector.student import Asker, Source
+from robo47.lesson.day import Day
+
+KEPT = ("body_", "jnt_", "dof_", "site_", "key_", "actuator_")
+
+
+def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
+    """Return the student's file of a day, to be opened in a sandbox.
+
+    Args:
+        day: from its manifest.
+        model: the robot that the page shows: `Model(0)` in a question.
+        sandbox: kept open as long as the page.
+    """
+    robot = small_copy(model)
+
+    def opened(script: Path) -> Asker:
+        return sandbox.session(script, [robot], model_copy.facts(), library_of(day))
+
+    return Source(day.work, opened, why_not_loaded, describe)
+
+
+def small_copy(model: mujoco.MjModel) -> dict[str, Any]:
+    """Return a model as it travels, without what no chain asks for.
+
+    The sandbox's model looks through all its arrays for every `model.body(...)`; with
+    these few a frame of the ghost takes a third of the time.
+
+    Args:
+        model: the robot.
+    """
+    copied = model_copy.copy_model(model)
+    kept = {
+        name: array
+        for name, array in copied["arrays"].items()
+        if name.startswith(KEPT) or name in ("qpos0", "qpos_spring")
+    }
+    return {**copied, "arrays": kept}
+
+
+def describe(function: str, reply: Reply) -> str:
+    """Return in the checker's words what a reply that is no answer means, or "".
+
+    Args:
+        function: that was called.
+        reply: what came of it.
+    """
+    where = f" (line {reply.line})" if reply.line else ""
+    match reply.kind:
+        case "":
+            return ""
+        case "stopped":
+            return f"{function} did not return: {reply.error}."
+        case "missing":
+            return f"The file has no function {function}."
+        case "unsendable":
+            return f"{function}: {reply.error}."
+        case "NotImplementedError":
+            return f"{function} is not written yet: {reply.error}"
+        case "RefusedError":
+            wanted = reply.refused[0] if reply.refused else "do more than it may"
+            return f"{function} wants to {wanted}{where}."
+    text = f"{reply.kind}: {reply.error}".rstrip(": ")
+    return f"{function} stops with {text}{where}."
+
+
+def verdicts(day: Day) -> Sequence[TaskState]:
+    """Return how the student's tasks stand, as `make check` says it.
+
+    Args:
+        day: from its manifest.
+    """
+    with Sandbox() as sandbox:
+        results = check_tasks(day, day.work, sandbox)
+    return [
+        TaskState(
+            result.task.id,
+            result.task.title,
+            result.verdict.status,
+            result.verdict.message,
+            result.verdict.mistake,
+        )
+        for result in results
+    ]

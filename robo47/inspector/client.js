@@ -1,0 +1,119 @@
+/* The inspector's own controls: says to the server what a person did, and shows what
+   the server says. The server's word is the JSON in [data-r47-state]. */
+(() => {
+  const base = location.pathname.replace(/\/?$/, "/");
+  const waiting = new Map(); // control -> value: the newest of each is sent
+  let sending = false, held = null, lastChange = 0, scheduled = false;
+
+  async function pump() {
+    if (sending) return;
+    sending = true;
+    while (waiting.size) {
+      const [control, value] = waiting.entries().next().value;
+      waiting.delete(control);
+      const query = new URLSearchParams({ control, value });
+      try {
+        await fetch(`${base}do?${query}`, { cache: "no-store" });
+      } catch { /* the server is gone; viser's own sign says so */ }
+    }
+    sending = false;
+    later();
+  }
+  function send(control, value) {
+    waiting.delete(control);
+    waiting.set(control, String(value));
+    pump();
+  }
+
+  function read() {
+    const node = document.querySelector("[data-r47-state]");
+    try { return node && JSON.parse(node.dataset.r47State); } catch { return null; }
+  }
+  function show() {
+    scheduled = false;
+    const state = read();
+    if (!state) return;
+    for (const field of document.querySelectorAll("[data-r47]")) {
+      const shown = state.values[field.dataset.r47];
+      if (shown === undefined || field === held || "typing" in field.dataset) continue;
+      if (field.type === "checkbox") field.checked = shown === "true";
+      else if (field.value !== shown) field.value = field.type === "range" ? Number(shown) : shown;
+    }
+    if (!sending && !waiting.size && state.address !== location.search) {
+      const now = Date.now();
+      const way = now - lastChange > 1500 ? "pushState" : "replaceState";
+      history[way](null, "", base + state.address);
+      lastChange = now;
+    }
+  }
+  function later() {
+    if (!scheduled) { scheduled = true; setTimeout(show, 10); }
+  }
+
+  const dialOf = (event) => event.target.closest?.("[data-r47]");
+  const decimals = (field) => Number(field.dataset.decimals || 4);
+  const clipped = (field, value) =>
+    Math.min(Math.max(value, Number(field.min)), Number(field.max)).toFixed(decimals(field));
+
+  addEventListener("input", (event) => {
+    const field = dialOf(event);
+    if (!field) return;
+    if (field.type === "range") send(field.dataset.r47, clipped(field, Number(field.value)));
+    else if (field.type === "text") field.dataset.typing = "";
+  }, true);
+  addEventListener("change", (event) => {
+    const field = dialOf(event);
+    if (!field || field.type === "range") return;
+    delete field.dataset.typing;
+    send(field.dataset.r47, field.type === "checkbox" ? field.checked : field.value);
+  }, true);
+  addEventListener("focusout", (event) => {
+    const field = dialOf(event);
+    if (field) { delete field.dataset.typing; later(); }
+  }, true);
+  addEventListener("pointerdown", (event) => {
+    const field = dialOf(event);
+    if (field?.type === "range") held = field;
+  }, true);
+  addEventListener("pointerup", () => { held = null; later(); }, true);
+
+  // Keys: 0.01, with Shift ten times as much, with Alt a tenth.
+  const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+  addEventListener("keydown", (event) => {
+    const field = dialOf(event);
+    if (!field) return;
+    event.stopPropagation(); // viser moves the camera with the same keys
+    if (field.type === "text" && event.key === "Enter") field.blur();
+    if (field.type !== "range" || !(event.key in STEPS)) return;
+    event.preventDefault();
+    const size = event.shiftKey ? 10 : event.altKey ? 0.1 : 1;
+    const step = STEPS[event.key] * size * Number(field.dataset.step);
+    field.value = clipped(field, Number(field.value) + step);
+    send(field.dataset.r47, field.value);
+  }, true);
+
+  addEventListener("click", async (event) => {
+    const button = event.target.closest?.("[data-r47-click], [data-r47-copy]");
+    if (!button) return;
+    if (button.dataset.r47Click) return send(button.dataset.r47Click, button.value);
+    await navigator.clipboard.writeText(button.dataset.r47Copy);
+    const label = button.textContent;
+    button.textContent = "copied";
+    setTimeout(() => { button.textContent = label; }, 1200);
+  }, true);
+
+  // Which link is under the pointer: the server knows the arm.
+  let at = "", asked = "";
+  addEventListener("pointermove", (event) => {
+    const over = event.target.tagName === "CANVAS" && !event.buttons;
+    at = over ? [event.clientX / innerWidth, event.clientY / innerHeight,
+      innerWidth / innerHeight].map((x) => x.toFixed(4)).join(",") : "";
+  }, true);
+  setInterval(() => { if (at !== asked) { asked = at; send("hover", at); } }, 120);
+
+  if (location.search.length > 1) send("address", location.search);
+  addEventListener("popstate", () => send("address", location.search));
+  addEventListener("DOMContentLoaded", () => {
+    new MutationObserver(later).observe(document.body, { childList: true, subtree: true });
+  });
+})();

@@ -1,0 +1,42 @@
+"""Our part of the page: a style sheet and a script, put into viser's page.
+
+viser draws the scene and carries HTML to the browser. Controls whose looks and words
+matter here (sliders that take "pi/2", tabs that the server knows of) are plain HTML;
+`client.js` sends what they say to the server, which alone decides what they show.
+"""
+
+from functools import cache
+from pathlib import Path
+
+from robo47.errors import Robo47Error
+
+HERE = Path(__file__).parent
+TITLE = "robo47 inspector"
+
+
+def with_client(page: bytes) -> bytes:
+    """Return viser's page with our style and script at its head.
+
+    Args:
+        page: viser's `index.html`.
+
+    Raises:
+        Robo47Error: it has no head where it is expected.
+    """
+    head = b"<head>"
+    if page.count(head) != 1:
+        raise Robo47Error(
+            "viser's page is not as expected. Install the pinned one: "
+            "python scripts/setup_env.py view"
+        )
+    titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
+    return titled.replace(head, head + _ours())
+
+
+@cache
+def _ours() -> bytes:
+    style, script = (HERE / f"client.{kind}" for kind in ("css", "js"))
+    return b"<style>%s</style><script>%s</script>" % (
+        style.read_bytes(),
+        script.read_bytes(),
+    )

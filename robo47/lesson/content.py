@@ -1,0 +1,160 @@
+"""What a day consists of: its tasks, its numbers, what it hands in."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from robo47.errors import Robo47Error
+
+
+@dataclass(frozen=True)
+class Task:
+    """One gap of the starter.
+
+    Attributes:
+        id: day.task, such as "1.4"; the same in code, output and worksheet.
+        title: what it is about.
+        functions: what the student writes.
+        needs: ids of the tasks that its functions may call.
+        read: the section to re-read.
+        hints: questions and pointers, in the order to give them.
+        optional: a side quest: nothing that a day hands in or a grade counts.
+    """
+
+    id: str
+    title: str
+    functions: tuple[str, ...]
+    needs: tuple[str, ...]
+    read: str
+    hints: tuple[str, ...]
+    optional: bool = False
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A row that the log must hold, and the range of its value; None is no bound."""
+
+    check: str
+    metric: str
+    max: float | None = None
+    min: float | None = None
+
+    @property
+    def limit(self) -> str:
+        """The range as people write it: "under 1e-08"."""
+        parts = [] if self.min is None else [f"over {self.min:g}"]
+        parts += [] if self.max is None else [f"under {self.max:g}"]
+        return " and ".join(parts)
+
+    def passes(self, value: float) -> bool:
+        """Return whether a value is within the range; NaN never is."""
+        high = self.max is None or value < self.max
+        return value == value and high and (self.min is None or value > self.min)
+
+
+@dataclass(frozen=True)
+class Day:
+    """One day of the course; paths are relative to the week's folder.
+
+    Attributes:
+        number: of the day, from 1 to 47.
+        title: what it is about.
+        see: what its lab shows, for the week's table.
+        script: file name of the lab script, in `src/` and in `work/`.
+        guide: the lab guide.
+        minutes: how long it takes.
+        readings: what to read and watch.
+        library: modules of `robo47` that are this day's answers; student code of later
+            days may import them.
+        limit: what an error must be under where no metric says more.
+        tasks: in the order to do them.
+        figure: the student's picture, "" where the day has none.
+        kit_figures: pictures of the kit's own that do not count as the student's.
+        worksheet: the student's worksheet, "" where the day has none.
+        terms: what the worksheet's glossary defines.
+        drawings: how many drawings it holds.
+        questions: how many questions it asks.
+        metrics: rows of the log.
+        folder: the week's folder.
+    """
+
+    number: int
+    title: str
+    see: str
+    script: str
+    guide: str
+    minutes: int
+    readings: tuple[str, ...]
+    library: tuple[str, ...]
+    limit: float
+    tasks: tuple[Task, ...]
+    figure: str
+    kit_figures: tuple[str, ...]
+    worksheet: str
+    terms: tuple[str, ...]
+    drawings: int
+    questions: int
+    metrics: tuple[Metric, ...]
+    folder: Path = field(repr=False)
+
+    @property
+    def source(self) -> Path:
+        """The complete script."""
+        return self.folder / "src" / self.script
+
+    @property
+    def work(self) -> Path:
+        """The student's script."""
+        return self.folder / "work" / self.script
+
+    @property
+    def own(self) -> Path:
+        """The day's own folder: questions.py, submissions/ and so on."""
+        return self.folder / f"day{self.number}"
+
+    @cached_property
+    def _needs(self) -> dict[str, tuple[str, ...]]:
+        closed: dict[str, set[str]] = {}
+        for task in self.tasks:  # needs are earlier tasks, so they are closed already
+            closed[task.id] = set(task.needs).union(*(closed[n] for n in task.needs))
+        order = [task.id for task in self.tasks]
+        return {
+            id: tuple(n for n in order if n in found) for id, found in closed.items()
+        }
+
+    def needs(self, task_id: str) -> tuple[str, ...]:
+        """Return the ids of the tasks that a task builds on, however indirectly."""
+        return self._needs[task_id]
+
+    def task(self, task_id: str) -> Task:
+        """Return a task by its id.
+
+        Raises:
+            Robo47Error: the day has no such task; names those it has.
+        """
+        for task in self.tasks:
+            if task.id == task_id:
+                return task
+        known = ", ".join(task.id for task in self.tasks)
+        raise Robo47Error(f"day {self.number} has no task {task_id}; it has {known}")
+
+    def metric(self, check: str, metric: str = "") -> Metric:
+        """Return what a recorded number must reach.
+
+        Args:
+            check: its name.
+            metric: of which there may be several to a check; "" where there is one.
+
+        Raises:
+            Robo47Error: the manifest has no such row, or several.
+        """
+        found = [m for m in self.metrics if m.check == check]
+        found = [m for m in found if metric in ("", m.metric)]
+        if len(found) != 1:
+            rows = ", ".join(f"{m.check} ({m.metric})" for m in self.metrics)
+            wanted = f"{check} ({metric})" if metric else check
+            raise Robo47Error(
+                f"day {self.number}'s day.toml has {len(found)} metrics {wanted}; "
+                f"it has {rows}"
+            )
+        return found[0]

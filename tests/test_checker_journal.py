@@ -1,0 +1,45 @@
+"""The checker's journal: what changed, and which mistakes were left behind."""
+
+from types import SimpleNamespace
+
+from robo47.checker import journal
+from robo47.diagnose import Verdict
+
+
+def results(**tasks):
+    return [
+        SimpleNamespace(
+            task=SimpleNamespace(id=name.replace("_", ".")[1:]),
+            verdict=Verdict(*state),
+        )
+        for name, state in tasks.items()
+    ]
+
+
+def test_only_what_changed_is_noted(tmp_path):
+    for state in (("wrong", "a"), ("wrong", "a"), ("passed", "")):
+        journal.note(results(t1_1=state, t1_2=("todo", "unwritten")), tmp_path)
+    found = [(entry.task, entry.status) for entry in journal.read(tmp_path)]
+    assert found == [("1.1", "wrong"), ("1.2", "todo"), ("1.1", "passed")]
+
+
+def test_mistakes_are_met_once_and_left_behind_when_the_task_passes(tmp_path):
+    for state in (("wrong", "a"), ("wrong", "b"), ("wrong", "a"), ("passed", "")):
+        journal.note(results(t1_1=state, t1_2=("close", "c")), tmp_path)
+    journal.note(results(t1_3=("wrong", "missing")), tmp_path)
+    met = journal.mistakes_met(journal.read(tmp_path))
+    assert met == [("1.1", "a", True), ("1.2", "c", False), ("1.1", "b", True)]
+
+
+def test_a_torn_or_odd_journal_loses_its_odd_lines_alone(tmp_path):
+    journal.note(results(t1_1=("wrong", "a")), tmp_path)
+    with journal.path_of(tmp_path).open("ab") as file:
+        file.write(b'[1, "1.2"\n{"x": 1}\n\xff\xfe\nnull\n')
+    journal.note(results(t1_1=("passed", "")), tmp_path)
+    assert [entry.status for entry in journal.read(tmp_path)] == ["wrong", "passed"]
+
+
+def test_a_folder_that_cannot_be_written_costs_the_memory_alone(tmp_path):
+    (tmp_path / ".robo47").write_text("a file in the way")
+    journal.note(results(t1_1=("wrong", "a")), tmp_path)
+    assert journal.read(tmp_path) == []

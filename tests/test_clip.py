@@ -1,0 +1,90 @@
+"""Clips: soft moves, an arm of one's own in red, small enough for a page."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from robo47 import panda, se3
+from robo47.errors import Robo47Error
+from robo47.figures import client, clip
+from robo47.figures.portrait import link_frames, with_fingers
+
+pytestmark = pytest.mark.kit
+
+
+def noise(count, size=(200, 160)):
+    rng = np.random.default_rng(0)
+    return [
+        Image.fromarray(rng.integers(0, 255, (*size[::-1], 3), dtype=np.uint8))
+        for _ in range(count)
+    ]
+
+
+def test_a_move_there_and_back_starts_where_it_ends_and_never_jumps():
+    qs = clip.there_and_back(np.zeros(7), np.ones(7), 40)
+    np.testing.assert_array_equal(qs[0], 0)
+    np.testing.assert_allclose(qs[20], 1)
+    steps = np.abs(np.diff(np.vstack([qs, qs[:1]]), axis=0))
+    assert steps.max() < 0.08
+
+
+@pytest.mark.parametrize("ending", ["gif", "webp"])
+def test_a_clip_repeats_for_ever_and_has_all_its_frames(tmp_path, ending):
+    path = tmp_path / f"arm.{ending}"
+    size = clip.save_clip(noise(5), path, seconds=1.0)
+    assert path.stat().st_size == size
+    with Image.open(path) as made:
+        assert made.n_frames == 5
+        assert made.info["loop"] == 0
+
+
+def test_a_clip_that_is_too_large_becomes_smaller_until_it_fits(tmp_path):
+    path = tmp_path / "arm.gif"
+    assert clip.save_clip(noise(4), path, largest=30_000) <= 30_000
+    with Image.open(path) as made:
+        assert made.size[0] < 200
+
+
+def test_another_ending_is_refused(tmp_path):
+    with pytest.raises(Robo47Error, match=r"arm\.mp4: a clip ends in \.gif or \.webp"):
+        clip.save_clip(noise(1), tmp_path / "arm.mp4")
+
+
+def test_another_arm_is_put_where_its_links_are_and_the_words_below(monkeypatch):
+    scenes = []
+
+    def draw(scene):
+        scenes.append(scene)
+        return np.zeros((*scene.size[::-1], 3), dtype=np.uint8)
+
+    monkeypatch.setattr(client, "draw", draw)
+    q = panda.READY_Q
+    true = link_frames(with_fingers(q))
+    wrong = {
+        "link3": true["link3"] @ se3.make_T(se3.Rz(0.2), [0, 0, 0.1]),
+        "ee": np.eye(4),
+    }
+    (picture,) = clip.arm_clip(q[None], lambda q: wrong, lambda q: ("off", False))
+    (ghost,) = scenes[0].ghosts  # there is no link `ee` to draw
+    np.testing.assert_allclose(
+        ghost.T_world_moved @ true["link3"], wrong["link3"], atol=1e-14
+    )
+    assert ghost.alone
+    assert ghost.wrong
+    assert picture.size[1] > clip.SIZE[1]
+    assert np.asarray(picture)[clip.SIZE[1] :].min() < 200  # something is written
+
+
+@pytest.mark.gl
+def test_a_red_arm_is_really_drawn(gl):
+    q = panda.READY_Q
+    true = link_frames(with_fingers(q))
+    aside = se3.make_T(np.eye(3), [0.0, 0.4, 0.0])
+    moved = {f"link{i}": aside @ true[f"link{i}"] for i in range(8)}
+    with_ghost, without = (
+        np.asarray(clip.arm_clip(q[None], lambda q, some=some: some)[0], dtype=int)
+        for some in (moved, {})
+    )
+    red = with_ghost[..., 0] - with_ghost[..., 1:].max(axis=-1) > 60
+    assert red.sum() > 1000
+    assert not (without[..., 0] - without[..., 1:].max(axis=-1) > 60).any()

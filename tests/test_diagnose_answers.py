@@ -1,0 +1,204 @@
+"""The judge on what is no answer, state between calls, and how answers came about."""
+
+import numpy as np
+import pytest
+from judged import judged, judged_replies, replies_of, right
+
+from robo47.checker.replies import Reply
+from robo47.diagnose import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
+from robo47.diagnose.rounds import number, robots
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
+
+DAY1 = folder.load(find_day(1), "questions").QUESTIONS
+MAKE_T = DAY1["make_T"]
+
+
+def told(ask, value):
+    return judged_replies(ask, [Reply(value=value, again=value)] * len(right(ask)[0]))
+
+
+@pytest.mark.parametrize(
+    ("value", "slug", "word"),
+    [
+        (None, "nothing-returned", "None"),
+        (np.eye(3), "shape", "(3, 3)"),
+        (np.array("T"), "not-numbers", "real numbers"),
+        (np.eye(4) * 1j, "not-numbers", "complex"),
+        ((np.eye(3), np.zeros(3)), "shape", "(3, 3), (3,)"),
+        (np.full((4, 4), np.nan), "not-finite", "NaN"),
+        (np.zeros((4, 4)), "all-zeros", "never filled"),
+        (np.eye(4), "always-the-identity", "identity"),
+        (np.diag([2.0, 2.0, 2.0, 1.0]), "ignores-its-input", "same"),
+        (np.eye(4)[:3], "shape", "bottom row"),
+        ((), "shape", "(0,)"),
+    ],
+)
+def test_what_is_no_pose_at_all_is_told_by_its_form(value, slug, word):
+    verdict = told(MAKE_T, value)
+    assert (verdict.status, verdict.mistake) == ("wrong", slug)
+    assert word in verdict.message
+
+
+def test_an_exception_is_told_with_its_line_and_how_often_it_happens():
+    replies = replies_of(right(MAKE_T)[0], MAKE_T)
+    replies[3] = Reply(error="float division", kind="ZeroDivisionError", line=31)
+    verdict = judged_replies(MAKE_T, replies)
+    assert (verdict.status, verdict.mistake) == ("wrong", "raises")
+    assert "ZeroDivisionError: float division (line 31), in 1 of 6" in verdict.message
+
+
+def test_an_answer_that_changes_when_asked_again_is_told_so():
+    T = right(MAKE_T)[0]
+    replies = [Reply(value=one, again=one + 1e-6) for one in T]
+    verdict = judged_replies(MAKE_T, replies)
+    assert verdict.mistake == "kept-between-calls"
+    assert "6 of 8" in verdict.message
+
+
+def test_an_error_of_the_second_time_alone_is_state_too():
+    T = right(MAKE_T)[0]
+    replies = [Reply(value=one, again_error="IndexError: x") for one in T]
+    assert judged_replies(MAKE_T, replies).mistake == "kept-between-calls"
+
+
+@pytest.mark.parametrize(
+    ("shares", "slug"),
+    [("another answer", "one-array-for-all"), ("R", "shares-its-argument")],
+)
+def test_memory_that_is_shared_never_passes(shares, slug):
+    T = right(MAKE_T)[0]
+    replies = [Reply(value=one, again=one, shares=(shares,)) for one in T]
+    verdict = judged_replies(MAKE_T, replies)
+    assert (verdict.status, verdict.mistake) == ("wrong", slug)
+
+
+def test_answers_looked_up_fail_at_fresh_inputs():
+    ask = Ask(lambda rng: [(x,) for x in rng.uniform(size=5)], Scalar(), truth=np.sin)
+    from judged import replies_of as replied
+    from judged import round_of
+
+    from robo47.diagnose.judging import judge
+
+    asked = round_of(ask)
+    table = replied(right(ask)[0], ask)
+    wrong = [Reply(value=np.array(9.0), again=np.array(9.0))] * len(asked.fresh)
+    assert judge(asked, [*table, *wrong]).mistake == "looked-up"
+
+
+def test_a_held_out_question_tells_how_an_answer_came_about():
+    held = HeldOut("by-halves", "Only half.", lambda rng: [(8.0,)], mistaken=np.sqrt)
+    ask = Ask(
+        lambda rng: [(x,) for x in (1.0, 4.0)],
+        Scalar(),
+        truth=lambda x: x,
+        held_out=[held],
+        fresh=0,
+    )
+    from judged import round_of
+
+    from robo47.diagnose.judging import judge
+
+    def verdict(answer):
+        found = [
+            Reply(value=np.array(x), again=np.array(x)) for x in (1.0, 4.0, answer)
+        ]
+        return judge(round_of(ask), found).mistake
+
+    assert verdict(np.sqrt(8.0)) == "by-halves"
+    assert verdict(8.0) == ""
+
+
+def test_a_tuples_parts_are_judged_apart_and_named():
+    ask = Ask(
+        lambda rng: [(x,) for x in rng.uniform(1, 2, 6)],
+        (Scalar(called="the length"), Scalar(unit="rad", called="the angle")),
+        truth=lambda x: (x, 2.0 * x),
+    )
+    x, twice = right(ask)
+    assert judged(ask, (x, twice)).status == "passed"
+    verdict = judged(ask, (x, -twice))
+    assert verdict.mistake == "all-signs"
+    assert verdict.message.startswith("the angle: ")
+    assert "expected are 2 results" in told(ask, np.array(1.0)).message
+
+
+def test_accepting_needs_no_truth_and_says_why_not():
+    ask = Ask(
+        lambda rng: [(x,) for x in rng.uniform(1, 2, 6)],
+        Scalar(),
+        accept=lambda x, y: None if y > x else "It is not larger.",
+    )
+    assert told_many(ask, 9.0).status == "passed"
+    verdict = told_many(ask, 0.0)
+    assert (verdict.status, verdict.mistake) == ("wrong", "not-accepted")
+    assert "It is not larger." in verdict.message
+    assert "8 of 8 inputs" in verdict.message
+
+
+def told_many(ask, answer):
+    from judged import round_of
+
+    from robo47.diagnose.judging import judge
+
+    asked = round_of(ask)
+    value = np.array(answer)
+    return judge(asked, [Reply(value=value, again=value)] * len(asked.questions))
+
+
+def test_a_row_has_either_a_truth_or_a_judge():
+    with pytest.raises(ValueError, match="either truth or accept"):
+        Ask(lambda rng: [], Scalar())
+
+
+def test_not_one_reply_per_question_is_the_callers_error():
+    with pytest.raises(ValueError, match="replies to"):
+        judged_replies(MAKE_T, [])
+
+
+@pytest.mark.parametrize(
+    ("kind", "S", "T", "word"),
+    [
+        (Vector((7,), "Nm"), np.ones(7) * 3, np.ones(7), "3 times the right one"),
+        (Matrix((6, 6)), np.eye(6) + 2 * np.eye(6)[[5]].T, np.eye(6), "row 5"),
+        (Pose(), np.eye(4) * np.nan, np.eye(4), "off"),
+    ],
+)
+def test_each_kind_says_what_is_wrong_in_its_own_words(kind, S, T, word):
+    S, T = np.array([S] * 3), np.array([T] * 3)
+    with np.errstate(all="ignore"):
+        assert word in kind.what_is_wrong(S, T).message
+
+
+@pytest.mark.parametrize(
+    ("x", "shown"),
+    [
+        (np.pi / 2, "pi / 2"),
+        (-np.pi, "-pi"),
+        (2 * np.pi / 3, "2 * pi / 3"),
+        (1.57, "1.57"),
+        (0.0, "0"),
+        (-2.356, "-2.356"),
+        (3.0, "3"),
+    ],
+)
+def test_inputs_are_shown_as_python_reads_them_back(x, shown):
+    assert number(x) == shown
+    assert eval(shown, {"pi": np.pi}) == pytest.approx(x, abs=1e-15)
+
+
+def test_a_robot_is_compiled_once_and_may_be_changed():
+    def longer(model):
+        model.body_pos[:] *= 2.0
+
+    plain, changed = Robot(), Robot(change=longer)
+    assert plain.model is plain.model
+    np.testing.assert_array_equal(changed.model.body_pos, 2 * plain.model.body_pos)
+    assert robots([]) == []
+
+
+def test_drawn_configurations_are_within_the_limits_and_typable():
+    q = draw.configurations(np.random.default_rng(1), 20)
+    np.testing.assert_array_equal(q, np.round(q, 3))
+    low, high = Robot().model.jnt_range.T
+    assert ((q >= low - 1e-3) & (q <= high + 1e-3)).all()

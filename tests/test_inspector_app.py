@@ -1,0 +1,320 @@
+"""The page without a browser: moves, tabs, hostile messages; all on the event loop."""
+
+import contextlib
+import importlib.util
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from conftest import need
+from robo47 import panda
+from robo47.inspector.arm import Arm
+from robo47.inspector.ghost import Ghost, Seen
+from robo47.inspector.tab import DayTabs, Tab, day_tabs
+from robo47.lesson.day import find_day
+
+pytestmark = pytest.mark.kit
+
+if importlib.util.find_spec("viser") is None:
+    need(False, "viser: make view")  # pragma: no cover
+
+SECONDS = 20
+GHOST = Ghost("my_fk", ("link0", "ee"), lambda model, q: [])
+
+
+class Noisy(Tab):
+    """A tab that makes one of everything."""
+
+    title = "Noisy"
+
+    def __init__(self, page):
+        super().__init__(page)
+        self.sliders = [page.slider("x", 0, 1, 0.5, self.set, unit="m")]
+        page.buttons(["a", "b"], self.set)
+        page.choice("c", ["one", "two"], self.set)
+        page.tick("t", self.set)
+        self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
+        self.plot = page.plot(["e1"], y="error (m)")
+        page.gui.add_button("viser's own")
+        draw = page.draw
+        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.curve(np.zeros((3, 3)))
+        draw.sphere([0, 0, 0], 0.1)
+        draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
+        draw.frame("mine", np.eye(4))
+        draw.label("here", [0, 0, 0])
+        draw.ghost()
+        draw.target(np.eye(4), self.set)
+        self.heard, self.calls, self.closed = [], 0, False
+        self.loop = page.animate(self.step, 100)
+        self.loop.start()
+        Noisy.last = self
+
+    def set(self, value):
+        self.heard.append(value)
+
+    def step(self, t):
+        self.calls += 1
+        self.bars.show([100.0, -6.0])
+        self.plot.add(t, [t])
+
+    def on_move(self, q):
+        self.q = q
+
+    def close(self):
+        self.closed = True
+
+
+class Broken(Tab):
+    title = "Broken"
+
+    def on_move(self, q):
+        raise ZeroDivisionError("one over nothing")
+
+
+@pytest.fixture(scope="module")
+def server():
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    from robo47.inspector.guard import LocalServer
+
+    made = LocalServer(0)
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def page(server):
+    from robo47.inspector.app import Inspector
+    from robo47.inspector.serve import on_loop
+
+    server.scene.reset()
+    server.gui.reset()
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+    day = DayTabs(GHOST, [Noisy, Broken])
+    made = on_loop(server, lambda: Inspector(server, arm, "a robot", day))
+    server.door.receive = made.controls.receive
+    yield made
+    on_loop(server, made.opened.leave)
+
+
+@pytest.fixture
+def say(page):
+    """Say something to the page, as a browser does, and let it settle."""
+    from robo47.inspector.serve import on_loop
+
+    def send(*messages):
+        def receive():
+            for name, value in messages:
+                page.controls.receive(name, value)
+
+        on_loop(page.server, receive)
+        settle(page)
+
+    return send
+
+
+def settle(page):
+    """Wait until the page has nothing left to do."""
+    deadline = time.monotonic() + SECONDS
+    while page.scheduled and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not page.scheduled
+    from robo47.inspector.serve import on_loop
+
+    on_loop(page.server, lambda: None)  # the update that it was scheduled for is done
+
+
+def joint(page, i):
+    return page.opened.tab.sliders[i].name
+
+
+def contents(page):
+    return "\n".join(
+        child.content
+        for child in page.panel._children().values()
+        if hasattr(child, "content")
+    )
+
+
+def nodes(page):
+    return {
+        name
+        for name in page.server.scene._handle_from_node_name
+        if name.startswith("/tab")
+    }
+
+
+def test_two_sliders_in_one_tick_both_count(page, say):
+    say((joint(page, 0), "0.3"), (joint(page, 4), "-0.7"))
+    assert page.arm.q[0] == 0.3
+    assert page.arm.q[4] == -0.7
+    assert page.controls.values[joint(page, 0)] == "0.3"
+
+
+def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say):
+    say((joint(page, 1), "-pi/4"))
+    assert page.arm.q[1] == -np.pi / 4
+    for wrong in ("90", "pie", "nan", "", "1e400"):
+        say((joint(page, 1), wrong))
+        assert page.arm.q[1] == -np.pi / 4
+        assert "r47-bad" in contents(page)
+    assert page.controls.values[joint(page, 1)] == f"{-np.pi / 4:.6g}"
+
+
+def test_the_exact_configuration_can_be_copied(page, say):
+    say((joint(page, 1), "-pi/4"))
+    assert repr(-np.pi / 4) in contents(page)
+    assert repr(-np.pi / 4) in page.panel.state.content
+
+
+def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
+    say(("address", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
+    np.testing.assert_array_equal(page.arm.q, [0.1, 0.2, 0.3, -1, 0.5, 0.6, 0.7])
+    assert page.controls.values["frame"] == "link4"
+    assert page.opened.kind.title == "Chain"
+    say(("address", "?q=1,2&frame=nope&tab=nope"))
+    assert page.opened.kind.title == "Chain"
+
+
+def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say):
+    start = page.arm.q.copy()
+    for x in np.linspace(0, 0.5, 10):
+        say((joint(page, 0), f"{x}"))
+    buttons = page.opened.page.names[0]
+    say((buttons, "undo"))
+    np.testing.assert_array_equal(page.arm.q, start)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("frame", "nope"), ("tab", "nope"), ("solid", "5"), ("hover", "1,2"),
+        ("hover", "nan,nan,nan"), ("hover", "0.5,0.5,1e308"), ("nobody", "x"),
+        ("address", "?" + "q" * 1000), ("", ""),
+    ],
+)  # fmt: skip
+def test_a_value_that_no_control_has_changes_nothing(page, say, name, value):
+    before = page.arm.q.copy()
+    say((name, value))
+    say(("frame", "link3"))
+    assert page.controls.values["frame"] == "link3"
+    np.testing.assert_array_equal(page.arm.q, before)
+
+
+def test_a_flood_of_moves_is_one_move(page, say):
+    moved = []
+    real = page.arm.move
+    page.arm.move = lambda q: (moved.append(q), real(q))
+    say(*((joint(page, 0), f"{x}") for x in np.linspace(0, 1, 20_000)))
+    assert page.arm.q[0] == 1.0
+    assert len(moved) < 10
+
+
+def test_a_tab_takes_all_that_it_made_with_it(page, say):
+    before = set(page.panel._children())
+    say(("tab", "Noisy"))
+    tab = Noisy.last
+    assert len(nodes(page)) > 8
+    deadline = time.monotonic() + SECONDS
+    while tab.calls < 3 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert tab.calls >= 3
+    say(("tab", "Tasks"))
+    assert tab.closed
+    assert not tab.loop.running
+    assert nodes(page) == {"/tab"}
+    assert all(name not in page.controls.values for name in tab.page.names)
+    calls = tab.calls
+    time.sleep(0.1)
+    assert tab.calls == calls
+    say(("tab", "Joints"))
+    assert len(page.panel._children()) == len(before)
+
+
+def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
+    say(("tab", "Noisy"))
+    tab = Noisy.last
+    slider, buttons, choice, tick = tab.page.names
+    say((slider, "0.25"), (buttons, "b"), (choice, "two"), (tick, "true"))
+    assert tab.heard == [0.25, "b", "two", True]
+    say((slider, "7"), (buttons, "c"), (choice, "three"), (tick, "maybe"))
+    assert len(tab.heard) == 4
+
+
+def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
+    say(("tab", "Broken"))
+    assert "the tab Broken stopped with ZeroDivisionError: one over" in contents(page)
+    say(("tab", "Joints"), ("frame", "link2"))
+    say((joint(page, 0), "0.2"))
+    assert page.arm.q[0] == 0.2
+
+
+def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
+    say(("tab", "Chain"))
+    tab = page.opened.tab
+    assert len(page.arm.steps()) == 16
+    say((tab.page.names[0], "next"))
+    assert "factor 4 of 16, T_link1_link2" in contents(page)
+    assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
+    say(("tab", "Joints"))
+    shown = [triad.state[0] for triad in page.scene.triads.values()]
+    assert all(shown)
+
+
+def test_the_students_poses_are_judged_in_their_name(page):
+    from robo47.inspector.serve import on_loop
+
+    q = page.arm.q.copy()
+    right = {"link0": page.arm.pose("link0"), "ee": page.arm.pose("ee")}
+    on_loop(page.server, lambda: page.hear(Seen(q, right)))
+    assert "✓ YOUR my_fk agrees" in contents(page)
+    wrong = right["ee"].copy()
+    wrong[2, 3] -= 0.7
+    on_loop(page.server, lambda: page.hear(Seen(q, {**right, "ee": wrong})))
+    assert "✗ YOUR my_fk is off by 700 mm at ee" in contents(page)
+    assert 'class="p off"' in contents(page)
+    on_loop(page.server, lambda: page.hear(None))
+    settle(page)
+    assert "robo47.kinematics" in contents(page)
+
+
+def test_a_call_from_another_thread_reaches_the_event_loop(page):
+    names = []
+    done = threading.Event()
+    heard = page.on_loop(
+        lambda value: (names.append(threading.current_thread()), done.set())
+    )
+    heard(1)
+    assert done.wait(SECONDS)
+    assert names[0] is not threading.current_thread()
+
+
+def test_day_1_brings_its_ghost_and_the_tab_order():
+    day = day_tabs(find_day(1))
+    assert day.ghost.function == "compose_fk"
+    assert [tab.title for tab in day.tabs] == ["Order"]
+    model = panda.load()
+    asked = day.ghost.questions(model, np.zeros(7))
+    assert len(asked) == len(day.ghost.frames) == 9
+
+
+def test_the_order_tab_says_what_the_lab_says(server):
+    from robo47.inspector.app import Inspector
+    from robo47.inspector.serve import on_loop
+
+    server.scene.reset()
+    server.gui.reset()
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+    page = on_loop(
+        server, lambda: Inspector(server, arm, "robot", day_tabs(find_day(1)))
+    )
+    on_loop(server, lambda: page.open_tab("Order"))
+    T, x = page.arm.pose("ee"), np.eye(4)
+    c = np.cos(np.pi / 4)
+    x[:2, :2], x[0, 3] = [[c, -c], [c, c]], 0.1
+    apart = np.linalg.norm((T @ x - x @ T)[:3, 3])
+    assert f"end {apart:.4f} m apart" in contents(page)
+    with contextlib.suppress(KeyError):
+        on_loop(server, page.opened.leave)

@@ -1,0 +1,55 @@
+"""The checker's verdicts beside the page, found out in the background."""
+
+from queue import Queue
+
+import pytest
+
+from robo47.inspector.checks import Checks, Standing, TaskState, standing
+
+pytestmark = pytest.mark.kit
+
+PASSED = TaskState("1.1", "make_T", "passed", "")
+WRONG = TaskState("1.2", "Rz", "wrong", "sin and cos are swapped", "swapped")
+TODO = TaskState("1.3", "inverse", "todo", "not written yet")
+
+
+@pytest.mark.parametrize(
+    ("tasks", "kind", "says"),
+    [
+        ((PASSED,), "good", "1 of 1 tasks pass"),
+        ((PASSED, WRONG, TODO), "bad", "1 of 3 tasks pass. 1.2: sin and cos"),
+        ((PASSED, TODO), "quiet", "1 of 2 tasks pass; next is 1.3 inverse"),
+    ],
+)
+def test_one_line_says_how_the_day_stands(tasks, kind, says):
+    found = standing(tasks)
+    assert found.kind == kind
+    assert says in found.headline
+    assert found.tasks == tasks
+
+
+def test_a_file_that_does_not_load_is_one_line_and_no_list_of_the_same():
+    broken = [
+        TaskState(f"1.{i}", "t", "todo", "day.py, line 3: SyntaxError", "does-not-load")
+        for i in range(1, 4)
+    ]
+    found = standing(broken)
+    assert found.headline == "make check: day.py, line 3: SyntaxError"
+    assert [task.message for task in found.tasks] == ["", "", ""]
+
+
+def test_a_check_runs_apart_and_a_broken_checker_is_said():
+    told: Queue[Standing] = Queue()
+    answers = [[PASSED], ValueError("no questions")]
+
+    def check():
+        answer = answers.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+    checks = Checks(check, told.put)
+    checks.again()
+    assert told.get(timeout=20).kind == "good"
+    checks.again()
+    assert told.get(timeout=20).headline == "make check: no questions"

@@ -1,0 +1,55 @@
+"""Numbers as people type them into the page."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robo47.inspector.controls import typed
+from robo47.inspector.typed import number
+
+pytestmark = pytest.mark.kit
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.5", 0.5),
+        (" -1e-3 ", -1e-3),
+        ("pi/2", math.pi / 2),
+        ("-3*pi/4", -3 * math.pi / 4),
+        ("π", math.pi),
+        ("−0.5", -0.5),
+        ("90 deg", math.pi / 2),
+        ("90°", math.pi / 2),
+        ("-45 degrees", -math.pi / 4),
+        ("(1 + 2)/4", 0.75),
+    ],
+)
+def test_a_number_is_read_as_it_is_meant(text, value):
+    assert number(text) == pytest.approx(value, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "x", "1,5", "nan", "inf", "1/0", "1e999", "2**9", "__import__('os')",
+        "'pi'", "[1]", "1 if 1 else 2", "9" * 100, "(" * 50, "1j", "deg", "lambda: 1",
+        "\x00", "pi()", "pi.real",
+    ],
+)  # fmt: skip
+def test_what_is_no_number_is_refused_with_an_example(text):
+    with pytest.raises(ValueError, match=r"is no number; write 0\.5, pi/2 or 90 deg"):
+        number(text)
+
+
+@given(st.floats(-1e6, 1e6))
+def test_every_digit_of_a_float_arrives(value):
+    assert number(repr(value)) == value
+
+
+def test_degrees_without_their_unit_are_refused_and_the_unit_is_named():
+    with pytest.raises(ValueError, match=r"90 is outside .* write: 90 deg"):
+        typed("90", "joint1", -2.8973, 2.8973, "rad")
+    assert typed("90 deg", "joint1", -2.8973, 2.8973, "rad") == math.pi / 2

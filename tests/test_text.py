@@ -1,0 +1,42 @@
+"""Text of others, made fit to be shown."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robo47.text import visible, visible_lines
+
+
+class TestVisible:
+    @pytest.mark.parametrize(
+        ("text", "shown"),
+        [
+            ("a plain sentence: 3.5 m", "a plain sentence: 3.5 m"),
+            ("\x1b[2J\x07 cleared", "[2J  cleared"),
+            ("one\r\ntwo\x85three\u2028four", "one  two three four"),
+            ("\u202egnp.exe", "gnp.exe"),
+            ("zero\u200bwidth", "zero width"),
+            ("half \ud800 a pair", "half ? a pair"),
+            ("naïve β 手 😀", "naïve β 手 😀"),
+            (47, "47"),
+            (None, "None"),
+        ],
+    )
+    def test_shows_what_can_be_shown(self, text, shown):
+        assert visible(text) == shown
+
+    def test_cuts_what_is_long(self):
+        assert visible("x" * 10**7, 20) == "x" * 20 + "..."
+        assert visible("x" * 20, 20) == "x" * 20
+
+    @given(st.text(st.characters(), max_size=80))
+    def test_is_one_printable_line_that_utf_8_can_write(self, text):
+        shown = visible(text, 40)
+        assert len(shown) <= 43
+        assert len(shown.splitlines()) <= 1
+        assert shown.encode("utf-8").decode("utf-8") == shown
+        assert visible(shown, 60) == shown
+
+    def test_keeps_lines_apart_where_it_may(self):
+        assert visible_lines("one\n\x1b[31mtwo\r\nthree") == "one\n[31mtwo\nthree"
+        assert len(visible_lines("x\n" * 10**6, lines=3)) == 5

@@ -1,0 +1,114 @@
+"""The pictures of Day 2, made with the lab's own functions; drawn by `make figures`.
+
+screws        the arm at q = 0, its seven screw axes as lines, each with (omega; v)
+dh_roulette   one DH table, five readings of it, drawn as five arms
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from day2_screws import FRANKA_DH, LINKS, SEED, exp_rotation, joint_screws
+from PIL import Image
+
+from robo47 import kinematics, panda, verify
+from robo47.checks import Array
+from robo47.figures import client, portrait
+from robo47.figures.overlay import HALO, INK, Layer
+from robo47.figures.scene import Camera, Scene
+
+from .roulette import READINGS, distances
+
+SIZE = (1200, 1000)
+AXES = [
+    (224, 49, 49), (28, 100, 242), (232, 119, 34), (47, 158, 68),
+    (134, 46, 156), (12, 133, 153), (194, 37, 92),
+]  # fmt: skip
+GHOSTS = [(224, 49, 49), (232, 119, 34), (134, 46, 156), (28, 100, 242), (33, 37, 41)]
+SHOWN_Q = np.array([0.4, -0.3, 0.3, -1.9, 0.5, 1.9, 0.6])  # where the five part well
+THIN = 4.0  # of a line, in pixels of a picture 800 high
+HALF, ROUND = 0.21, 0.055  # metres: half a drawn axis; the radius of its curved arrow
+
+
+def screws() -> Image.Image:
+    """Return the arm at q = 0 with its seven screw axes."""
+    poses = kinematics.fk_all(panda.load("panda_nohand"), np.zeros(7))
+    T_zero = np.array([poses[link] for link in LINKS])
+    rows = joint_screws(T_zero)
+    scene = Scene(
+        portrait.with_fingers(np.zeros(7)),
+        SIZE,
+        Camera((0.17, 0.14, 0.58), 2.9, np.radians(130.0), np.radians(-12.0)),
+        fast=False,
+    )
+    picture = Image.fromarray(client.draw(scene))
+    layer = Layer(SIZE)
+    anchors = []
+    for i, (S, T) in enumerate(zip(rows, T_zero, strict=True)):
+        anchors.append(_axis(layer, scene.camera, S, T[:3, 3], i))
+    _labels(layer, rows, np.array(anchors))
+    return layer.over(picture)
+
+
+def dh_roulette() -> Image.Image:
+    """Return five readings of one DH table, drawn as arms over the real one."""
+    scene = Scene(
+        portrait.with_fingers(SHOWN_Q),
+        SIZE,
+        Camera((0.1, 0.0, 0.53), 2.4, np.radians(125.0), np.radians(-12.0)),
+    )
+    layer = Layer(SIZE)
+    random = verify.random_q(panda.load("panda_nohand"), 20, SEED)
+    median = {k: np.median(v) for k, v in distances(FRANKA_DH, random).items()}
+    for i, (name, read) in enumerate(READINGS.items()):
+        poses = read(FRANKA_DH, SHOWN_Q)
+        seen = scene.camera.project(poses[:, :3, 3], SIZE)[:, :2]
+        _polyline(layer, seen, GHOSTS[i], width=14 if i == 3 else 6)
+        y = 60.0 + 46.0 * i
+        layer.line([(40.0, y), (90.0, y)], GHOSTS[i], 8)
+        words = f"{1000 * median[name]:.0f} mm  {name}"
+        layer.text((110.0 * 3, y * 3), words, "lm")
+    return layer.over(Image.fromarray(client.draw(scene)))
+
+
+def _axis(layer: Layer, camera: Camera, S: Array, origin: Array, i: int) -> Array:
+    """Draw one screw's line with an arrow and its sense; return where it is named."""
+    omega = S[:3]
+    # Three of the seven are one line: draw each where its own link is.
+    ends = np.array([origin - HALF / 2 * omega, origin + HALF * omega])
+    start, tip = (tuple(p) for p in camera.project(ends, SIZE)[:, :2])
+    layer.arrow(start, tip, HALO, 4)
+    layer.arrow(start, tip, AXES[i], 0)
+    across = np.cross(omega, [1.0, 0.0, 0.0])
+    angles = np.radians(np.linspace(0.0, 290.0, 40))
+    circle = np.array([exp_rotation(omega, x) @ across for x in angles])
+    points = camera.project(ends[0] + 0.85 * (ends[1] - ends[0]) + ROUND * circle, SIZE)
+    _polyline(layer, points[:-3, :2], AXES[i], THIN)
+    layer.arrow(tuple(points[-4, :2]), tuple(points[-1, :2]), AXES[i], 0)
+    return camera.project(origin + 0.6 * HALF * omega, SIZE)[:2]
+
+
+def _labels(layer: Layer, rows: Array, anchors: Array) -> None:
+    """Write each screw's six numbers in a column at the right, with a leader."""
+    order = np.argsort(anchors[:, 1])
+    tops = np.linspace(130.0, SIZE[1] - 250.0, len(rows))
+    for place, i in enumerate(order):
+        words = ", ".join(f"{x + 0.0:g}" for x in rows[i][:3])
+        words += "; " + ", ".join(f"{x + 0.0:.4g}" for x in rows[i][3:])
+        side = (610.0, float(tops[place]))
+        layer.label(f"S{i + 1} ({words})", side, tuple(map(float, anchors[i])))
+
+
+def _polyline(
+    layer: Layer, points: Array, colour: tuple[int, int, int], width: float
+) -> None:
+    """Draw an open line through pixels, (n, 2), with a dot at each where it is wide."""
+    pixels = [(float(x), float(y)) for x, y in points]
+    for a, b in pairwise(pixels):
+        layer.line([a, b], HALO, width + 3)
+    for a, b in pairwise(pixels):
+        layer.line([a, b], colour, width)
+    for x, y in pixels if width > THIN else []:
+        layer.dot((x * 3, y * 3), INK, 5)
+
+
+FIGURES = {"screws": screws, "dh_roulette": dh_roulette}

@@ -1,0 +1,332 @@
+"""Day 2's lab: its functions against oracles; the numbers in the guide's sentences."""
+
+import importlib.util
+import json
+import re
+from unittest.mock import MagicMock
+
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import expm
+from scipy.spatial.transform import Rotation
+
+from conftest import ROOT, load_script, need
+from robo47 import panda, screws, se3, verify
+from robo47.diagnose.compare import degrees
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
+from robo47.metrics import read_rows
+
+SCRIPT = "w1-foundations/src/day2_screws.py"
+GUIDE = " ".join((ROOT / "w1-foundations/docs/day2-lab.md").read_text("utf-8").split())
+DATA = ROOT / "tests" / "data"
+DAY = find_day(2)
+ROULETTE = folder.load(DAY, "roulette")
+
+lab = load_script(ROOT / SCRIPT)
+
+
+def mistakes(module, of):
+    """Return the first mistake of each name in a list of the day's."""
+    importlib.import_module("lesson_day2.roulette")
+    named = getattr(importlib.import_module(f"lesson_day2.mistakes.{module}"), of)
+    return {m.slug: m for m in reversed(named)}
+
+
+@pytest.fixture
+def arm(either_panda):
+    """Return the Panda's screws, M, and q: 0, ready, then 20 random ones."""
+    q = verify.random_q(either_panda, 20, seed=47)
+    q = np.vstack([np.zeros(7), panda.READY_Q, q])
+    return panda.screws(either_panda), panda.home_pose(either_panda), q
+
+
+def stacked(S, M, q):
+    n = len(q)
+    return np.broadcast_to(S, (n, 7, 6)), np.broadcast_to(M, (n, 4, 4)), q
+
+
+def off(ours, truth):
+    """Return millimetres and degrees per pose."""
+    mm = 1000 * np.linalg.norm(ours[:, :3, 3] - truth[:, :3, 3], axis=1)
+    return mm, degrees(truth[:, :3, :3], ours[:, :3, :3])
+
+
+# --- the functions ---
+
+
+def bracket(S):
+    out = np.zeros((4, 4))
+    out[:3, :3], out[:3, 3] = np.cross(np.eye(3), S[:3]), S[3:]
+    return out
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_the_labs_functions_agree_with_scipy_and_the_library(seed):
+    rng = np.random.default_rng(seed)
+    w, p, v = rng.normal(size=(3, 3))
+    axis, theta = w / np.linalg.norm(w), rng.uniform(-7, 7)
+    T = se3.make_T(se3.quat_to_R(rng.normal(size=4)), p)
+    S = np.concatenate([axis * rng.integers(2), v])
+    assert_same(lab.skew(w) @ p, np.cross(w, p), 1e-14)
+    turned = Rotation.from_rotvec(axis * theta).as_matrix()
+    assert_same(lab.exp_rotation(axis, theta), turned, 1e-13)
+    assert_same(lab.screw_axis(axis, p), screws.screw_axis(axis, p), 1e-14)
+    assert_same(lab.exp_screw(S, theta), expm(bracket(S) * theta), 1e-11)
+    assert_same(lab.adjoint(T), screws.adjoint(T), 1e-14)
+    row = rng.normal(size=4)
+    assert_same(lab.dh_link(*row), screws.dh_link(*row), 1e-14)
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_the_labs_products_agree_with_the_library_for_any_arm(seed):
+    rng = np.random.default_rng(seed)
+    axes = rng.normal(size=(7, 3))
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    S = screws.screw_axis(axes, rng.normal(size=(7, 3)))
+    M = se3.make_T(se3.quat_to_R(rng.normal(size=4)), rng.normal(size=3))
+    q, table = rng.uniform(-3, 3, size=7), rng.normal(size=(8, 3))
+    assert_same(lab.fk_space(S, M, q), screws.fk_space(S, M, q), 1e-11)
+    B = lab.body_screws(S, M)
+    assert_same(B, screws.body_screws(S, M), 1e-13)
+    assert_same(lab.fk_body(B, M, q), screws.fk_space(S, M, q), 1e-11)
+    assert_same(lab.dh_fk(table, q), screws.dh_fk(table, q), 1e-12)
+
+
+def test_the_worked_cases_in_the_docstrings_are_true(arm):
+    S, M, _ = arm
+    assert_same(lab.skew(np.array([0, 0, 1])) @ [1, 0, 0], [0, 1, 0], 0.0)
+    assert_same(lab.exp_rotation(np.array([0, 0, 1]), 0.3), se3.Rz(0.3), 1e-16)
+    S_z = lab.screw_axis(np.array([0, 0, 1]), np.array([1, 0, 0]))
+    assert_same(S_z, [0, 0, 1, 0, -1, 0], 0.0)
+    assert_same(lab.exp_screw(S_z, np.pi / 2)[:3, 3], [1, -1, 0], 1e-15)
+    assert_same(S[1], [0, 1, 0, -0.333, 0, 0], 1e-15)
+    assert_same(lab.fk_space(S, M, np.zeros(7))[:3, 3], [0.088, 0, 0.926], 1e-12)
+    move = se3.make_T(np.eye(3), [1, 0, 0])
+    seen = lab.adjoint(move) @ [0, 0, 1, 0, 0, 0]
+    assert_same(seen, [0, 0, 1, 0, -1, 0], 0.0)
+    assert_same(lab.body_screws(S, M)[6], [0, 0, 1, 0, 0, 0], 1e-15)
+    assert_same(lab.fk_body(S, M, np.zeros(7)), M, 0.0)
+    link3 = lab.dh_link(np.pi / 2, 0, 0.316, 0)
+    assert_same(link3[:3, 3], [0, -0.316, 0], 1e-16)
+
+
+def test_the_labs_products_agree_with_the_textbooks_own_package_and_pinocchio(arm):
+    S, M, _ = arm
+    data = json.loads((DATA / "kinematics_oracle.json").read_text("utf-8"))
+    B = lab.body_screws(S, M)
+    answers = data["answers"]
+    for i, q in enumerate(np.array(data["q"])):
+        for ours, theirs in (
+            (lab.fk_space(S, M, q), answers["FKinSpace"][i]),
+            (lab.fk_body(B, M, q), answers["FKinBody"][i]),
+        ):
+            assert_same(ours[:3].ravel(), theirs, 1e-12)  # kept to 12 decimals or so
+
+
+def test_franka_s_table_in_the_lab_is_the_one_in_the_questions():
+    assert_same(lab.FRANKA_DH, folder.load(DAY, "questions").FRANKA, 0.0)
+
+
+# --- the lab ---
+
+
+def test_the_lab_runs_in_80_columns_and_logs_two_rows(run, tmp_path):
+    log = tmp_path / "metrics.csv"
+    done = run(SCRIPT, ROBO47_METRICS=log)
+    lines = done.stdout.splitlines()
+    assert (done.returncode, done.stderr) == (0, "")
+    assert lines[-1] == "All checks PASSED."
+    assert max(len(line) for line in lines if not line.startswith("logged")) <= 80
+    assert done.stdout.count("PASS  ") == 10
+    poe, dh = read_rows(log)
+    assert (poe["check"], dh["check"]) == ("poe_by_hand", "dh_by_hand")
+    for row in (poe, dh):
+        assert (row["day"], row["n_trials"], row["n_failures"]) == (2, lab.TRIALS, 0)
+        assert 0 < row["value"] < 1e-8
+
+
+def test_what_is_wrong_on_purpose_is_right_at_zero_and_far_off_elsewhere(arm):
+    S, M, q = arm
+    truth = screws.fk_space(S, M, q)
+    measured = {}
+    for what, fk in lab.on_purpose(S, M).items():
+        mm, _ = off(np.array([fk(x) for x in q]), truth)
+        measured[what] = (mm[0], mm[1], np.median(mm[2:]))
+    assert_same(measured.pop("nothing"), [0, 0, 0], 1e-10)
+    constant = measured.pop("M of the ready pose")
+    assert_same(constant, [400.85] * 3, 0.005)
+    for zero, ready, random in measured.values():
+        assert zero < 1e-10
+        assert min(ready, random) > 200
+
+
+# --- the numbers in the guide's sentences ---
+
+
+def test_the_pose_at_ready_taken_for_M_is_off_by_the_same_at_every_q(arm):
+    S, M, q = arm
+    truth = screws.fk_space(S, M, q)
+    mm, deg = off(screws.fk_space(S, truth[1], q), truth)
+    assert np.ptp(mm) < 1e-9
+    assert np.ptp(deg) < 1e-9
+    assert f"{mm[0]:.1f} mm and {deg[0]:.1f} degrees off at *every* q" in GUIDE
+
+
+def test_how_many_named_mistakes_are_exact_at_zero(arm):
+    importlib.import_module("lesson_day2.roulette")
+    products = importlib.import_module("lesson_day2.mistakes.products")
+    S, M, q = stacked(*arm)
+    truth = screws.fk_space(arm[0], arm[1], q)
+    exact = wrong = 0
+    with np.errstate(all="ignore"):
+        for mistake in products.FK_SPACE:
+            error = np.abs(mistake.redo(S, M, q) - truth).max(axis=(1, 2))
+            if np.median(error[2:]) > 1e-6:  # some are none on the Panda
+                wrong, exact = wrong + 1, exact + int(error[0] < 1e-12)
+    says = f"Of the {wrong} mistakes that the checker knows by name in `fk_space`, "
+    assert says + f"{exact} are exact at q = 0" in GUIDE
+
+
+def test_the_wrong_adjoint_hides_in_the_symmetric_M(arm):
+    S, M, q = arm
+    assert_same(M[:3, :3], M[:3, :3].T, 1e-15)
+    B = S @ screws.adjoint(M).T
+    mm, _ = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
+    assert f"{np.median(mm[2:]):.0f} mm at random configurations" in GUIDE
+
+
+def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda):
+    q = verify.random_q(either_panda, 20, seed=47)
+    found = ROULETTE.distances(lab.FRANKA_DH, q).values()
+    medians = [round(1000 * float(np.median(x))) for x in found]
+    assert medians == [885, 755, 733, 107, 0]
+    table = GUIDE[GUIDE.index("| who reads it") :]
+    assert [int(n) for n in re.findall(r"\| (\d+) mm \|", table)] == medians
+    *_, early, right = list(found)
+    assert np.ptp(1000 * early) < 1e-9
+    assert_same(right, np.zeros(20), 0.0)
+
+
+def test_the_files_rounded_quaternion_is_not_quite_135_degrees(either_panda):
+    q = verify.random_q(either_panda, 20, seed=47)
+    truth = verify.mujoco_poses(either_panda, q)["site:attachment_site"]
+    ours = screws.dh_fk(lab.FRANKA_DH, q)
+    ours[:, :3, :3] = ours[:, :3, :3] @ se3.Rz(0.75 * np.pi)
+    assert_same(ours[:, :3, 3], truth[:, :3, 3], 1e-14)
+    assert f"{np.abs(ours - truth).max():.1e}".replace("e-0", "e-") in GUIDE
+
+
+def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
+    S, _, _ = arm
+    assert np.linalg.matrix_rank(S) == 5
+    assert_same(S[:, 0], np.zeros(7), 0.0)
+    assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
+
+
+# --- what each mistake costs: the median of 20 random q, and ready ---
+
+OF_THE_SCREWS = {
+    "moment-sign": (2493, 0, 840),
+    "moment-is-point": (3357, 0, 964),
+    "moment-forgotten": (1246, 0, 420),
+    "point-is-local-pos": (1399, 0, 503),
+    "axis-row-not-column": (733, 112, 427),
+    "axis-local-z": (682, 117, 402),
+    "axis-x-column": (777, 131, 560),
+}
+OF_THE_PRODUCT = {
+    "twist-order": (2873, None, 1398),  # its R is no rotation
+    "exp-coefficients-swapped": (2205, 0, 2855),
+    "travel-sign-of-K": (2835, 0, 2100),
+    "travel-sign-of-KK": (2605, 0, 2998),
+    "identity-for-theta": (1809, 0, 2246),
+    "sin-and-cos-swapped": (2469, 115, 1690),
+    "product-reversed": (799, 58, 967),
+    "M-first": (1501, 128, 811),
+    "M-forgotten": (930, 180, 930),
+    "degrees": (916, 133, 234),
+    "radians-taken-for-degrees": (719, 130, 400),
+    "all-backwards": (439, 111, 427),
+    "space-screws-in-body-form": (1525, 128, 787),
+}
+
+
+def expect(ours, truth, numbers):
+    mm, deg = off(ours, truth)
+    found = (np.median(mm[2:]), np.median(deg[2:]), mm[1])
+    for ours, claimed in zip(found, numbers, strict=True):
+        assert claimed is None or abs(ours - claimed) < 1.0
+
+
+@pytest.mark.parametrize("slug", OF_THE_SCREWS)
+def test_a_mistake_in_the_screws_costs_this_much(slug, arm, either_panda):
+    S, M, q = arm
+    poses = verify.mujoco_poses(either_panda, q[:1])
+    links = np.array([poses[name] for name in lab.LINKS])[:, 0]
+    wrong = mistakes("lines", "JOINT_SCREWS")[slug].redo(links[None])[0]
+    expect(screws.fk_space(wrong, M, q), screws.fk_space(S, M, q), OF_THE_SCREWS[slug])
+
+
+@pytest.mark.parametrize("slug", OF_THE_PRODUCT)
+def test_a_mistake_in_the_product_costs_this_much(slug, arm):
+    S, M, q = arm
+    wrong = mistakes("products", "FK_SPACE")[slug].redo(*stacked(S, M, q))
+    expect(wrong, screws.fk_space(S, M, q), OF_THE_PRODUCT[slug])
+
+
+# --- bad input to the library gets a line that names it ---
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda S, M, q: screws.exp_screw([1, 0, 1, 0, 1, 0], 1.0), "length 1.41"),
+        (lambda S, M, q: screws.fk_space(2 * S, M, q), r"screws\[0\] is no screw"),
+        (lambda S, M, q: screws.dh_fk(lab.FRANKA_DH[:7], q), r"shape \(7, 3\)"),
+        (lambda S, M, q: screws.fk_space(S, M, q * np.nan), "q holds a number"),
+        (lambda S, M, q: screws.fk_space(S, 2 * M, q), "M is not a pose"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_named(arm, call, says):
+    S, M, q = arm
+    with pytest.raises(ValueError, match=says):
+        call(S, M, q[1])
+
+
+# --- the inspector's tab, without a browser ---
+
+
+def test_the_tab_applies_one_exponential_at_a_time():
+    for module in ("viser", "robo47.inspector.tab"):
+        need(importlib.util.find_spec(module) is not None, f"{module}: make view")
+    inspector = folder.load(DAY, "inspector")
+    model = panda.load("panda_nohand")
+    page = MagicMock(model=model, q=panda.READY_Q.copy())
+    page.arm.names = {"ee": "site:attachment_site"}
+    truth = verify.mujoco_poses(model, page.q[None])["site:attachment_site"][0]
+    page.pose.return_value = truth
+    page.animate.return_value.running = False
+    tab = inspector.Screws(page)
+    tab.on_move(page.q)
+    assert page.say.call_args.args[0].startswith("Applied: M. The hand is 401 mm")
+    for _ in range(3):
+        tab.press(inspector.NEXT)
+    assert "Applied: e^[S5] e^[S6] e^[S7] M." in page.say.call_args.args[0]
+    tab.press(inspector.WHOLE)
+    assert page.say.call_args.args[0].endswith("The hand is 0 mm short of q.")
+    tab.press(inspector.BACK)
+    assert "Applied: e^[S2]" in page.say.call_args.args[0]
+    tab.spin(True)
+    assert tab.legend.content.count(" mm, ") == 5
+    questions = inspector.GHOST.questions(model, page.q)
+    assert len(questions) == len(inspector.GHOST.frames) == 8
+    for args, name in zip(questions, inspector.GHOST.frames, strict=True):
+        frame = "site:attachment_site" if name == "ee" else f"body:{name}"
+        pose = verify.mujoco_poses(model, page.q[None])[frame][0]
+        assert_same(lab.fk_space(*args), pose, 1e-14)
