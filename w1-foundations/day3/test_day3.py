@@ -237,6 +237,7 @@ def tab():
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(find_day(3), "inspector")
     page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
+    page.html.side_effect = lambda *text: MagicMock()
     S, M, _ = QUESTIONS.targets.arm()
     page.pose.return_value = screws.fk_space(S, M, panda.READY_Q)
     return inspector.Jacobian(page)
