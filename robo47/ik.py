@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, poe
 from robo47.checks import Array
+from robo47.columns import jacobian_columns
 from robo47.rotation_log import log_rotation, pose_error
 from robo47.screws import fk_space
 
@@ -159,7 +160,7 @@ def _walk(
 
 def _downhill(problem: _Problem, q: Array, target: np.ndarray) -> tuple[Array, Array]:
     """Return the site Jacobian, (6, joints, n), and the pose error, (6, n)."""
-    J, R, p = poe.jacobian_columns(problem.arm, q, at_end=True)
+    J, R, p = jacobian_columns(problem.arm, q, at_end=True)
     goal = problem.goals[..., target]
     E = np.einsum("ikn,jkn->ijn", goal[:, :3], R)
     e = np.empty((6, q.shape[1]))
@@ -203,7 +204,7 @@ def _near(
     group = max(DRAWN // each, 20)
     low, high = problem.low, problem.high
     q = rng.uniform(low, high, (len(low), each * group))
-    _, R, p = poe.jacobian_columns(problem.arm, q, at_end=True)
+    _, R, p = jacobian_columns(problem.arm, q, at_end=True)
     scale = np.repeat([np.sqrt(0.5), 1.0], [9, 3])[:, None]
     drawn = scale * np.concatenate([R.reshape(9, -1), p])
     goals = problem.goals[..., left]

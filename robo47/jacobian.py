@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, poe, se3
 from robo47.checks import Array
+from robo47.columns import jacobian_columns
 from robo47.ik import reached as reached
 from robo47.ik import solve_ik as solve_ik
 from robo47.rotation_log import log_rotation as log_rotation
@@ -52,7 +53,7 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
     arm, J = poe.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
     for first in range(0, len(flat), CHUNK):
         part = slice(first, first + CHUNK)
-        now, _, _ = poe.jacobian_columns(arm, flat[part].T, at_end=False)
+        now, _, _ = jacobian_columns(arm, flat[part].T, at_end=False)
         J[part] = np.moveaxis(now, -1, 0)
     return J.reshape(*q.shape[:-1], 6, len(S))
 

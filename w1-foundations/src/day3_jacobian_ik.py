@@ -277,7 +277,7 @@ def main() -> int:
     stayed = solve_ik(*arm, T[1], READY_Q, limits)
     lab.check("a start that is there already comes back", stayed - READY_Q)
     middle = limits.mean(axis=1)
-    starts = middle + 0.8 * (q[2 : NEAR + 2] - middle)
+    starts = middle + 0.7 * (q[2 : NEAR + 2] - middle)
     near = np.clip(starts + rng.uniform(-0.3, 0.3, starts.shape), *limits.T)
     goals = fk_space(*arm, near)
     found = each(lambda goal, x: solve_ik(*arm, goal, x, limits), goals, starts)
