@@ -128,8 +128,9 @@ def heat_map(M: Array) -> str:
             )
         rows.append(f"<tr>{cells}</tr>")
     table = "".join(rows)
-    style = "font:11px monospace;border-collapse:collapse"
-    return f'<div style="padding:0 10px"><b>M, kg m2</b><table style="{style}">{table}</table></div>'
+    style = "font:11px monospace;border-collapse:collapse;margin-left:10px"
+    title = '<b style="margin-left:10px">M, kg m2</b>'
+    return f'<div>{title}<table style="{style}">{table}</table></div>'
 
 
 TABS = [Forces]
