@@ -96,7 +96,7 @@ class Forces(Tab):
         now = self.rig.at(q[:JOINTS])
         for ball, com in zip(self.balls, now.coms_world, strict=True):
             ball.position = com
-        self.bars.show(now.gravity_torque)
+        self.bars.show(np.round(now.gravity_torque, 2) + 0.0)
         self.cells.content = heat_map(now.M)
         pushing = self.loop.running and self.force.any() and self.data.time < PUSHED
         hand = now.T_world_ee[:3, 3]
@@ -117,7 +117,7 @@ def heat_map(M: Array) -> str:
         M: mass matrix, kg m2, (7, 7).
     """
     rows = []
-    for row in M:
+    for row in np.round(M, 2) + 0.0:  # no -0.00
         cells = ""
         for value in row:
             shade = min(abs(value), 1.0) ** 0.5  # small entries can be seen, too
@@ -128,8 +128,9 @@ def heat_map(M: Array) -> str:
             )
         rows.append(f"<tr>{cells}</tr>")
     table = "".join(rows)
-    style = "font:11px monospace;border-collapse:collapse"
-    return f'<div><b>M, kg m2</b><table style="{style}">{table}</table></div>'
+    style = "font:11px monospace;border-collapse:collapse;margin-left:10px"
+    title = '<b style="margin-left:10px">M, kg m2</b>'
+    return f'<div>{title}<table style="{style}">{table}</table></div>'
 
 
 TABS = [Forces]

@@ -10,6 +10,8 @@ from compare import assert_same
 
 from conftest import ROOT, load_script
 from robo47 import dynamics, panda, screws, simulate, verify
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -225,3 +227,11 @@ def test_ad_is_days_2_library_function():
     # Task 4.5 asks for it again; whoever imports it from robo47.screws has used Day 2.
     V = np.arange(6.0)
     assert_same(lab.ad(V), screws.ad(V), 0.0)
+
+
+def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):
+    pytest.importorskip("viser")
+    heat_map = folder.load(find_day(4), "inspector").heat_map
+    M = arm.at(panda.READY_Q).M
+    shown = [float(x) for x in re.findall(r">([-\d.]+)</td>", heat_map(M))]
+    assert_same(np.reshape(shown, (7, 7)), M, 0.0051)

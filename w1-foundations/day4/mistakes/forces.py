@@ -74,11 +74,6 @@ _SHARED = _plain([
         torque(turned=-1.0),
     ),
     (
-        "bracket-twice",
-        "in the acceleration ad(V) S qd counts twice",
-        torque(turned=2.0),
-    ),
-    (
         "bracket-not-transposed",
         "the force has ad in place of its transpose: a wrench changes the other way "
         "from a twist",
