@@ -199,6 +199,18 @@ def test_the_files_own_servos_sag_by_gravity_over_stiffness(bench):
     assert f"{1e3 * (lab.READY_Q - end)[3]:.3f} mrad low" in GUIDE
 
 
+def test_ten_times_the_stiffness_sags_a_tenth(bench):
+    q = lab.rest(lab.READY_Q, lambda q: bench[1].at(q).gravity_torque, 1000.0)
+    assert f"a tenth: {1e3 * (lab.READY_Q - q)[3]:.1f} mrad" in GUIDE
+
+
+def test_the_swing_takes_a_quarter_of_the_motors_torque(bench):
+    log = lab.run(*bench, lab.equal_springs(), lab.raised_cosine, 2.0)
+    share = np.abs(log.tau) / simulate.limits(bench[0])[1]
+    assert share.max() == pytest.approx(0.25, abs=0.03)
+    assert "the swing takes a quarter of their torque" in GUIDE
+
+
 def without(part):
     """Return computed torque of omega 20 that lacks a part of the model."""
 
