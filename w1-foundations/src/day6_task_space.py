@@ -289,7 +289,7 @@ def main() -> int:
     lab.step("4. A hand that is a spring")
     lab.check("spring_wrench - the library's", found["spring"])
     lab.check("critical_damping - the library's", found["damping"])
-    lab.check("impedance_torque, pushed back: joints", found["impedance"])
+    lab.check("impedance_torque against MuJoCo's push", found["impedance"])
     start = simulate.start(model, READY_Q)
     push = simulate.push_at(SITE, PUSH)
     law = soft_hand(arm, READY_Q)
