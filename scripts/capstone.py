@@ -134,7 +134,7 @@ def main() -> int:
     print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
     print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
     if options.clip or options.picture:
-        from robo47.figures.capstone import clip, picture
+        from robo47.figures.picking import clip, picture
 
         if options.picture:
             print(picture(result, options.picture))

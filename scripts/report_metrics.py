@@ -6,7 +6,9 @@
 
 The page works offline, on a phone and in the dark. Thresholds come from the
 days' manifests. Rows that were repaired while reading or could not be read are
-listed at the end of the page.
+listed at the end of the page. Without a filter there is a page on the week of
+the last day that you began as well, report-week1.html, and its numbers are
+written between the marks of docs/RETRO_w1.md, where that file has them.
 """
 
 import argparse
@@ -17,6 +19,7 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 
 from robo47 import cli
 from robo47.errors import Robo47Error
+from robo47.lesson.day import find_day, started_day
 from robo47.metrics.scan import scan
 from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, shown
@@ -40,6 +43,8 @@ def main() -> int:
     picture = render_picture(report, heading)
     if picture:
         write(out / "report.png", picture)
+    if not (since or args.check or args.day is not None):
+        write_week(report, heading, out)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing, {report.count('none')} not run yet"
@@ -49,6 +54,22 @@ def main() -> int:
         need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
         print(f"{need}: {command('--check', args.file)}")
     return cli.EXIT_OK
+
+
+def write_week(report: Report, heading: str, out: Path) -> None:
+    """Write the page on the week of the last day begun, and its retrospective."""
+    from robo47.week import page as week_page
+    from robo47.week import retro
+    from robo47.week.facts import facts_of
+    from robo47.week.labs import days_of, week_of
+
+    week = week_of(find_day(started_day()))
+    series = {(one.day, one.check, one.metric): one for one in report.series}
+    with cli.busy("looking at your tasks"):
+        facts = [facts_of(day, series) for day in days_of(week)]
+    write(out / f"report-week{week}.html", week_page.render(facts, heading).encode())
+    for path in retro.fill(facts):
+        print(f"its numbers are in {shown(path)}")
 
 
 def parser() -> argparse.ArgumentParser:

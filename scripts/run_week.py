@@ -7,78 +7,51 @@ are the rows that the labs record, judged by the limits of the manifest; they ar
 added to your log.
 """
 
-import os
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from robo47 import cli
-from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, all_days
 from robo47.lesson.lab import number_of
-from robo47.metrics import read_rows
+from robo47.metrics.words import count
+from robo47.week.labs import Ran, days_of, name_of, run_labs
 
-Line = tuple[int, str, str, str, str, str]  # day, whose, check, number, limit, verdict
-HEAD = ("day", "whose", "check", "number", "limit")
-
-
-def days_of(week: int) -> list[Day]:
-    """Return the days of a week, in order.
-
-    Raises:
-        Robo47Error: the kit has no such week.
-    """
-    days = all_days()
-    found = [day for day in days if day.folder.name.startswith(f"w{week}-")]
-    if not found:
-        weeks = sorted({day.folder.name for day in days})
-        raise Robo47Error(f"there is no week {week} yet; the kit has {weeks}")
-    return found
+Line = tuple[str, ...]  # day, whose, number, value, limit, verdict
+HEAD = ("day", "whose", "number", "value", "limit", "")
+NAMED = 30  # columns of a number's name
 
 
-def run_lab(day: Day) -> tuple[int, dict[tuple[str, str], float]]:
-    """Return a lab's exit code and the numbers it recorded, by check and metric."""
-    script = day.work if day.work.is_file() else day.source
-    with tempfile.TemporaryDirectory() as folder:
-        log = Path(folder) / "metrics.csv"
-        done = subprocess.run(
-            [sys.executable, str(script)],
-            env={**os.environ, "ROBO47_METRICS": str(log)},
-            capture_output=True,
-            check=False,
-        )
-        rows = read_rows(log) if log.exists() else []
-    values = {(str(r["check"]), str(r["metric"])): r["value"] for r in rows}
-    return done.returncode, {k: float(v) for k, v in values.items() if v is not None}
-
-
-def lines_of(day: Day) -> list[Line]:
+def lines_of(ran: Ran) -> list[Line]:
     """Return a line per number of a day."""
-    code, values = run_lab(day)
-    whose = "yours" if day.work.is_file() else "kit's"
     lines: list[Line] = []
-    for metric in day.metrics:
-        value = values.get((metric.check, metric.metric))
+    for metric in ran.day.metrics:
+        value = ran.values.get((metric.check, metric.metric))
         number = "none" if value is None else number_of(value)
-        passes = code == 0 and value is not None and metric.passes(value)
-        verdict = "PASS" if passes else "FAIL"
-        lines.append((day.number, whose, metric.check, number, metric.limit, verdict))
+        verdict = "PASS" if ran.passes(metric) else "FAIL"
+        name = name_of(ran.day, metric)[:NAMED]
+        whose = "yours" if ran.mine else "kit's"
+        lines.append((str(ran.day.number), whose, name, number, metric.limit, verdict))
     return lines
 
 
 def as_table(lines: list[Line]) -> str:
     """Return the table, its columns as wide as they must be."""
-    cells = [HEAD, *(tuple(map(str, line[:-1])) for line in lines)]
-    widths = [max(len(row[i]) for row in cells) for i in range(len(HEAD))]
-    rows = ["  ".join(map(str.ljust, row, widths)) for row in cells]
-    for i, line in enumerate(lines, 1):
+    widths = [max(len(row[i]) for row in (HEAD, *lines)) for i in range(len(HEAD))]
+    rows = []
+    for line in (HEAD, *lines):
+        cells = "  ".join(map(str.ljust, line[:-1], widths))
         mood = "good" if line[-1] == "PASS" else "bad"
-        rows[i] += "  " + cli.paint(line[-1], mood)
-    return "\n".join(rows)
+        rows.append(f"{cells}  {cli.paint(line[-1], mood)}" if line[-1] else cells)
+    return "\n".join(row.rstrip() for row in rows)
+
+
+def tell_failure(ran: Ran) -> str:
+    """Return which lab did not pass, why, and how to see it."""
+    number = ran.day.number
+    again = f"make run DAY={number}" if ran.mine else f"make day{number}"
+    why = ran.why or "a number is missing or beyond its limit"
+    return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
 
 
 def main() -> int:
@@ -87,15 +60,14 @@ def main() -> int:
     parser.add_argument("week", type=int, nargs="?", default=1, help="default: 1")
     days = days_of(parser.parse_args().week)
     quiet = not sys.stderr.isatty()
-    lines = [
-        line
-        for day in tqdm(days, "labs", leave=False, delay=1, disable=quiet)
-        for line in lines_of(day)
-    ]
-    print(as_table(lines))
-    failed = [line for line in lines if line[-1] != "PASS"]
-    for number in sorted({line[0] for line in failed}):
-        print(f"day {number} did not pass; what it says: make run DAY={number}")
+    bar = tqdm(run_labs(days), "labs", len(days), leave=False, disable=quiet)
+    labs = list(bar)
+    print(as_table([line for ran in labs for line in lines_of(ran)]))
+    failed = [ran for ran in labs if not ran.passed]
+    for ran in failed:
+        print(tell_failure(ran))
+    if not failed:
+        print(cli.paint(f"{count(len(labs), 'lab')}, all passed", "good"))
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
 
 

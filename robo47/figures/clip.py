@@ -63,7 +63,7 @@ def arm_clip(
     Raises:
         Robo47Error: nothing draws here; the line names what to install.
     """
-    seen_from = camera or Camera(distance=2.0, lookat=(0.17, 0.0, 0.36))
+    seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
     pictures = []
     for q in tqdm(np.asarray(qs, dtype=float), "drawing", delay=1, leave=False):
         full = with_fingers(q)

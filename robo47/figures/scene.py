@@ -96,6 +96,21 @@ class Ghost:
 
 
 @dataclass(frozen=True)
+class Box:
+    """A box beside the robot, such as a table.
+
+    Attributes:
+        T_world_box: the pose of its centre, (4, 4).
+        half: half its edges, metres.
+        colour: red, green, blue, opacity, 0 to 1.
+    """
+
+    T_world_box: Array
+    half: tuple[float, float, float]
+    colour: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
 class Scene:
     """One picture to draw.
 
@@ -105,6 +120,7 @@ class Scene:
         camera: where it is seen from.
         ghosts: translucent copies.
         fast: leave out multisampling, shadows and reflections.
+        boxes: what else is there.
     """
 
     qpos: Array
@@ -112,3 +128,4 @@ class Scene:
     camera: Camera = Camera()
     ghosts: tuple[Ghost, ...] = ()
     fast: bool = False
+    boxes: tuple[Box, ...] = ()

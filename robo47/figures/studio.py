@@ -17,7 +17,7 @@ import numpy as np
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.figures.scene import FOVY, Camera, Ghost, Scene
+from robo47.figures.scene import FOVY, Box, Camera, Ghost, Scene
 
 WHITE, FLOOR, GRID = (1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89)
 GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
@@ -101,6 +101,8 @@ def draw(scene: Scene) -> Array:
     renderer.scene.flags[mujoco.mjtRndFlag.mjRND_HAZE] = True
     for ghost in scene.ghosts:
         add_ghost(renderer.scene, model, ghost)
+    for box in scene.boxes:
+        add_box(renderer.scene, box)
     return renderer.render()
 
 
@@ -142,6 +144,32 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
         copy.category, copy.transparent = mujoco.mjtCatBit.mjCAT_DECOR, 1
         copy.dataid, copy.camdist = original.dataid, original.camdist
         scene.ngeom += 1
+
+
+def add_box(scene: mujoco.MjvScene, box: Box) -> None:
+    """Add a box to what is drawn.
+
+    Args:
+        scene: already filled with the robot.
+        box: where, how large, in which colour.
+    """
+    shape, R, t = (
+        scene.geoms[scene.ngeom],
+        box.T_world_box[:3, :3],
+        box.T_world_box[:3, 3],
+    )
+    mujoco.mjv_initGeom(
+        shape, mujoco.mjtGeom.mjGEOM_BOX, np.array(box.half), t, R.ravel(),
+        np.array(box.colour, dtype=np.float32),
+    )  # fmt: skip
+    # What mjv_initGeom leaves as it was in memory, and drawing depends on.
+    shape.objtype, shape.objid, shape.segid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1, -1
+    shape.category, shape.transparent, shape.dataid = (
+        mujoco.mjtCatBit.mjCAT_DECOR,
+        0,
+        -1,
+    )
+    scene.ngeom += 1
 
 
 def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:

@@ -18,6 +18,7 @@ from robo47.paths import shown
 from robo47.text import visible
 
 _URL = ("git", "url", "git url", "git_url", "repo")
+_ID = ("id", "email", "username", "number")
 _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 LONGEST = 100  # bytes of a file's name before its ending; systems allow 255
 _ASKED = "expected columns: name, folder and, for --pull, git"
@@ -33,6 +34,7 @@ class Student:
         path: the folder.
         url: where to clone it from; "" where the roster does not say.
         problem: why the folder cannot be used; "" where it can.
+        id: what a learning platform knows the student by; "" where the roster has none.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Student:
     path: Path
     url: str = ""
     problem: str = ""
+    id: str = ""
 
 
 def find_students(root: Path, roster: Path | None = None) -> list[Student]:
@@ -104,7 +107,9 @@ def _key(name: str) -> str:
     return unicodedata.normalize("NFC", name).casefold()  # some systems see no case
 
 
-def _student(name: str, folder: str, root: Path, url: str = "") -> Student:
+def _student(
+    name: str, folder: str, root: Path, url: str = "", id: str = ""
+) -> Student:
     path, problem = root / folder, ""
     if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
         path, problem = root, f"{folder!r} is no name of a folder"
@@ -115,7 +120,7 @@ def _student(name: str, folder: str, root: Path, url: str = "") -> Student:
     shows = visible(
         name or os.fsencode(folder).decode("utf-8", "backslashreplace"), 120
     )
-    return Student(shows, folder, path, url, visible(problem))
+    return Student(shows, folder, path, url, visible(problem), visible(id, 120))
 
 
 def _read_roster(path: Path, root: Path) -> list[Student]:
@@ -151,6 +156,9 @@ def _read_roster(path: Path, root: Path) -> list[Student]:
                 f"{shown(path)}, line {number}: folder {folder!r} is listed "
                 "twice; expected one folder per student"
             )
-        url = next((cells[name] for name in _URL if cells.get(name)), "")
-        students[folder] = _student(cells.get("name", ""), folder, root, url)
+        url, id = (
+            next((cells[name] for name in names if cells.get(name)), "")
+            for names in (_URL, _ID)
+        )
+        students[folder] = _student(cells.get("name", ""), folder, root, url, id)
     return list(students.values())

@@ -1,8 +1,9 @@
 """Day 2's lab: its functions against oracles; the numbers in the guide's sentences."""
 
-import importlib
+import importlib.util
 import json
 import re
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, need
 from robo47 import panda, screws, se3, verify
 from robo47.diagnose.compare import degrees
 from robo47.lesson import folder
@@ -296,3 +297,36 @@ def test_bad_input_is_named(arm, call, says):
     S, M, q = arm
     with pytest.raises(ValueError, match=says):
         call(S, M, q[1])
+
+
+# --- the inspector's tab, without a browser ---
+
+
+def test_the_tab_applies_one_exponential_at_a_time():
+    for module in ("viser", "robo47.inspector.tab"):
+        need(importlib.util.find_spec(module) is not None, f"{module}: make view")
+    inspector = folder.load(DAY, "inspector")
+    model = panda.load("panda_nohand")
+    page = MagicMock(model=model, q=panda.READY_Q.copy())
+    page.arm.names = {"ee": "site:attachment_site"}
+    truth = verify.mujoco_poses(model, page.q[None])["site:attachment_site"][0]
+    page.pose.return_value = truth
+    page.animate.return_value.running = False
+    tab = inspector.Screws(page)
+    tab.on_move(page.q)
+    assert page.say.call_args.args[0].startswith("Applied: M. The hand is 401 mm")
+    for _ in range(3):
+        tab.press(inspector.NEXT)
+    assert "Applied: e^[S5] e^[S6] e^[S7] M." in page.say.call_args.args[0]
+    tab.press(inspector.WHOLE)
+    assert page.say.call_args.args[0].endswith("The hand is 0 mm short of q.")
+    tab.press(inspector.BACK)
+    assert "Applied: e^[S2]" in page.say.call_args.args[0]
+    tab.spin(True)
+    assert tab.legend.content.count(" mm, ") == 5
+    questions = inspector.GHOST.questions(model, page.q)
+    assert len(questions) == len(inspector.GHOST.frames) == 8
+    for args, name in zip(questions, inspector.GHOST.frames, strict=True):
+        frame = "site:attachment_site" if name == "ee" else f"body:{name}"
+        pose = verify.mujoco_poses(model, page.q[None])[frame][0]
+        assert_same(lab.fk_space(*args), pose, 1e-14)

@@ -37,9 +37,8 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
         rows = _rows(day, handin)
     except Robo47Error as error:
         return Item("metrics", "wrong", visible(error))
-    own = _marks(handin.files.get(day_files(day)["script"]))
-    mine = [row for row in rows if _mark(row) in own]
-    latest = {(row["check"], row["metric"]): row for row in mine}
+    own = marks_of(handin.files.get(day_files(day)["script"]))
+    latest = latest_of(rows, own)
     missing = [m for m in day.metrics if (m.check, m.metric) not in latest]
     if missing:
         why = _why_missing(day, rows, own, missing)
@@ -52,6 +51,22 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
         says = f"The rows count when your tasks pass; then again: {run}"
         return Item("metrics", "todo", says)
     return Item("metrics")
+
+
+def own_rows(day: Day, handin: Handin) -> dict[tuple[str, str], Row]:
+    """Return the latest rows of the student's file as it is, by check and metric.
+
+    Raises:
+        Robo47Error: the log cannot be read.
+    """
+    script = handin.files.get(day_files(day)["script"])
+    return latest_of(_rows(day, handin), marks_of(script))
+
+
+def latest_of(rows: list[Row], marks: set[str]) -> dict[tuple[str, str], Row]:
+    """Return the latest rows that one of these files wrote, by check and metric."""
+    own = (row for row in rows if mark_of(row) in marks)
+    return {(str(row["check"]), str(row["metric"])): row for row in own}
 
 
 def _rows(day: Day, handin: Handin) -> list[Row]:
@@ -73,20 +88,21 @@ def _why_missing(
         names = ", ".join(f"{m.check} ({m.metric})" for m in missing)
         return f"No row yet for {names}."
     source = day.source.read_bytes() if day.source.is_file() else None
-    marks = {_mark(row) for row in seen}
-    if marks <= _marks(source):
+    marks = {mark_of(row) for row in seen}
+    if marks <= marks_of(source):
         return "The kit's own run logged the rows that are there, not your file."
     if "" in marks:
         return "The rows that are there do not say that your file wrote them."
     return "Your file has changed since it logged its rows."
 
 
-def _mark(row: Row) -> str:
+def mark_of(row: Row) -> str:
+    """Return the mark of the file that wrote a row, or ""."""
     found = _FILE.search(str(row["notes"]))
     return f"file {found[1]}" if found else ""
 
 
-def _marks(script: bytes | None) -> set[str]:
+def marks_of(script: bytes | None) -> set[str]:
     """Return a file's mark with either line end: git may have changed them."""
     if script is None:
         return set()

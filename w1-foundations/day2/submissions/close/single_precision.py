@@ -1,4 +1,4 @@
-# task 2.4: passed
+# task 2.4: float32
 # float32 throughout.
 import numpy as np
 

@@ -1,0 +1,100 @@
+"""Does a clone of your last commit give your numbers? What is missing from it?
+
+    python3 scripts/fresh.py             the week that you are in (make fresh)
+    python3 scripts/fresh.py 2           week 2
+    python3 scripts/fresh.py --quick     with this environment: no set-up, seconds
+
+The commit, not your folder, is cloned to a temporary place, set up from nothing, and
+the labs of the week run there: yours where they are begun, else the kit's. Their
+numbers are compared with the rows that you committed. Nothing is logged.
+Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
+"""
+
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import kit  # noqa: F401 (goes on in the kit's own Python)
+
+from robo47 import cli
+from robo47.lesson.day import Day, find_day, started_day
+from robo47.metrics.words import count
+from robo47.week.clone import Clone, clone_commit, head_of, set_up
+from robo47.week.compare import faults
+from robo47.week.labs import Ran, days_of, run_labs, week_of
+from robo47.week.missing import findings
+
+
+class Clock:
+    """Says what is done, and after how many seconds."""
+
+    def __init__(self) -> None:
+        """Start now."""
+        self.begun = time.monotonic()
+
+    def say(self, what: str) -> None:
+        """Print a line of progress."""
+        print(f"{time.monotonic() - self.begun:5.1f} s  {what}", flush=True)
+
+
+def run_week(
+    days: Sequence[Day], clone: Clone, clock: Clock
+) -> tuple[list[Ran], list[str]]:
+    """Run the labs in the clone; return what became of them, and what is not right."""
+    labs, wrong = [], []
+    for ran in run_labs(days, clone.python, clone.environment):
+        found = faults(ran, clone.root)
+        whose = "your lab" if ran.mine else "the kit's lab"
+        verdict = cli.paint("FAIL", "bad") if found else cli.paint("PASS", "good")
+        clock.say(f"{verdict}  day {ran.day.number}, {whose}")
+        labs.append(ran)
+        wrong += found
+    return labs, wrong
+
+
+def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
+    """Print what is to be fixed, and one clear line; return the exit code."""
+    for line in wrong:
+        print(cli.wrapped(f"  - {line}", "    "))
+    if wrong:
+        thing = count(len(wrong), "thing")
+        print(f"{cli.paint('FAIL', 'bad')}  {thing} to fix; commit, then: make fresh")
+        return cli.EXIT_FAILED
+    rows = count(sum(len(ran.day.metrics) for ran in labs if ran.mine), "row")
+    ran = count(len(labs), "lab")
+    if any(one.mine for one in labs):
+        says = f"a clone of your last commit gives your numbers: {ran}, {rows}"
+    else:
+        says = f"a clone runs: {ran}, the kit's own; there are no rows to compare"
+    print(f"{cli.paint('PASS', 'good')}  {says}")
+    return cli.EXIT_OK
+
+
+def main() -> int:
+    """Clone, set up, run, compare."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("week", type=int, nargs="?", help="default: the one begun last")
+    parser.add_argument(
+        "--quick", action="store_true", help="no environment of its own"
+    )
+    options = parser.parse_args()
+    week = options.week or week_of(find_day(started_day()))
+    sha, clock = head_of(), Clock()
+    with tempfile.TemporaryDirectory(
+        prefix="robo47-fresh-", ignore_cleanup_errors=True
+    ) as folder:
+        root = Path(folder).resolve() / "clone"
+        clone_commit(sha, root)
+        days = days_of(week, root)
+        missing = findings(days, root)
+        clock.say(f"cloned {sha[:7]}")
+        with cli.busy("setting it up, half a minute at most"):
+            clone = set_up(root, anew=not options.quick)
+        clock.say("set up" + (" with this environment" if options.quick else ""))
+        labs, wrong = run_week(days, clone, clock)
+    return verdict(labs, [*missing, *wrong])
+
+
+if __name__ == "__main__":
+    cli.run(main)
