@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import panda, scenes, simulate, touch, verify
+from robo47 import jacobian, panda, scenes, se3, simulate, touch, verify
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +26,17 @@ def test_the_circle_starts_at_rest_and_its_parts_are_each_others_rates():
         assert_same((p[2] - p[0]) / (2 * h), V[1][3:], 1e-7)
         assert_same((V[2] - V[0]) / (2 * h), around[1][2], 1e-6)
         assert np.hypot(p[1][1], p[1][2] - 0.12) == pytest.approx(0.12)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-3, 0.3, 1.5])
+def test_the_error_of_a_loop_is_that_of_the_jacobians_module(angle):
+    rng = np.random.default_rng(8)
+    for axis, p in zip(*rng.normal(size=(2, 20, 3)), strict=True):
+        T = se3.make_T(se3.quat_to_R(rng.normal(size=4)), p)
+        R = se3.axis_angle(axis / np.linalg.norm(axis), angle)
+        T_goal = se3.make_T(R @ T[:3, :3], rng.normal(size=3))
+        truth = jacobian.pose_error(T, T_goal)
+        assert_same(touch.pose_error(T, T_goal), truth, 1e-13)
 
 
 def test_the_site_bias_from_differences_is_the_arms_own(motors):

@@ -10,7 +10,16 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from robo47 import control, jacobian, kinematics, panda, scenes, simulate, task_space
+from robo47 import (
+    control,
+    jacobian,
+    kinematics,
+    panda,
+    scenes,
+    simulate,
+    task_space,
+    touch,
+)
 from robo47.checks import Array
 from robo47.inspector import words
 from robo47.inspector.page import Page
@@ -115,7 +124,7 @@ class Touch(Tab):
             J = now.J_site
             Lambda = task_space.task_inertia(J, now.M)
             D = task_space.critical_damping(K, Lambda)
-            e = jacobian.pose_error(now.T_world_ee, T_goal)
+            e = touch.pose_error(now.T_world_ee, T_goal)
             F = task_space.spring_wrench(e, -J @ qd, np.diag(K), D)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             idle = task_space.null_torque(J, now.M, Lambda, back)
