@@ -25,7 +25,7 @@ from robo47.inspector import words
 from robo47.inspector.page import Page
 from robo47.inspector.tab import Tab
 
-RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
+RATE, HZ = 100.0, 50.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # Nm/rad of the hand; Nm s/rad of the elbow
 PULL = 100.0  # N per metre that the handle is away
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
@@ -152,7 +152,7 @@ class Touch(Tab):
             for name, T in poses.items()
             if name.startswith("body:link")
         })  # fmt: skip
-        mass = np.linalg.inv(now.J_site[3:] @ np.linalg.solve(now.M, now.J_site[3:].T))
+        mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
         self.mass.show(mass, hand, LONG)
         end = hand + np.where(self.force, self.force, 1e-4) / PULL
         self.arrow.points = np.array([[hand, end]], dtype=np.float32)
@@ -178,7 +178,7 @@ def _over_the_table() -> Array:
 
 
 def _three(v: Array) -> str:
-    return ", ".join(f"{x:.1f}" for x in v + 0.0)
+    return ", ".join(f"{x:.1f}" for x in np.round(v, 1) + 0.0)
 
 
 TABS = [Touch]
