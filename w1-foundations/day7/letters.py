@@ -4,6 +4,7 @@ Each stroke is the lab's `straight_pose` under its `quintic_scaling`, followed w
 6's operational-space torque; the elbow is held where it began. Metres, seconds.
 """
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ def write() -> Written:
     q_start = jacobian.solve_ik(arm.screws, arm.M_home, poses[0], panda.READY_Q, limits)
     data = simulate.start(model, q_start)
     wanted, reached, torque, seconds = [], [], 0.0, 0.0
-    for T0, T1 in zip(poses[:-1], poses[1:], strict=True):
+    for T0, T1 in itertools.pairwise(poses):
         way = jacobian.pose_error(T0, T1)
         T = np.ceil(15 / 8 * np.linalg.norm(way[3:]) / SPEED * RATE) / RATE
 
