@@ -5,6 +5,7 @@ accelerations and errors are (angular; linear), wrenches (moment; force), in wor
 Metres, radians, newtons, seconds.
 """
 
+import math
 from collections.abc import Callable
 
 import mujoco
@@ -49,6 +50,26 @@ def circle(
     V[4:] = speed * c, speed * s
     A[4:] = gain * c - speed**2 * s, gain * s + speed**2 * c
     return T, V, A
+
+
+def pose_error(T: Array, T_goal: Array) -> Array:
+    """Return `jacobian.pose_error` for a loop: unchecked, and 20 times as fast.
+
+    For rotations by less than 90 degrees, whose sine tells the angle.
+
+    Args:
+        T: pose, (4, 4).
+        T_goal: where it should be, (4, 4).
+
+    Returns:
+        Rotation vector and translation to the goal, in world axes, (6,).
+    """
+    E = T_goal[:3, :3] @ T[:3, :3].T
+    x, y, z = E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]
+    sine = 0.5 * math.sqrt(x * x + y * y + z * z)
+    half = 0.5 * math.asin(min(sine, 1.0)) / sine if sine > 0.0 else 0.5
+    dx, dy, dz = T_goal[:3, 3] - T[:3, 3]
+    return np.array([half * x, half * y, half * z, dx, dy, dz])
 
 
 def above_table(model: mujoco.MjModel, gap: float) -> Array:

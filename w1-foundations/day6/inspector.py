@@ -10,13 +10,22 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from robo47 import control, jacobian, kinematics, panda, scenes, simulate, task_space
+from robo47 import (
+    control,
+    jacobian,
+    kinematics,
+    panda,
+    scenes,
+    simulate,
+    task_space,
+    touch,
+)
 from robo47.checks import Array
 from robo47.inspector import words
 from robo47.inspector.page import Page
 from robo47.inspector.tab import Tab
 
-RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
+RATE, HZ = 100.0, 50.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # Nm/rad of the hand; Nm s/rad of the elbow
 PULL = 100.0  # N per metre that the handle is away
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
@@ -115,7 +124,7 @@ class Touch(Tab):
             J = now.J_site
             Lambda = task_space.task_inertia(J, now.M)
             D = task_space.critical_damping(K, Lambda)
-            e = jacobian.pose_error(now.T_world_ee, T_goal)
+            e = touch.pose_error(now.T_world_ee, T_goal)
             F = task_space.spring_wrench(e, -J @ qd, np.diag(K), D)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             idle = task_space.null_torque(J, now.M, Lambda, back)
@@ -143,7 +152,7 @@ class Touch(Tab):
             for name, T in poses.items()
             if name.startswith("body:link")
         })  # fmt: skip
-        mass = np.linalg.inv(now.J_site[3:] @ np.linalg.solve(now.M, now.J_site[3:].T))
+        mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
         self.mass.show(mass, hand, LONG)
         end = hand + np.where(self.force, self.force, 1e-4) / PULL
         self.arrow.points = np.array([[hand, end]], dtype=np.float32)
@@ -169,7 +178,7 @@ def _over_the_table() -> Array:
 
 
 def _three(v: Array) -> str:
-    return ", ".join(f"{x:.1f}" for x in v + 0.0)
+    return ", ".join(f"{x:.1f}" for x in np.round(v, 1) + 0.0)
 
 
 TABS = [Touch]

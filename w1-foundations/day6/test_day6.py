@@ -87,20 +87,6 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
         assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
 
 
-def test_the_circle_starts_at_rest_and_its_parts_are_each_others_rates():
-    T0, h = np.eye(4), 1e-4
-    T, V, _ = touch.circle(0.0, T0, 0.12, 2.0)
-    assert_same(T, T0)
-    assert_same(V, np.zeros(6))
-    for t in (0.3, 0.8, 1.4, 2.3):
-        around = [touch.circle(t + k * h, T0, 0.12, 2.0) for k in (-1, 0, 1)]
-        p = [T[:3, 3] for T, _, _ in around]
-        V = [V for _, V, _ in around]
-        assert_same((p[2] - p[0]) / (2 * h), V[1][3:], 1e-7)
-        assert_same((V[2] - V[0]) / (2 * h), around[1][2], 1e-6)
-        assert np.hypot(p[1][1], p[1][2] - 0.12) == pytest.approx(0.12)
-
-
 def test_the_inertias_of_mistakes_at_ready(motors):
     now = motors[1].at(lab.READY_Q)
     J, M, right = now.J_site, now.M, lab.task_inertia(now.J_site, now.M)

@@ -217,7 +217,7 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
         J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
         if height:
             T_goal[2, 3] = height(t)
-        e = jacobian.pose_error(now.T_world_ee, T_goal)
+        e = touch.pose_error(now.T_world_ee, T_goal)
         D = critical_damping(stiffness, Lambda)
         wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
@@ -240,7 +240,7 @@ def circling(arm, project):
     def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
         now, Lambda, drift = hand_of(arm, q, qd)
         J, (T, V, A) = now.J_site, touch.circle(t, T_start, RADIUS, TURN)
-        e = jacobian.pose_error(now.T_world_ee, T)
+        e = touch.pose_error(now.T_world_ee, T)
         acc = A + 2 * OMEGA * (V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
         back = control.pd_torque(READY_Q - q, -qd, *ELBOW)
@@ -289,7 +289,7 @@ def main() -> int:
     lab.step("4. A hand that is a spring")
     lab.check("spring_wrench - the library's", found["spring"])
     lab.check("critical_damping - the library's", found["damping"])
-    lab.check("impedance_torque, pushed back: joints", found["impedance"])
+    lab.check("impedance_torque against MuJoCo's push", found["impedance"])
     start = simulate.start(model, READY_Q)
     push = simulate.push_at(SITE, PUSH)
     law = soft_hand(arm, READY_Q)
