@@ -193,7 +193,7 @@ def test_the_predictions_of_the_side_quest():
 
 
 def test_47_is_written_within_half_a_millimetre():
-    written = folder.load(DAY, "letters").write()
+    written = folder.load(DAY, "letters").write(lab)
     off = np.linalg.norm(written.wanted - written.reached, axis=1)
     assert off.max() < 5e-4  # measured 2.0e-4
     assert written.torque < 0.9  # measured 0.45
