@@ -2,7 +2,7 @@
 
     python scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python scripts/grade_class.py CLONES --day 1-7      a week, or all: --day all
+    python scripts/grade_class.py CLONES --day 1-7         a week; or --day all
     python scripts/grade_class.py CLONES --pull          update the clones first
     python scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
@@ -188,7 +188,7 @@ def main() -> int:
     if several:
         write(out, as_csv(week))
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
-    tell(tally, out, "a folder for each day" if several else "feedback/")
+    tell(tally, week, out)
     return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
 
 
@@ -217,14 +217,15 @@ def grade_day(
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
-    for task, mistake, number in week.mistakes[day.number]:
-        print(f"  {number:4}  {task}  {mistake}")
 
 
-def tell(tally: Tally, out: Path, beside: str) -> None:
+def tell(tally: Tally, week: Week, out: Path) -> None:
     """Print what came out of all days."""
     kept = tally.results - tally.graded_now - tally.faults
     print(f"graded now: {tally.graded_now:,}; unchanged since: {kept:,}")
+    several = len(week.days) > 1  # then the page has them, day by day
+    for task, mistake, number in [] if several else week.mistakes[week.days[0].number]:
+        print(f"  {number:4}  {task}  {mistake}")
     if tally.notes:
         print(f"not pulled: {len(tally.notes):,}; the column error says why")
     if tally.faults:
@@ -236,6 +237,7 @@ def tell(tally: Tally, out: Path, beside: str) -> None:
     for line in tally.odd:
         print(line)
     page = shown((out.parent / "class.html").absolute())
+    beside = "a folder for each day" if several else "feedback/"
     print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {page}")
 
 

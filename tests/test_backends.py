@@ -8,6 +8,8 @@ from conftest import need
 from robo47.errors import Robo47Error
 from robo47.figures import backends
 
+pytestmark = pytest.mark.kit
+
 
 @pytest.fixture(autouse=True)
 def clean_slate(monkeypatch, tmp_path):

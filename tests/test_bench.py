@@ -13,6 +13,8 @@ from bench import bench_dynamics, bench_fk, bench_growth, bench_ik, table, timin
 from conftest import ROOT
 from robo47 import kinematics, panda, verify
 
+pytestmark = pytest.mark.kit
+
 RESULTS = ROOT / "bench" / "results.json"
 
 

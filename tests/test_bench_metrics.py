@@ -3,6 +3,10 @@
 import runpy
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.kit
+
 BENCH = Path(__file__).parent.parent / "bench" / "bench_metrics.py"
 
 

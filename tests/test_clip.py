@@ -9,6 +9,8 @@ from robo47.errors import Robo47Error
 from robo47.figures import client, clip
 from robo47.figures.portrait import link_frames, with_fingers
 
+pytestmark = pytest.mark.kit
+
 
 def noise(count, size=(200, 160)):
     rng = np.random.default_rng(0)

@@ -12,6 +12,8 @@ from robo47.diagnose.rounds import parts, stacked
 from robo47.lesson import folder
 from robo47.lesson.day import all_days
 
+pytestmark = pytest.mark.kit
+
 MODULES = {day.number: folder.load(day, "questions") for day in all_days()}
 ROWS = [
     pytest.param(number, name, ask, id=f"day{number}/{name}")

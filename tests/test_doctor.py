@@ -11,6 +11,8 @@ import pytest
 from robo47 import doctor
 from robo47.paths import ROOT
 
+pytestmark = pytest.mark.kit
+
 
 @pytest.fixture
 def answers(monkeypatch):

@@ -10,6 +10,8 @@ from robo47 import dynamics_batch, panda, se3, verify
 from robo47.arm import Arm
 from robo47.links import links_of
 
+pytestmark = pytest.mark.kit
+
 N = 300
 
 

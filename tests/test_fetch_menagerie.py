@@ -11,6 +11,8 @@ import pytest
 from conftest import ROOT
 from robo47 import menagerie
 
+pytestmark = pytest.mark.kit
+
 SCRIPT = "scripts/fetch_menagerie.py"
 NOWHERE = "http://127.0.0.1:9"  # the discard port: refused at once
 

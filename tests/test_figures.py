@@ -20,6 +20,8 @@ if not os.environ.get("ROBO47_CI"):
 
 from robo47.figures import client, overlay, portrait, studio
 
+pytestmark = pytest.mark.kit
+
 SMALL = (300, 200)
 AXIS_COLOURS = (overlay.X, overlay.Y, overlay.Z)
 

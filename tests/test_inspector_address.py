@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from robo47.inspector import address
 
+pytestmark = pytest.mark.kit
+
 
 @given(st.lists(st.floats(-100, 100), min_size=7, max_size=7))
 def test_every_digit_of_a_configuration_survives(q):

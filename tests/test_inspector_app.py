@@ -15,6 +15,8 @@ from robo47.inspector.ghost import Ghost, Seen
 from robo47.inspector.tab import DayTabs, Tab, day_tabs
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 if importlib.util.find_spec("viser") is None:
     need(False, "viser: make view")  # pragma: no cover
 

@@ -11,6 +11,8 @@ from robo47 import panda, verify
 from robo47.inspector import words
 from robo47.inspector.arm import AGREES, END, Arm
 
+pytestmark = pytest.mark.kit
+
 
 @pytest.fixture
 def arm(either_panda) -> Arm:

@@ -6,6 +6,8 @@ import pytest
 
 from robo47.inspector.checks import Checks, Standing, TaskState, standing
 
+pytestmark = pytest.mark.kit
+
 PASSED = TaskState("1.1", "make_T", "passed", "")
 WRONG = TaskState("1.2", "Rz", "wrong", "sin and cos are swapped", "swapped")
 TODO = TaskState("1.3", "inverse", "todo", "not written yet")

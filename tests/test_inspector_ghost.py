@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from robo47 import se3
 from robo47.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose, no_pose
 
+pytestmark = pytest.mark.kit
+
 FRAMES = ("link0", "link1", "ee")
 GHOST = Ghost("my_fk", FRAMES, lambda model, q: [()] * 3)
 TRUTH = {

@@ -11,6 +11,8 @@ from inspection import SECONDS, Served
 
 from conftest import need
 
+pytestmark = pytest.mark.kit
+
 
 def here(module: str) -> bool:
     return importlib.util.find_spec(module) is not None

@@ -10,6 +10,8 @@ from robo47.checker.replies import LoadError, Question, Reply
 from robo47.inspector.ghost import Ghost
 from robo47.inspector.student import Source, Student
 
+pytestmark = pytest.mark.kit
+
 SECONDS = 20
 GHOST = Ghost(
     "my_fk", ("link0", "ee"), lambda model, q: [(1.0,), (2.0,)], lambda model, q: (3.0,)

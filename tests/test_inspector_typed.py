@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from robo47.inspector.controls import typed
 from robo47.inspector.typed import number
 
+pytestmark = pytest.mark.kit
+
 
 @pytest.mark.parametrize(
     ("text", "value"),

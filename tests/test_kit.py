@@ -10,6 +10,8 @@ import pytest
 
 from conftest import ROOT, need
 
+pytestmark = pytest.mark.kit
+
 
 @pytest.fixture
 def bare():

@@ -16,6 +16,8 @@ from PIL import Image
 
 from robo47.figures import overlay, portrait
 
+pytestmark = pytest.mark.kit
+
 FOLDER = ROOT / "w1-foundations" / "figures"
 SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 800)}
 

@@ -21,6 +21,8 @@ from robo47.metrics.header import LINE
 from robo47.metrics.logfile import locked
 from robo47.metrics.scan import scan
 
+pytestmark = pytest.mark.kit
+
 PAD = 110  # the rest of a row
 
 # Each waits for the start, so that all run at once; each says what was accepted.

@@ -8,6 +8,8 @@ from robo47.checker.inside import fake_model, wire
 from robo47.checker.model_copy import copy_model
 from robo47.checker.replies import Model, Question
 
+pytestmark = pytest.mark.kit
+
 
 class TestTheFakeMjModel:
     """It reads like the real one, whichever way a student goes about it."""

@@ -22,6 +22,8 @@ import numpy as np
 from robo47.errors import Robo47Error
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
 DAY = find_day(1)
 LOGGING = 'sys.argv = ["day1_transforms"]'

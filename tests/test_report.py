@@ -20,6 +20,8 @@ from robo47.report import page, plot
 from robo47.report.series import Report, Series, collect
 from robo47.report.thresholds import load
 
+pytestmark = pytest.mark.kit
+
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "scripts" / "report_metrics.py"
 LIMITS = {(1, "fk", "err"): Metric("fk", "err", max=1e-8)}

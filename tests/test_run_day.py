@@ -6,6 +6,8 @@ from robo47 import originals
 from robo47.errors import Robo47Error
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 RUN, WEEK, START = "scripts/run_day.py", "scripts/run_week.py", "scripts/start_day.py"
 
 

@@ -12,6 +12,8 @@ import pythons
 
 from conftest import ROOT
 
+pytestmark = pytest.mark.kit
+
 NOW = sys.version_info[:2]
 
 

@@ -12,6 +12,8 @@ from inspection import SCRIPT, Served
 
 from conftest import ROOT, need
 
+pytestmark = pytest.mark.kit
+
 VIEW = "scripts/view_panda.py"
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
 ON_LINUX = sys.platform.startswith("linux")

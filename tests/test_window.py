@@ -10,6 +10,8 @@ import pytest
 
 from robo47 import panda, window
 
+pytestmark = pytest.mark.kit
+
 
 def test_no_display_is_an_obstacle_on_linux(monkeypatch):
     monkeypatch.setattr(sys, "platform", "linux")

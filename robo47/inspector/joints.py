@@ -14,7 +14,7 @@ from robo47.inspector.tab import Tab
 RANDOM, UNDO = "random", "undo"
 # "home" is two things in this course; the text under the buttons says which is which.
 ABOUT = (
-    "ready is the lab's READY_Q, home the model file's own key. Arrow keys move a joint "
+    "ready is READY_Q of the labs, home the model's own key. Arrow keys move a joint "
     "by 0.01 rad, with Shift by 0.1, with Alt by 0.001. Type pi/2 or 90 deg."
 )
 

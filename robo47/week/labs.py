@@ -70,7 +70,7 @@ def days_of(week: int, root: Path = ROOT) -> list[Day]:
 
 def name_of(day: Day, metric: Metric) -> str:
     """Return what to call a number: its check, with the metric where it has several."""
-    alone = [m.check for m in day.metrics].count(metric.check) == 1
+    alone = [m.check for m in day.metrics].count(metric.check) < 2
     return metric.check if alone else f"{metric.check} {metric.metric}"
 
 

@@ -110,6 +110,8 @@ class Screws(Tab):
         partly[:JOINTS] *= applied
         poses = kinematics.fk_all(self.page.model, partly)
         bodies = [name for name in poses if name.startswith("body:")]
+        if self.roulette:  # five arms are enough
+            bodies = []
         self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
         i = JOINTS - max(int(np.ceil(self.done)), 1)
         self.lit.points = self._ends(i).astype(np.float32)
@@ -153,8 +155,7 @@ class Screws(Tab):
         for arm in self.arms:
             arm.visible = shown
         self.legend.content = ""
-        if shown:
-            self._roulette(self.page.q)
+        self.on_move(self.page.q)
 
     def _roulette(self, q: Array) -> None:
         if not self.roulette:

@@ -1,0 +1,141 @@
+"""Grading several days: one table for a learning platform, one page, a folder a day."""
+
+import csv
+import io
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT, environment_of
+
+pytestmark = pytest.mark.kit
+SCRIPT = "scripts/grade_class.py"
+TOY = ROOT / "tests" / "toyday" / "w9-toy"
+STUDENTS = {"ada": (1, 46), "bob": (1,), "eve": ()}  # and the days they have solved
+SCRIPTS = {
+    1: "w1-foundations/{}/day1_transforms.py",
+    46: "w9-toy/{}/day46_toy.py",
+}
+
+
+@pytest.fixture(scope="module")
+def kit(tmp_path_factory):
+    """Return a copy of the kit with day 1 and the toy day in it, and no other."""
+    copy = tmp_path_factory.mktemp("kit") / "clone"
+    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+        skipped = shutil.ignore_patterns("__pycache__", "work", "day[2-9]")
+        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    shutil.copytree(TOY, copy / "w9-toy")
+    return copy
+
+
+@pytest.fixture(scope="module")
+def run(kit):
+    def run_script(*arguments):
+        return subprocess.run(
+            [sys.executable, str(kit / SCRIPT), *map(str, arguments), "--i-know-them"],
+            cwd=kit,
+            env=environment_of(kit),
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=300,
+            check=False,
+        )
+
+    return run_script
+
+
+@pytest.fixture(scope="module")
+def graded(kit, run, tmp_path_factory):
+    """Grade a class of three for both days; return the process and its folder."""
+    folder = tmp_path_factory.mktemp("class")
+    for name, days in STUDENTS.items():
+        (folder / "clones" / name).mkdir(parents=True)
+        for day in days:
+            work = folder / "clones" / name / SCRIPTS[day].format("work")
+            work.parent.mkdir(parents=True)
+            shutil.copyfile(kit / SCRIPTS[day].format("src"), work)
+    roster = (
+        "name,folder,email\n=Ada,ada,ada@example.org\nBob,bob,\nEve,eve,\nNo,nobody,\n"
+    )
+    (folder / "clones" / "roster.csv").write_text(roster, "utf-8")
+    out = folder / "out" / "grades.csv"
+    done = run(folder / "clones", "--day", "1-46", "--out", out)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done, folder
+
+
+def rows(file):
+    text = file.read_bytes().decode("utf-8-sig")
+    return {row["folder"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def test_one_table_holds_everybody_and_every_day(graded):
+    found = rows(graded[1] / "out" / "grades.csv")
+    ada, bob, eve, nobody = (found[name] for name in ("ada", "bob", "eve", "nobody"))
+    assert (ada["id"], ada["name"]) == ("ada@example.org", "'=Ada")
+    assert [ada[f"day{n}_percent"] for n in (1, 46)] == ["100.0", "100.0"]
+    assert [bob[f"day{n}_percent"] for n in (1, 46)] == ["100.0", "0.0"]
+    assert ada["percent"] == "100.0"
+    assert bob["percent"] == "53.3"  # 8 of 15: the toy day's side quest counts nowhere
+    assert eve["percent"] == "0.0"
+    assert (nobody["percent"], nobody["day1_percent"]) == ("", "")
+    assert "day 46: there is no such folder" in nobody["error"]
+
+
+def test_each_day_has_a_folder_as_if_it_were_graded_alone(graded, run, tmp_path):
+    _, folder = graded
+    for day in SCRIPTS:
+        own = folder / "out" / f"day{day}"
+        names = {path.name for path in own.iterdir()}
+        assert names == {"grades.csv", "class.html", "feedback", "grading.jsonl"}
+        text = (own / "feedback" / "ada.txt").read_text("utf-8")
+        assert f"Day {day}" in text
+    alone = tmp_path / "grades.csv"
+    assert run(folder / "clones", "--day", "46", "--out", alone).returncode == 0
+    week = folder / "out" / "day46" / "grades.csv"
+    assert alone.read_bytes() == week.read_bytes()
+
+
+def test_the_page_leads_to_the_days_and_stays_harmless(graded):
+    page = (graded[1] / "out" / "class.html").read_text("utf-8")
+    assert '<a href="day46/class.html">' in page
+    assert "Days 1 to 46" in page
+    assert "2 of 4 done" in page
+    assert "<script" not in page
+
+
+def test_it_is_told_in_a_line_a_day(graded):
+    lines = graded[0].stdout.splitlines()
+    assert lines[1].startswith("Day 1, 4 students: 2 done")
+    assert lines[2].startswith("Day 46, 4 students: 1 done")
+    assert lines[3] == "graded now: 8; unchanged since: 0"
+    assert max(map(len, lines[1:4])) <= 80
+
+
+def test_the_same_command_grades_nothing_twice(graded, run):
+    _, folder = graded
+    out = folder / "out" / "grades.csv"
+    before = out.read_bytes()
+    done = run(folder / "clones", "--day", "all", "--out", out)
+    assert "graded now: 0; unchanged since: 8" in done.stdout
+    assert out.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("day", "says"),
+    [
+        ("monday", "--day monday: expected a day (2), days (1-7), or all"),
+        ("7-3", "the kit has none of the days 7 to 3"),
+        ("2-9", "the kit has none of the days 2 to 9"),
+        ("5", "there is no day 5 yet; the kit has: 1, 46"),
+    ],
+)
+def test_days_that_are_none_are_refused_in_a_line(graded, run, day, says):
+    done = run(graded[1] / "clones", "--day", day)
+    assert done.returncode == 2
+    assert says in done.stderr
+    assert done.stderr.count("\n") == 1

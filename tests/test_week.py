@@ -1,0 +1,248 @@
+"""A week as a whole: its labs in one table, its numbers, its page, its diary."""
+
+import json
+import os
+import subprocess
+from dataclasses import replace
+
+import pytest
+
+from robo47.checker.deliverables.rows import file_mark
+from robo47.checker.journal import Met
+from robo47.errors import Robo47Error
+from robo47.lesson.day import Metric, find_day
+from robo47.report.series import Series
+from robo47.week import page, retro
+from robo47.week.facts import DayFacts, hints_given, minutes_of
+from robo47.week.labs import days_of, name_of, week_of
+from robo47.week.numbers import Number, numbers_of
+
+RUN_WEEK, REPORT = "scripts/run_week.py", "scripts/report_metrics.py"
+SMALL = Metric("fk", "err", max=1e-8)
+SHARE = Metric("right", "share", min=0.95)
+
+
+@pytest.fixture
+def day(clone):
+    return find_day(1, clone)
+
+
+@pytest.fixture
+def begun(day):
+    """Begin the day with the kit's solution, in a file of one's own."""
+    day.work.parent.mkdir()
+    for name in ("kit.py", day.script):
+        text = day.source.with_name(name).read_text("utf-8")
+        day.work.with_name(name).write_text(text + "# mine\n", "utf-8")
+    return day
+
+
+def facts(day, **changed):
+    number = Number(SMALL, 1e-15, 0.5, 2e-15, 3)
+    met = [Met("1.3", "t-not-negated", True), Met("1.8", "chain-reversed", False)]
+    return replace(DayFacts(day, [number], 7, 8, 8, 9, 200, 4, met), **changed)
+
+
+def test_a_week_has_the_days_of_its_folder(day, clone):
+    assert {week_of(one) for one in days_of(1, clone)} == {1}
+    with pytest.raises(Robo47Error, match="no week 99 yet; the kit has: 1"):
+        days_of(99, clone)
+
+
+def test_a_number_is_called_by_its_check_and_by_its_metric_where_there_are_two(day):
+    metrics = (SMALL, SHARE, Metric("right", "other", max=1.0))
+    both = replace(day, metrics=metrics)
+    assert [name_of(both, m) for m in metrics] == ["fk", "right share", "right other"]
+
+
+def test_the_weeks_labs_stand_in_one_table(run_in, begun):
+    done = run_in(RUN_WEEK)
+    assert done.returncode == 0, done.stdout + done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0].split() == ["day", "whose", "number", "value", "limit"]
+    own = [line for line in lines if line.startswith("1    yours")]
+    assert len(own) == len(begun.metrics)
+    assert all(line.endswith("PASS") for line in own)
+    assert max(map(len, lines)) <= 80
+
+
+@pytest.mark.kit
+def test_a_lab_that_fails_is_named_with_its_reason(run_in, begun):
+    begun.work.write_text("raise SystemExit('error: no idea')\n")
+    done = run_in(RUN_WEEK)
+    assert done.returncode == 1
+    text = " ".join(done.stdout.split())
+    assert "day 1 did not pass: error: no idea. See: make run DAY=1" in text
+    assert "none" in done.stdout
+
+
+def row(value, script, when="2026-09-01"):
+    mark = file_mark(script)
+    return {"value": value, "notes": f"limit 1e-8; {mark}", "date": when}
+
+
+def numbers(day, metric, *rows):
+    day = replace(day, metrics=(metric,))
+    series = Series((day.number, metric.check, metric.metric), metric)
+    series.rows = list(rows)
+    key = (day.number, metric.check, metric.metric)
+    (found,) = numbers_of(day, {key: series})
+    return found
+
+
+def test_the_students_numbers_and_the_kits_are_told_apart(day):
+    kit, own = day.source.read_bytes(), b"my own"
+    rows = (
+        row(0.3, own),
+        row(2e-15, kit),
+        row(1e-15, own),
+        {**row(9, own), "notes": ""},
+    )
+    found = numbers(day, SMALL, *rows)
+    assert (found.latest, found.worst, found.kit, found.runs) == (1e-15, 0.3, 2e-15, 2)
+    assert found.passed
+
+
+def test_the_worst_is_the_smallest_where_a_minimum_is_asked_for(day):
+    found = numbers(day, SHARE, row(0.2, b"a"), row(1.0, b"a"))
+    assert (found.latest, found.worst, found.passed) == (1.0, 0.2, True)
+
+
+def test_a_number_that_is_none_is_the_worst_of_all(day):
+    found = numbers(day, SMALL, row(float("nan"), b"a"), row(5.0, b"a"))
+    assert found.worst != found.worst
+    assert not found.passed
+
+
+def test_without_rows_there_are_no_numbers(day):
+    found = numbers(day, SMALL)
+    assert (found.latest, found.worst, found.kit, found.passed) == (None,) * 3 + (
+        False,
+    )
+
+
+def commit(clone, path, when):
+    (clone / path).parent.mkdir(exist_ok=True)
+    with (clone / path).open("a") as file:
+        file.write("more\n")
+    who = {
+        f"GIT_{r}_{f}": "a@b"
+        for r in ("AUTHOR", "COMMITTER")
+        for f in ("NAME", "EMAIL")
+    }
+    environment = {**os.environ, **who, "GIT_COMMITTER_DATE": f"{when} +0000"}
+    for step in (["add", "-f", path], ["commit", "-qm", "x", "--", path]):
+        subprocess.run(["git", *step], cwd=clone, env=environment, check=True)
+
+
+def test_the_minutes_of_a_day_are_those_between_its_commits(clone, day):
+    subprocess.run(["git", "init", "-q"], cwd=clone, check=True)
+    script, sheet = (
+        f"w1-foundations/work/{day.script}",
+        f"w1-foundations/{day.worksheet}",
+    )
+    assert minutes_of(day, clone) is None
+    commit(clone, sheet, 1_700_000_000)  # the kit's own
+    assert minutes_of(day, clone) is None
+    commit(clone, script, 1_800_000_000)
+    assert minutes_of(day, clone) is None
+    commit(clone, script, 1_800_003_600)
+    commit(clone, sheet, 1_800_007_200)
+    assert minutes_of(day, clone) == 120
+
+
+@pytest.mark.parametrize("text", ["", "[1]", '{"1.1": "many"}', '{"1.1": null}'])
+def test_hints_that_cannot_be_read_are_none(tmp_path, text):
+    (tmp_path / ".robo47").mkdir()
+    file = tmp_path / ".robo47" / "hints.json"
+    file.write_text(text)
+    assert hints_given(tmp_path) == {}
+    file.write_text(json.dumps({"1.1": 2}))
+    assert hints_given(tmp_path) == {"1.1": 2}
+
+
+@pytest.mark.parametrize(
+    ("minutes", "says"),
+    [(None, "–"), (50, "50 min"), (200, "3 h 20 min"), (2880, "2.0 days")],
+)
+def test_a_time_is_said_as_people_say_it(minutes, says):
+    assert page.minutes_in_words(minutes) == says
+
+
+def test_the_page_shows_the_week(day):
+    html = page.render([facts(day)], "of my log")
+    for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
+        assert words in html
+    assert "t not negated <span class=pass>✓ left behind" in html
+    assert "chain reversed still there" in html
+
+
+def test_no_text_of_a_journal_becomes_a_script(day):
+    evil = "<script>alert(1)</script>"
+    html = page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
+    assert "<script" not in html
+    assert "default-src 'none'" in html
+
+
+BEFORE, AFTER = (
+    b"# Mine\r\n<!-- numbers -->\r\n",
+    b"<!-- end -->\r\n\xc3\xa9 mine too\r\n",
+)
+
+
+@pytest.fixture
+def diary(begun):
+    file = begun.folder / "docs" / "RETRO_w1.md"
+    file.write_bytes(BEFORE + b"old\r\n" + AFTER)
+    return file
+
+
+def test_a_retrospective_gets_its_numbers_and_nothing_else_changes(begun, diary):
+    assert retro.fill([facts(begun)]) == [diary]
+    text = diary.read_bytes()
+    assert text.startswith(BEFORE)
+    assert text.endswith(AFTER)
+    assert b"| 1 | fk | 1.0e-15 | 0.5 | under 1e-08 |\r\n" in text
+    assert b"old" not in text
+    assert b"Tasks passed: 7 of 8. Functions of my own: 8 of 9.\r\n" in text
+    assert b"\n" not in text.replace(b"\r\n", b"")
+    assert retro.fill([facts(begun)]) == []
+
+
+def test_hints_stay_out_of_what_is_handed_in(begun):
+    assert "hint" not in retro.as_markdown([facts(begun, hints=4)])
+
+
+@pytest.mark.parametrize("text", [b"mine\n", AFTER + BEFORE, (BEFORE + AFTER) * 2])
+def test_without_its_marks_a_retrospective_is_left_alone(begun, diary, text):
+    diary.write_bytes(text)
+    assert retro.fill([facts(begun)]) == []
+    assert diary.read_bytes() == text
+
+
+def test_nobodys_numbers_are_written_nowhere(day):
+    file = day.folder / "docs" / "RETRO_w1.md"
+    file.write_bytes(BEFORE + AFTER)
+    assert retro.fill([facts(day)]) == []
+    assert file.read_bytes() == BEFORE + AFTER
+
+
+@pytest.mark.kit
+def test_make_report_writes_the_weeks_page_from_what_was_done(
+    run_in, begun, clone, diary
+):
+    wrong = begun.own / "submissions" / "wrong" / "inverse_no_minus.py"
+    solved = begun.work.read_text("utf-8")
+    begun.work.write_text(wrong.read_text("utf-8"), "utf-8")
+    run_in("scripts/check_day.py", "1")
+    begun.work.write_text(solved, "utf-8")
+    run_in("scripts/check_day.py", "1")
+    assert run_in("scripts/run_day.py", "1").returncode == 0
+    done = run_in(REPORT)
+    assert done.returncode == 0, done.stderr
+    assert "wrote metrics/report-week1.html" in done.stdout
+    html = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "8 of 8" in html
+    assert "t not negated <span class=pass>✓ left behind" in html
+    assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
+    assert "report-week" not in run_in(REPORT, "--day", "1").stdout
