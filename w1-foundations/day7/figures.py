@@ -82,7 +82,7 @@ def forty_seven() -> Image.Image:
     written = letters.write(day7_trajectory)
     camera = Camera((0.3, 0.0, 0.42), 2.0, np.radians(20.0), np.radians(-8.0))
     scene = Scene(portrait.with_fingers(written.q), SIZE, camera, fast=False)
-    on_board = np.abs(written.reached[:, 0] - letters.BOARD) < 2e-3
+    on_board = np.abs(written.reached[:, 0] - letters.BOARD) < 5e-4
     ends = np.flatnonzero(np.diff(on_board)) + 1
     pieces = np.split(written.reached, ends)
     return _with_way(scene, pieces[0 if on_board[0] else 1 :: 2])
