@@ -1,14 +1,13 @@
 """The demo of Day 7: the hand writes 47 in the air, stroke by stroke.
 
-Each stroke is the lab's `straight_pose` under its `quintic_scaling`, followed with Day
-6's operational-space torque; the elbow is held where it began. Metres, seconds.
+Each stroke is a `straight_pose` under a `quintic_scaling`, followed with Day 6's
+operational-space torque; the elbow is held where it began. Metres, seconds.
 """
 
 import itertools
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from day7_trajectory import quintic_scaling, straight_pose
 
 from robo47 import control, jacobian, panda, simulate, task_space
 from robo47.arm import ArmState
@@ -42,16 +41,22 @@ class Written(NamedTuple):
         reached: metres.
         seconds: all strokes together.
         torque: largest share of a motor's limit.
+        q: where the arm ends, (7,).
     """
 
     wanted: Array
     reached: Array
     seconds: float
     torque: float
+    q: Array
 
 
-def write() -> Written:
-    """Simulate it, from the first corner on."""
+def write(fns: Any) -> Written:
+    """Simulate it, from the first corner on.
+
+    Args:
+        fns: has `quintic_scaling` and `straight_pose`: the lab, or the library.
+    """
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
     poses = np.tile(arm.at(panda.READY_Q).T_world_ee, (len(CORNERS), 1, 1))
@@ -65,8 +70,8 @@ def write() -> Written:
         T = np.ceil(15 / 8 * np.linalg.norm(way[3:]) / SPEED * RATE) / RATE
 
         def controller(t: float, q: Array, qd: Array) -> Array:
-            s, sd, sdd = quintic_scaling(t, T)  # noqa: B023 (called in this round)
-            now, T_ref = arm.at(q), straight_pose(T0, T1, s)  # noqa: B023
+            s, sd, sdd = fns.quintic_scaling(t, T)  # noqa: B023 (called in this round)
+            now, T_ref = arm.at(q), fns.straight_pose(T0, T1, s)  # noqa: B023
             wanted.append(T_ref[:3, 3])
             reached.append(now.T_world_ee[:3, 3])
             ed = sd * way - now.J_site @ qd  # noqa: B023
@@ -77,7 +82,7 @@ def write() -> Written:
         run = simulate.run(model, data, controller, T, rate=RATE)
         torque = max(torque, float((np.abs(run.tau) / tau_max).max()))
         seconds += T
-    return Written(np.array(wanted), np.array(reached), seconds, torque)
+    return Written(np.array(wanted), np.array(reached), seconds, torque, run.q[-1])
 
 
 def torques(now: ArmState, away: Array, qd: Array, acc: Array) -> Array:

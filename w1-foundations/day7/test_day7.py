@@ -1,6 +1,9 @@
 """Day 7's lab: its functions against oracles; the numbers in the guide's sentences."""
 
+import importlib.util
 import re
+import time
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -10,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, need
 from robo47 import capstone, panda, scenes, se3, simulate, trajectory
 from robo47.lesson import folder
 from robo47.lesson.day import find_day
@@ -93,8 +96,6 @@ def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
 
 def _mistakes(module, of):
     folder.load(DAY, "questions")
-    import importlib
-
     return getattr(importlib.import_module(f"lesson_day7.mistakes.{module}"), of)
 
 
@@ -193,7 +194,7 @@ def test_the_predictions_of_the_side_quest():
 
 
 def test_47_is_written_within_half_a_millimetre():
-    written = folder.load(DAY, "letters").write()
+    written = folder.load(DAY, "letters").write(lab)
     off = np.linalg.norm(written.wanted - written.reached, axis=1)
     assert off.max() < 5e-4  # measured 2.0e-4
     assert written.torque < 0.9  # measured 0.45
@@ -202,11 +203,53 @@ def test_47_is_written_within_half_a_millimetre():
 
 def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", [SCRIPT, "--no-log"])
-    for name in ("TRIALS",):
-        monkeypatch.setattr(lab, name, 20)
+    monkeypatch.setattr(lab, "TRIALS", 20)
     monkeypatch.setattr(lab, "heaviest_cube", lambda grip, mu, a: mu * grip / 9.81)
     assert lab.main() == 1
     said = capsys.readouterr().out
     assert "The arm stays off" in said
     assert "8. Pick" not in said
     assert simulate.SPEED_LIMITS is lab.V_MAX
+
+
+# --- the inspector's tab, without a browser ---
+
+
+def _plan():
+    for module in ("viser", "robo47.inspector.tab"):
+        need(importlib.util.find_spec(module) is not None, f"{module}: make view")
+    inspector = folder.load(DAY, "inspector")
+    page = MagicMock(model=panda.load("panda"), q=np.append(panda.READY_Q, [0.0, 0.0]))
+    page.animate.side_effect = lambda step: MagicMock(running=False, step=step)
+    return inspector, page, inspector.Plan(page)
+
+
+def test_the_tab_plans_the_labs_move_with_the_labs_numbers():
+    inspector, _, tab = _plan()
+    assert_same(inspector.GOAL_Q, lab.GOAL_Q)
+    tab.go(0.5)
+    assert "0.497 of 0.995 s; 100% of a speed limit" in tab.numbers.content
+    tab.choose(inspector.TRAPEZOID)
+    assert "of 0.803 s" in tab.numbers.content
+    tab.set_hurry(1.5)
+    assert "150% of a speed limit" in tab.numbers.content
+    q, qd = tab.at(1.0)
+    assert_same(q, lab.GOAL_Q, 1e-12)
+    assert_same(qd, np.zeros(7), 1e-12)
+    assert tab.play(10.0) is False
+
+
+def test_the_tab_plays_the_capstone():
+    inspector, page, tab = _plan()
+    tab.press(inspector.PICK)
+    assert tab.replay(0.0)
+    for _ in range(600):  # until the thread is ready
+        if tab.done is not None:
+            break
+        time.sleep(0.1)
+    assert tab.replay(1.0)
+    assert "reach, 0.0 s" in tab.numbers.content
+    assert tab.replay(4.0)
+    assert "carry" in tab.numbers.content or "lift" in tab.numbers.content
+    assert tab.replay(20.0) is False
+    assert "placed 0.9 mm from its goal" in page.say.call_args.args[0]
