@@ -1,0 +1,161 @@
+"""What a hand goes through: it is pushed, presses on a table, draws a circle.
+
+The motions to follow and what MuJoCo says of the hand; no controller. Twists,
+accelerations and errors are (angular; linear), wrenches (moment; force), in world axes.
+Metres, radians, newtons, seconds.
+"""
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, jacobian, panda, scenes, simulate
+from robo47.arm import Arm
+from robo47.checks import Array
+from robo47.panda import READY_Q
+
+SITE = "attachment_site"
+SPEED_UP = 1.0  # s, in which the hand gathers speed on its circle
+STEP = 3e-4  # s, of the differences of J: leaves 1e-11
+
+
+def circle(
+    t: float, T_start: ArrayLike, radius: float, turn: float
+) -> tuple[Array, Array, Array]:
+    """Return where a hand should be that sets off from rest on an upright circle.
+
+    The circle is in the plane of y and z, above the start. The speed grows as a raised
+    cosine for one second, then it stays.
+
+    Args:
+        t: seconds since the start.
+        T_start: pose of the hand at t = 0, (4, 4).
+        radius: metres.
+        turn: seconds for one turn at full speed.
+
+    Returns:
+        Its pose, (4, 4), twist, (6,), and acceleration, (6,).
+    """
+    w, u = 2.0 * np.pi / turn, min(t / SPEED_UP, 1.0)
+    ease = u / 2.0 - np.sin(np.pi * u) / (2.0 * np.pi)
+    angle = w * (SPEED_UP * ease + max(t - SPEED_UP, 0.0))
+    speed = w * (1.0 - np.cos(np.pi * u)) / 2.0
+    gain = w * np.pi * np.sin(np.pi * u) / (2.0 * SPEED_UP)
+    c, s = radius * np.cos(angle), radius * np.sin(angle)
+    T, V, A = np.array(T_start, dtype=np.float64), np.zeros(6), np.zeros(6)
+    T[1:3, 3] += s, radius - c
+    V[4:] = speed * c, speed * s
+    A[4:] = gain * c - speed**2 * s, gain * s + speed**2 * c
+    return T, V, A
+
+
+def above_table(model: mujoco.MjModel, gap: float) -> Array:
+    """Return a configuration with the tip over `scenes.PRESS_XY`, pointing down.
+
+    Args:
+        model: of `scenes.press_table`.
+        gap: between tip and table in metres; negative is deeper than the table.
+
+    Returns:
+        q, radians, (7,).
+    """
+    arm = panda.arm(model)
+    T = arm.at(READY_Q).T_world_ee.copy()
+    T[:3, 3] = *scenes.PRESS_XY, scenes.TOUCH + gap
+    ranges, _ = simulate.limits(model)
+    return jacobian.solve_ik(arm.screws, arm.M_home, T, READY_Q, ranges)
+
+
+def press(
+    controller: Callable[[Arm, Array], simulate.Controller],
+    *,
+    drive: str = "torque",
+    seconds: float = 2.0,
+    rate: float = simulate.RATE,
+) -> Array:
+    """Return how hard the tip presses on the table, from 10 mm above it on.
+
+    Args:
+        controller: from the arm and the configuration it starts at to a controller.
+        drive: "torque", or "servo" for the stiff position drives.
+        seconds: how long.
+        rate: of the controller in Hz.
+
+    Returns:
+        Newtons after each control period, (N,).
+    """
+    model = scenes.press_table(drive=drive)
+    q = above_table(model, 0.01)
+    law = controller(panda.arm(model), q)
+
+    def felt(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        return scenes.contact_force(model, data, "tip", "table_top")
+
+    run = simulate.run(
+        model, simulate.start(model, q), law, seconds, rate=rate, watch=felt
+    )
+    return np.array(run.seen)
+
+
+def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Array:
+    """Return the rate of MuJoCo's site Jacobian times qd, from differences of it.
+
+    MuJoCo's own mj_jacDot is not used: in 3.3.0 its linear rows are wrong.
+
+    Args:
+        model: the arm without a hand.
+        q: configuration in radians, (7,).
+        qd: joint velocities in rad/s, one number or (7,).
+
+    Returns:
+        The hand's acceleration at qdd = 0 in rad/s2 and m/s2, (6,), to about 1e-11.
+    """
+    return _site_bias(model, simulate.start(model, q, qd))
+
+
+def mujoco_push(
+    model: mujoco.MjModel,
+    q: ArrayLike,
+    qd: ArrayLike,
+    tau: ArrayLike,
+    wrench: ArrayLike,
+) -> tuple[Array, Array]:
+    """Return how MuJoCo's arm accelerates under torques and a push at its hand.
+
+    Args:
+        model: the arm without a hand.
+        q: configuration in radians, (7,).
+        qd: joint velocities in rad/s, one number or (7,).
+        tau: torques on the joints in Nm, on top of motors that do nothing, (7,).
+        wrench: (moment; force) at the site, by mj_applyFT, in Nm and N, (6,).
+
+    Returns:
+        Accelerations of the joints, rad/s2, (7,), and of the hand, (6,).
+    """
+    data = simulate.start(model, q, qd)
+    data.qfrc_applied[:] = checks.array(tau, "tau", (7,))
+    simulate.push_at(SITE, wrench)(model, data)
+    mujoco.mj_forward(model, data)  # fills qacc
+    joints, J = data.qacc.copy(), _site_jacobian(model, data)
+    return joints, J @ joints + _site_bias(model, data)
+
+
+def _site_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    J = np.zeros((2, 3, model.nv))
+    mujoco.mj_jacSite(model, data, J[1], J[0], model.site(SITE).id)  # v comes first
+    return J.reshape(6, model.nv)
+
+
+def _site_bias(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Return the rate of J times qd; leaves the data at another configuration."""
+    q, rate = data.qpos.copy(), np.zeros((6, model.nv))
+    if not data.qvel.any():
+        return rate[:, 0]
+    for times, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
+        data.qpos[:] = q + times * STEP * data.qvel
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)  # mj_jacSite reads what these two fill
+        rate += weight * _site_jacobian(model, data)
+    return rate @ data.qvel / (12.0 * STEP)

@@ -1,0 +1,223 @@
+"""Day 3's lab: its functions against oracles; the numbers in the guide's sentences."""
+
+import importlib
+import json
+import re
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from conftest import ROOT, load_script
+from robo47 import jacobian, panda, screws, verify
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
+
+GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").split())
+# What Pinocchio and the textbook's own package said, their rows swapped to (omega; v).
+ORACLE = ROOT / "tests" / "data" / "kinematics_oracle.json"
+QUESTIONS = folder.load(find_day(3), "questions")
+LOOPS = importlib.import_module("lesson_day3.mistakes.loops")
+
+lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
+
+
+@pytest.fixture
+def arm(either_panda):
+    return panda.screws(either_panda), panda.home_pose(either_panda)
+
+
+def own_jacobians(arm, q):
+    """Return the lab's three Jacobians at q, (n, 7)."""
+    T = screws.fk_space(*arm, q)
+    J_space = lab.each(lambda x: lab.space_jacobian(arm[0], x), q)
+    return {
+        "J_space": J_space,
+        "J_site": lab.each(lab.site_jacobian, J_space, T[:, :3, 3]),
+        "J_body": lab.each(lab.body_jacobian, J_space, T),
+    }
+
+
+@pytest.mark.parametrize(
+    ("theirs", "ours"),
+    [
+        ("WORLD", "J_space"),
+        ("LOCAL", "J_body"),
+        ("LOCAL_WORLD_ALIGNED", "J_site"),
+        ("JacobianSpace", "J_space"),
+        ("JacobianBody", "J_body"),
+    ],
+)
+def test_whose_jacobian_is_which(arm, theirs, ours):
+    oracle = json.loads(ORACLE.read_text("utf-8"))
+    q = np.array(oracle["q"])
+    rows = np.reshape(oracle["answers"][theirs], (len(q), 6, 7))
+    answers = own_jacobians(arm, q)
+    assert_same(answers.pop(ours), rows, 1e-8)
+    assert all(np.abs(other - rows).max() > 0.1 for other in answers.values())
+
+
+def test_mujocos_jacobian_is_j_site(either_panda, arm):
+    q = verify.random_q(either_panda, 20, seed=3)
+    if either_panda.nq > 7 or either_panda.nsite == 0:
+        pytest.skip("this entry has no attachment_site")
+    ours = own_jacobians(arm, q)["J_site"]
+    assert_same(ours, verify.mujoco_site_jacobian(either_panda, q), 1e-12)
+
+
+def test_mj_jac_site_is_silent_about_what_it_lacks():
+    model = panda.load("panda_nohand")
+    data = mujoco.MjData(model)
+    data.qpos[:] = panda.READY_Q
+    jacp, jacr = np.ones((3, 7)), np.ones((3, 7))
+    mujoco.mj_kinematics(model, data)  # mj_comPos is missing
+    mujoco.mj_jacSite(model, data, jacp, jacr, model.site("attachment_site").id)
+    assert not jacp.any()
+    assert not jacr.any()
+
+
+def test_the_jacobian_is_the_slope_of_the_pose(arm):
+    q, h = panda.READY_Q, 1e-6
+    J = own_jacobians(arm, q[None])["J_site"][0]
+    for i, d in enumerate(h * np.eye(7)):
+        e = lab.pose_error(screws.fk_space(*arm, q - d), screws.fk_space(*arm, q + d))
+        assert_same(e / (2 * h), J[:, i], 1e-8)
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0.0, np.pi))
+def test_the_logarithm_is_scipys_from_0_to_pi(seed, angle):
+    axis = np.random.default_rng(seed).normal(size=3)
+    axis /= np.linalg.norm(axis)
+    angle = min(angle, np.pi - 1e-12)
+    R = Rotation.from_rotvec(angle * axis).as_matrix()
+    assert_same(lab.log_rotation(R), angle * axis, 1e-9 if angle > 3 else 1e-12)
+
+
+def test_the_formula_of_most_books_fails_near_pi():
+    angle, axis = np.pi - 1e-9, np.array([0.6, 0.0, 0.8])
+    R = screws.exp_rotation(axis, angle)
+    theta = np.arccos((np.trace(R) - 1) / 2)
+    a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    with np.errstate(all="ignore"):
+        off = np.abs(theta / (2 * np.sin(theta)) * a - angle * axis).max()
+    assert not off < 1.0
+    assert "off by more than 1 rad" in GUIDE
+    assert_same(lab.log_rotation(R), angle * axis, 1e-9)
+
+
+def test_most_mistakes_in_a_jacobian_are_right_at_zero(arm):
+    S = arm[0][None]
+    space = importlib.import_module("lesson_day3.mistakes.jacobians").SPACE
+    right = {m.slug for m in space
+             if np.abs(m.redo(S, np.zeros((1, 7))) - S[0].T).max() < 1e-12}  # fmt: skip
+    assert right == {m.slug for m in space} - {"columns-reversed"}
+
+
+@pytest.fixture(scope="module")
+def targets():
+    """Return 200 targets within 0.3 rad of their starts, as `LOOPS.walk` takes them."""
+    S, M, limits = QUESTIONS.targets.arm()
+    middle, rng = limits.mean(axis=1), np.random.default_rng(47)
+    drawn = verify.random_q(panda.load("panda_nohand"), 200, 47)
+    start = middle + 0.8 * (drawn - middle)
+    near = np.clip(start + rng.uniform(-0.3, 0.3, start.shape), *limits.T)
+    goal = screws.fk_space(S, M, near)
+    arms = [np.broadcast_to(x, (200, *x.shape)) for x in (S, M, limits)]
+    return *arms[:2], goal, start, arms[2]
+
+
+@pytest.mark.parametrize(
+    ("part", "named"),
+    [
+        ("right", "all right"),
+        ("space-jacobian", "`J_space` in place of `J_site`"),
+        ("sine-for-angle", "the sine in place of the angle in the error"),
+        ("jacobian-never-updated", "J computed once, at the start"),
+        ("body-jacobian", "`J_body` with the error in world axes"),
+        ("error-sign", "the error's sign wrong"),
+    ],
+)
+def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, part, named):
+    said = int(re.search(re.escape(f"| {named} | ") + r"(\d+)", GUIDE)[1])
+    q = LOOPS.walk(*targets, **LOOPS.PARTS[part])
+    S, M, goal = targets[0][0], targets[1][0], targets[2]
+    assert (
+        abs(jacobian.reached(S, M, goal, q).sum() - said) <= 4
+    )  # BLAS may decide some
+
+
+def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
+    S, M, goal, start, limits = (x[:12] for x in targets)
+    goal = goal.copy()
+    goal[:, :3, 3] *= 2.0 / np.linalg.norm(goal[:, :3, 3], axis=1)[:, None]
+
+    def miss(q):
+        e = jacobian.pose_error(screws.fk_space(S[0], M[0], q), goal)
+        return np.linalg.norm(e, axis=1)
+
+    best = miss(jacobian.solve_ik(S[0], M[0], goal, start, limits[0]))
+    right, wrong = (
+        miss(LOOPS.walk(S, M, goal, start, limits, **LOOPS.PARTS[part])) / best
+        for part in ("right", "space-jacobian")
+    )
+    assert right.max() < 1.01
+    assert 1.02 < wrong.max() < 1.1
+    assert "up to 8 % too far away; the right one within 1 %" in GUIDE
+
+
+def test_the_motion_lost_at_zero_is_a_turn_about_x(arm):
+    J = own_jacobians(arm, np.zeros((1, 7)))["J_site"][0]
+    U, sigma, _ = np.linalg.svd(J)
+    assert sigma[-1] < 1e-12 < sigma[-2]
+    assert_same(np.abs(U[:, -1]), [1, 0, 0, 0, 0, 0], 1e-9)
+
+
+def test_joint4_after_a_quarter_turn_of_joint1(arm):
+    q = np.zeros(7)
+    q[0] = np.pi / 2
+    J = lab.space_jacobian(arm[0], q)
+    assert "(0, -1, 0, 0.649, 0, -0.0825)" in GUIDE
+    assert_same(arm[0][3], [0, -1, 0, 0.649, 0, -0.0825], 1e-4)
+    assert_same(J[:, 3], [1, 0, 0, 0, 0.649, -0.0825], 1e-4)
+
+
+@pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
+def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
+    S, M, limits = QUESTIONS.targets.arm()
+    q = lab.first_q((S, M), radius, limits)
+    off, speeds, path = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+    assert off.max() < 20.0
+    assert (speeds / lab.SPEED).max() < 1.0
+    assert lab.beyond(limits, path) < 0.01
+
+
+def test_the_easy_circle_needs_no_damping():
+    S, M, limits = QUESTIONS.targets.arm()
+    q = lab.first_q((S, M), lab.EASY, limits)
+    off, speeds, _ = lab.draw_circle((S, M), q, lab.EASY, 0.0)
+    assert off.max() < 1.0
+    assert (speeds / lab.SPEED).max() < 0.6
+
+
+def test_the_elbow_swings_while_the_hand_stands(arm):
+    """The side quest: joint 3's direction, 400 steps of 0.005."""
+    S, M, limits = QUESTIONS.targets.arm()
+    q, T = panda.READY_Q, screws.fk_space(S, M, panda.READY_Q)
+    for _ in range(400):
+        now = screws.fk_space(S, M, q)
+        J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])
+        step = lab.null_step(J, 0.005 * np.eye(7)[2])
+        q = q + step + lab.dls_step(J, lab.pose_error(now, T), 0.01)
+        if lab.beyond(limits, q):
+            break
+    moved = np.linalg.norm(lab.pose_error(screws.fk_space(S, M, q), T))
+    elbow = verify.mujoco_poses(
+        panda.load("panda_nohand"), np.array([panda.READY_Q, q])
+    )
+    swung = elbow["body:link4"][:, :3, 3]
+    assert moved < 1e-4
+    assert np.linalg.norm(swung[1] - swung[0]) > 0.1

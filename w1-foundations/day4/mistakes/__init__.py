@@ -1,0 +1,7 @@
+"""Day 4's named mistakes, each made again on purpose, the more general first.
+
+bodies   spatial_inertia          links     link_inertias
+mass     mass_matrix              gravity   gravity_torque
+brackets ad                       forces    inverse_dynamics and bias_torque
+small    forward_dynamics, energy passes    the algorithm whose parts forces replaces
+"""

@@ -1,0 +1,13 @@
+# task 4.4: cross-product-sign
+# v + c x omega.
+import numpy as np
+
+from robo47.screws import skew
+
+
+def gravity_torque(J, masses, coms_world, g):
+    tau = np.zeros(7)
+    for i in range(7):
+        J_com = J[3:] + skew(coms_world[i]) @ J[:3]
+        tau[: i + 1] -= masses[i] * J_com[:, : i + 1].T @ g
+    return tau

@@ -1,0 +1,227 @@
+"""Day 4: the numbers in the guide's sentences, the demo, and the errata rows."""
+
+import re
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+
+from conftest import ROOT, load_script
+from robo47 import dynamics, panda, screws, simulate, verify
+
+GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
+PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
+ERRATA = PAGE.partition("\n## Day 4\n")[2].partition("\n## ")[0]
+SENTENCES = " ".join(re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S).split())
+lab = load_script(ROOT / "w1-foundations/src/day4_dynamics.py")
+DOWN = np.array([0.0, 0.0, -9.81])
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return panda.arm(panda.load("panda_nohand"))
+
+
+@pytest.fixture(scope="module")
+def model():
+    return panda.load("panda_nohand", drive="torque")
+
+
+def hinge(axis, mass):
+    """Return J, G, masses and centres of one hinge with a mass at (1, 0, 0)."""
+    J, masses, coms = np.zeros((6, 7)), np.zeros(7), np.zeros((7, 3))
+    J[:3, 0], masses[0], coms[0] = axis, mass, (1.0, 0.0, 0.0)
+    G = [
+        lab.spatial_inertia(m, c, np.zeros((3, 3)))
+        for m, c in zip(masses, coms, strict=True)
+    ]
+    return J, np.array(G), masses, coms
+
+
+def test_the_worked_cases_of_the_docstrings():
+    two = lab.spatial_inertia(2.0, np.array([0.0, 0.0, 1.0]), np.zeros((3, 3)))
+    assert_same(np.diag(two), [2, 2, 0, 2, 2, 2], 0.0)
+    J, G, _, _ = hinge((0, 0, 1), 2.0)
+    assert_same(lab.mass_matrix(J, G, np.full(7, 0.1))[0, 0], 2.1, 1e-15)
+    J, G, masses, coms = hinge((0, 1, 0), 1.0)
+    tau = lab.gravity_torque(J, masses, coms, DOWN)
+    assert_same(tau[0], -9.81, 1e-15)
+    zero = np.zeros(7)
+    tau = lab.inverse_dynamics(J, G, zero, np.eye(7)[0], DOWN)
+    assert_same(tau[0], -8.81, 1e-14)
+    assert_same(lab.bias_torque(J, G, zero, DOWN)[0], -9.81, 1e-14)
+    V = np.arange(6.0)
+    assert_same(lab.ad(V) @ V, np.zeros(6), 0.0)
+    both = lab.energy(2.0 * np.eye(7), 3.0 * np.eye(7)[0], masses, 0 * coms, DOWN)
+    assert_same(both, [9.0, 0.0], 0.0)
+    acc = lab.forward_dynamics(np.eye(7), tau, np.ones(7), zero, tau)
+    assert_same(acc, zero, 0.0)
+
+
+def test_the_labs_functions_agree_with_mujoco_on_either_panda(either_panda):
+    q = verify.random_q(either_panda, 20, seed=3)
+    rng = np.random.default_rng(3)
+    qd, qdd = rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape)
+    arm, body = panda.arm(either_panda), panda.inertias(either_panda)
+    M = verify.mujoco_mass_matrix(either_panda, q)
+    tau = verify.mujoco_inverse_dynamics(either_panda, q, qd, qdd)
+    for i, x in enumerate(q):
+        now = arm.at(x)
+        G = lab.link_inertias(now.T_links, *body)
+        assert_same(lab.mass_matrix(now.J_space, G, arm.armature), M[i], 1e-12)
+        mine = lab.inverse_dynamics(now.J_space, G, qd[i], qdd[i], DOWN)
+        assert_same(mine + arm.armature * qdd[i] + arm.damping * qd[i], tau[i], 1e-11)
+
+
+def mass_matrices(arm, model):
+    """Return, at the lab's own q, MuJoCo's M and {what is wrong: M}."""
+    q = verify.random_q(model, lab.TRIALS - 1, lab.SEED)
+    q = np.vstack([panda.READY_Q, q])
+    wrong = {}
+    for x in q:
+        now = arm.at(x)
+        bad = lab.on_purpose(now.T_links, *panda.inertias(model))
+        for what, G in bad.items():
+            M = lab.mass_matrix(now.J_space, G, arm.armature)
+            wrong.setdefault(what, []).append(M)
+    return verify.mujoco_mass_matrix(model, q), {
+        k: np.array(v) for k, v in wrong.items()
+    }
+
+
+def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm, model):
+    truth, wrong = mass_matrices(arm, model)
+    M = wrong["m [c] with the wrong sign"]
+    assert_same(M, np.swapaxes(M, 1, 2), 1e-13)
+    least = np.linalg.eigvalsh(M).min()
+    off = np.abs(M - truth).max()
+    assert f"wrong by {off:.3f} kg m2" in SENTENCES
+    assert f"its least eigenvalue is {least:.3f}" in SENTENCES
+    assert 5.0 < off / truth.max() < 6.0  # "five times the largest entry"
+    least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
+    caught = [what for what, value in least.items() if value < 0]
+    assert caught == ["m [c] [c]^T forgotten"]
+    assert f"{least[caught[0]]:.3f} is no mass" in SENTENCES
+
+
+def test_the_mirrored_inertia_is_that_of_turned_over_v():
+    # Why a wrong sign cannot be seen: F G F is congruent to G.
+    G = lab.spatial_inertia(2.0, np.array([0.1, 0.2, 0.3]), np.eye(3))
+    flip = np.diag([1.0, 1, 1, -1, -1, -1])
+    other = lab.spatial_inertia(2.0, -np.array([0.1, 0.2, 0.3]), np.eye(3))
+    assert_same(flip @ G @ flip, other, 1e-15)
+
+
+def test_gravity_at_ready_and_what_the_arm_weighs(arm):
+    tau = arm.at(panda.READY_Q).gravity_torque
+    assert f"{tau[3]:.3f} N m, of the 87" in SENTENCES
+    assert abs(tau[0]) < 1e-12  # "joint1 holds nothing"
+    assert f"a {arm.masses.sum():.0f} kg arm" in SENTENCES
+
+
+def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
+    calm = 0 * lab.PUSH
+
+    def moved(share, seconds):
+        path = lab.let_go(model, arm, share, (seconds, calm))
+        return np.linalg.norm(path[-1] - path[0])
+
+    assert f"the hand is {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
+    assert f"99 % of gravity, {1000 * moved(0.99, 2.0):.0f} mm in two" in SENTENCES
+    assert moved(1.0, 5.0) < 1e-12  # "less than a picometre"
+
+
+def test_the_arm_glides_when_it_is_pushed(arm, model):
+    calm = 0 * lab.PUSH
+    path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, calm))
+    speed = np.linalg.norm(np.diff(path, axis=0), axis=1) * lab.RATE
+    assert f"up to {speed.max():.2f} m/s" in SENTENCES
+    pushed = round(0.5 * lab.RATE)
+    assert path[pushed, 1] - path[0, 1] > 0.1  # along +y, and on round the base
+    assert np.linalg.norm(path[-1] - path[0]) > 0.5
+    assert 0.0 < speed[-1] < 0.1
+
+
+def test_the_integrator_loses_energy_in_proportion_to_its_step():
+    first, half = (lab.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    assert 1.8 < first / half < 2.2
+    assert abs(lab.swing("RK4", 0.002)) < 1e-6 * abs(first)
+
+
+# -- errata ---------------------------------------------------------------------------
+
+
+def test_every_row_names_a_test_of_this_file():
+    rows = [line for line in ERRATA.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) == 3
+    for row in rows:
+        assert row.rstrip("| ").split("`")[-2] in globals(), row
+
+
+def test_mj_rne_leaves_out_armature_and_damping(arm, model):
+    rng = np.random.default_rng(5)
+    data = mujoco.MjData(model)
+    for q in verify.random_q(model, 20, seed=5):
+        data.qpos[:] = q
+        data.qvel[:], data.qacc[:] = rng.uniform(-2, 2, 7), rng.uniform(-10, 10, 7)
+        mujoco.mj_inverse(model, data)
+        rne = np.zeros(7)
+        mujoco.mj_rne(model, data, 1, rne)
+        extra = 0.1 * data.qacc + 1.0 * data.qvel
+        assert_same(data.qfrc_inverse - rne, extra, 1e-11)
+        now = arm.at(q)
+        ours = dynamics.inverse_dynamics(
+            now.J_space, now.G, data.qvel, data.qacc, arm.gravity
+        )
+        assert_same(rne, ours, 1e-11)
+
+
+def departure(arm, model, torque):
+    """Return how far errors are from (1 + wt) e^-wt, in parts of what they were."""
+    omega, start = 20.0, 0.1 * np.array([1, -1, 1, 1, -1, 1, -1.0])
+
+    def controller(t, q, qd):
+        now, e = arm.at(q), panda.READY_Q - q
+        wanted = omega**2 * e - 2 * omega * qd
+        return torque(now.M, wanted) + now.bias(qd) + arm.damping * qd
+
+    data = simulate.start(model, panda.READY_Q - start)
+    run = simulate.run(model, data, controller, 0.6, rate=500.0)
+    predicted = (1 + omega * run.t) * np.exp(-omega * run.t)
+    return np.abs((panda.READY_Q - run.q) / start - predicted[:, None]).max()
+
+
+def test_gains_outside_M_do_not_give_the_error_that_was_asked_for(arm, model):
+    inside = departure(arm, model, lambda M, wanted: M @ wanted)
+    outside = departure(arm, model, lambda M, wanted: wanted)
+    assert inside < 0.02
+    assert outside > 0.1
+
+
+def test_the_mass_matrix_needs_no_mj_fullM(model):
+    assert "mj_fullM" in ERRATA
+    if tuple(map(int, mujoco.__version__.split(".")[:2])) >= (3, 10):
+        data, dense = mujoco.MjData(model), np.zeros((7, 7))
+        mujoco.mj_forward(model, data)
+        with pytest.raises((TypeError, AttributeError)):
+            mujoco.mj_fullM(model, dense, data.qM)
+    M = verify.mujoco_mass_matrix(model, panda.READY_Q)
+    assert_same(M, M.T, 1e-14)
+
+
+def test_the_script_runs_as_a_person_runs_it(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["day4_dynamics.py", "--no-log"])
+    monkeypatch.setattr(lab, "TRIALS", 10)
+    monkeypatch.setattr(lab, "LIBRARY_TRIALS", 10)
+    assert lab.main() == 0
+    out = capsys.readouterr().out
+    assert "All checks PASSED." in out
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_ad_is_days_2_library_function():
+    # Task 4.5 asks for it again; whoever imports it from robo47.screws has used Day 2.
+    V = np.arange(6.0)
+    assert_same(lab.ad(V), screws.ad(V), 0.0)

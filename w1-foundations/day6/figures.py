@@ -1,0 +1,108 @@
+"""The pictures of Day 6, made with the lab's own functions; drawn by `make figures`.
+
+push    how far a soft hand gives way, for eleven forces, on the predicted line
+press   the force on the table over time: the soft arm, and the stiff one
+"""
+
+import io
+
+import matplotlib
+import numpy as np
+from day6_task_space import (
+    PRESS,
+    READY_Q,
+    SINK,
+    SITE,
+    K,
+    set_point_for_force,
+    soft_hand,
+    stiff_arm,
+)
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure  # not pyplot, which may look for a display
+from PIL import Image
+
+from robo47 import panda, scenes, simulate, touch
+
+BLUE, RED, INK, RULE = "#1c64f2", "#e03131", "#212529", "#dee2e6"
+FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
+STIFFNESSES = (400.0, 1000.0)  # N/m
+RATE = 250.0
+
+
+def moved(force: float, k: float) -> float:
+    """Return how far the hand moves along x under a force along x, in metres."""
+    model = panda.load("panda_nohand", drive="torque")
+    arm, start = panda.arm(model), simulate.start(model, READY_Q)
+    stiffness = np.append(K[:3], np.full(3, k))
+    push = simulate.push_at(SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
+    law = soft_hand(arm, READY_Q, stiffness=stiffness)
+    run = simulate.run(model, start, law, 3.0, rate=100.0, push=push)
+    ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]
+    return ends[1] - ends[0]
+
+
+def presses() -> tuple[np.ndarray, np.ndarray]:
+    """Return the force on the table over three seconds, soft and stiff."""
+    depth, start = set_point_for_force(PRESS, K[5], scenes.TOUCH), scenes.TOUCH + 0.01
+    soft = touch.press(
+        lambda arm, q: soft_hand(arm, q, lambda t: max(depth, start - SINK * t)),
+        seconds=3.0,
+        rate=RATE,
+    )
+    return soft, touch.press(stiff_arm, drive="servo", seconds=3.0, rate=RATE)
+
+
+def push() -> Image.Image:
+    """Return displacement against force, measured, over the line F / k."""
+    figure, axes = _axes("A push, predicted and measured", "force along x (N)")
+    for k, colour in zip(STIFFNESSES, (BLUE, RED), strict=True):
+        axes.plot(FORCES, 1000 * FORCES / k, color=colour, linewidth=1.5)
+        off = [1000 * moved(force, k) for force in FORCES]
+        axes.plot(FORCES, off, "o", color=colour, markersize=10)
+        axes.text(
+            12.0, 1000 * 12.0 / k - 9.0, f"{k:.0f} N/m", color=colour, fontsize=20
+        )
+    axes.set_ylabel("displacement along x (mm)")
+    axes.text(-19, 38, "lines: F / k, before any simulation", color=INK, fontsize=18)
+    axes.text(-19, 33, "dots: where the hand came to rest", color=INK, fontsize=18)
+    return _to_image(figure)
+
+
+def press() -> Image.Image:
+    """Return the contact force over time, soft and stiff."""
+    figure, axes = _axes("Told to go 50 mm into a table", "time (s)")
+    for felt, name, colour in zip(
+        presses(), ("soft, 400 N/m", "stiff servos"), (BLUE, RED), strict=True
+    ):
+        t = np.arange(1, len(felt) + 1) / RATE
+        axes.plot(t, felt, color=colour, linewidth=3)
+        words = f"{name}: {felt[-1]:.0f} N, peak {felt.max():.0f} N"
+        axes.text(1.1, felt[-1] + 8, words, color=colour, fontsize=20)
+    axes.axhline(PRESS, color=INK, linestyle="--", linewidth=1.5)
+    words = {"s": "20 N: wanted and predicted", "ha": "right", "fontsize": 18}
+    axes.text(3.0, PRESS - 14, color=INK, **words)
+    axes.set_ylabel("force on the table (N)")
+    return _to_image(figure)
+
+
+def _axes(title: str, below: str) -> tuple[Figure, Axes]:
+    with matplotlib.rc_context({"font.size": 18, "axes.linewidth": 1.2}):
+        figure = Figure(figsize=(12, 8), dpi=100, layout="constrained")
+        axes = figure.subplots()
+        axes.set_title(title, pad=16)
+        axes.set_xlabel(below)
+        axes.grid(color=RULE)
+        axes.set_axisbelow(True)
+        axes.spines[["top", "right"]].set_visible(False)
+    return figure, axes
+
+
+def _to_image(figure: Figure) -> Image.Image:
+    file = io.BytesIO()
+    with matplotlib.rc_context({"font.size": 18}):
+        figure.savefig(file, format="png")
+    return Image.open(file).convert("RGB")
+
+
+FIGURES = {"push": push, "press": press}

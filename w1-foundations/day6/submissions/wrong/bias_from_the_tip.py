@@ -1,0 +1,14 @@
+# task 6.2: ad-swapped
+# The twists are summed from the last joint back.
+import numpy as np
+
+from robo47.screws import ad
+
+
+def site_bias(J_space, qd, p):
+    V, A = np.zeros(6), np.zeros(6)
+    for S, speed in zip(J_space.T[::-1], qd[::-1]):
+        V = V + S * speed
+        A = A + ad(V) @ S * speed
+    v = V[3:] + np.cross(V[:3], p)
+    return np.append(A[:3], A[3:] + np.cross(A[:3], p) + np.cross(V[:3], v))

@@ -1,0 +1,312 @@
+"""Day 6's lab: its functions, the numbers in the guide's sentences, the errata."""
+
+import importlib.util
+from unittest.mock import MagicMock
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given
+from hypothesis import strategies as st
+
+from conftest import ROOT, load_script, need
+from robo47 import jacobian, panda, scenes, simulate, task_space, touch, verify
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
+
+DAY = find_day(6)
+GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
+ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
+lab = load_script(ROOT / "w1-foundations/src/day6_task_space.py")
+osc_torque, impedance_torque = lab.osc_torque, lab.impedance_torque
+inv, pinv = np.linalg.inv, np.linalg.pinv
+
+
+@pytest.fixture(scope="module")
+def motors():
+    model = panda.load("panda_nohand", drive="torque")
+    return model, panda.arm(model)
+
+
+def test_the_worked_cases_in_the_docstrings_are_true():
+    I6, rest = np.eye(6), np.zeros(7)
+    assert_same(lab.task_inertia(np.eye(6, 7), 2 * np.eye(7)), 2 * I6)
+    spin = np.zeros((6, 7))
+    spin[2, 0] = 1.0
+    point = np.array([1.0, 0, 0])
+    assert_same(lab.site_bias(spin, np.eye(7)[0], point), [0, 0, 0, -1.0, 0, 0])
+    s = np.ones(6)
+    assert_same(osc_torque(np.eye(6, 7), I6, np.arange(7.0), s, s), np.arange(7.0))
+    left = lab.null_torque(np.eye(6, 7), np.eye(7), I6, np.ones(7))
+    assert_same(left, np.eye(7)[6])
+    e = np.array([0, 0, 0, 0, 0, 0.025])
+    assert_same(lab.spring_wrench(e, 0 * e, 400 * I6, I6), 400 * e)
+    assert_same(lab.critical_damping(np.full(6, 4.0), I6), 4 * I6)
+    bias = np.arange(7.0)
+    assert_same(impedance_torque(np.eye(6, 7), 0 * e, bias, s[0], rest, rest), bias)
+    assert lab.set_point_for_force(20.0, 400.0, 0.42) == pytest.approx(0.37)
+    down = lab.hybrid_wrench(0 * e, 0 * e, I6, I6, 10.0)
+    assert_same(down, [0, 0, 0, 0, 0, -10.0])
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_labs_functions_agree_with_the_library(seed):
+    rng = np.random.default_rng(seed)
+    J, A = np.eye(6, 7) + 0.1 * rng.normal(size=(6, 7)), rng.normal(size=(7, 7))
+    M, D = A @ A.T / 7 + np.eye(7), rng.normal(size=(6, 6))
+    e, V, F = rng.normal(size=(3, 6))
+    tau, qd, bias = rng.normal(size=(3, 7))
+    K, p = rng.uniform(1, 500, 6), rng.normal(size=3)
+    Lambda = task_space.task_inertia(J, M)
+    for name, given_ in {
+        "task_inertia": (J, M),
+        "site_bias": (J, qd, p),
+        "osc_torque": (J, Lambda, bias, F, V),
+        "null_torque": (J, M, Lambda, tau),
+        "spring_wrench": (e, V, np.diag(K), D),
+        "critical_damping": (K, Lambda),
+        "impedance_torque": (J, F, bias, 1.5, qd, tau),
+        "set_point_for_force": (20.0, K[0], p[0]),
+        "hybrid_wrench": (e, V, np.diag(K), D, 10.0),
+    }.items():
+        ours, theirs = getattr(lab, name)(*given_), getattr(task_space, name)(*given_)
+        assert_same(ours, theirs, 1e-10 * (1 + np.abs(theirs).max()))
+
+
+def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
+    model, arm = motors
+    q = verify.random_q(model, 60, seed=6)
+    for one in q:
+        now = arm.at(one)
+        if np.linalg.svd(now.J_site, compute_uv=False)[-1] < 0.05:
+            continue
+        F = np.random.default_rng(6).uniform(-10, 10, 6)
+        _, acc = touch.mujoco_push(model, one, 0.0, now.gravity_torque, F)
+        Lambda = lab.task_inertia(now.J_site, now.M)
+        assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
+
+
+def test_the_circle_starts_at_rest_and_its_parts_are_each_others_rates():
+    T0, h = np.eye(4), 1e-4
+    T, V, _ = touch.circle(0.0, T0, 0.12, 2.0)
+    assert_same(T, T0)
+    assert_same(V, np.zeros(6))
+    for t in (0.3, 0.8, 1.4, 2.3):
+        around = [touch.circle(t + k * h, T0, 0.12, 2.0) for k in (-1, 0, 1)]
+        p = [T[:3, 3] for T, _, _ in around]
+        V = [V for _, V, _ in around]
+        assert_same((p[2] - p[0]) / (2 * h), V[1][3:], 1e-7)
+        assert_same((V[2] - V[0]) / (2 * h), around[1][2], 1e-6)
+        assert np.hypot(p[1][1], p[1][2] - 0.12) == pytest.approx(0.12)
+
+
+def test_the_inertias_of_mistakes_at_ready(motors):
+    now = motors[1].at(lab.READY_Q)
+    J, M, right = now.J_site, now.M, lab.task_inertia(now.J_site, now.M)
+    off = lambda L: np.linalg.norm(L - right) / np.linalg.norm(right)  # noqa: E731
+    assert off(inv(right)) == pytest.approx(1.50, abs=0.005)
+    assert off(J @ M @ J.T) == pytest.approx(1.04, abs=0.005)
+    assert off(lab.task_inertia(J, M - 0.1 * np.eye(7))) == pytest.approx(
+        0.17, abs=5e-3
+    )
+    assert off(lab.task_inertia(now.J_space, M)) == pytest.approx(0.81, abs=0.005)
+    assert off(pinv(J).T @ M @ pinv(J)) == pytest.approx(0.0067, abs=1e-4)
+    mass = panda.load("panda_nohand").body_mass.sum()
+    assert f"{mass:.1f} kg" in GUIDE
+
+
+def steady_press(**more):
+    depth, start = (
+        lab.set_point_for_force(20.0, 400.0, scenes.TOUCH),
+        scenes.TOUCH + 0.01,
+    )
+    sink = lambda t: max(depth, start - lab.SINK * t)  # noqa: E731
+    return touch.press(
+        lambda arm, q: lab.soft_hand(arm, q, sink), rate=lab.RATE, **more
+    )
+
+
+def test_the_soft_arm_presses_with_20_n_and_the_stiff_one_with_217():
+    # Measured 3.7e-4 on MuJoCo 4.0.0 and 2.4e-4 on 3.3.0; the limit is twice that.
+    assert steady_press()[-1] == pytest.approx(20.0, rel=7.5e-4)
+    stiff = touch.press(lab.stiff_arm, drive="servo", seconds=3.0)
+    # 217.2 N on 4.0.0 and 218.3 on 3.3.0: it creeps by 1 to 2 N in a second.
+    assert stiff[-1] == pytest.approx(217.7, abs=1.2)
+    assert 0.9 < stiff[499] - stiff[749] < 2.0
+    for words in ("presses with 217 N", "218 N after three seconds"):
+        assert words in " ".join(GUIDE.split())
+
+
+def circled(motors, project=None, **instead):
+    """Return how far the hand is from the circle, mm and mrad, with other functions."""
+    model, arm = motors
+    kept = {name: getattr(lab, name) for name in instead}
+    vars(lab).update(instead)
+    try:
+        law = lab.circling(arm, project or lab.null_torque)
+        run = simulate.run(model, simulate.start(model, lab.READY_Q), law, 2.5)
+    finally:
+        vars(lab).update(kept)
+    T = arm.at(lab.READY_Q).T_world_ee
+    off = np.array([
+        jacobian.pose_error(arm.at(q).T_world_ee, touch.circle(t, T, 0.12, 2.0)[0])
+        for t, q in zip(run.t, run.q, strict=True)
+    ]).reshape(-1, 2, 3)  # fmt: skip
+    return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]
+
+
+MISTAKES = {
+    "nothing wrong": {},
+    "`site_bias` forgotten": {
+        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, b, 0 * s, a)
+    },
+    "`site_bias` added": {
+        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, b, -s, a)
+    },
+    "`bias` forgotten": {
+        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, 0 * b, s, a)
+    },
+    "Lambda left out": {
+        "osc_torque": lambda J, L, b, s, a: osc_torque(J, np.eye(6), b, s, a)
+    },
+    "posture torque not projected": {"project": lambda J, M, L, t: t},
+    "projected as the public page has it": {
+        "project": lambda J, M, L, t: (M - J.T @ L @ J @ inv(M)) @ t
+    },
+    "projected with I - J^+ J": {"project": lab.kinematic},
+    "projector transposed": {
+        "project": lambda J, M, L, t: t - inv(M) @ J.T @ L @ J @ t
+    },
+}
+ROWS = {
+    row.split(" | ")[0].removeprefix("| "): row.rstrip(" |").split(" | ")[1:]
+    for row in GUIDE.splitlines()
+    if row.count(" | ") == 2 and row.rstrip(" |")[-1].isdigit()
+}
+
+
+def test_the_guides_table_of_mistakes_has_these_rows():
+    assert ROWS.keys() == MISTAKES.keys()
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("name", MISTAKES)
+def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
+    mm, mrad = circled(motors, **MISTAKES[name])
+    for value, written in zip((mm, mrad), ROWS[name], strict=True):
+        decimals = len(written.partition(".")[2])
+        assert f"{value:.{decimals}f}" == written
+
+
+def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
+    model, arm = motors
+    mm, _ = circled(motors, lab.kinematic)
+    assert mm == pytest.approx(0.152, abs=0.002)
+    assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
+    rng, felt = np.random.default_rng(6), []
+    for q in verify.random_q(model, 100, seed=6):
+        now, torque = arm.at(q), rng.uniform(-10, 10, 7)
+        if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
+            odd = lab.kinematic(now.J_site, now.M, None, torque)
+            felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
+    assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 Nm
+
+
+def test_the_public_pages_null_space_term_reaches_the_hand(motors):
+    now = motors[1].at(lab.READY_Q)
+    J, M = now.J_site, now.M
+    Lambda, tau = lab.task_inertia(J, M), np.arange(7.0)
+    public = MISTAKES["projected as the public page has it"]["project"]
+    ours = J @ np.linalg.solve(M, lab.null_torque(J, M, Lambda, tau))
+    theirs = J @ np.linalg.solve(M, public(J, M, Lambda, tau))
+    assert_same(ours, np.zeros(6), 1e-12)
+    # J M^-1 (M - J^T Lambda J M^-1) tau = J tau - J M^-1 tau, which is not 0.
+    assert_same(theirs, J @ tau - J @ np.linalg.solve(M, tau), 1e-10)
+    assert np.abs(theirs).max() > 1.0
+    row = next(r for r in ERRATA.splitlines() if "tau_null" in r)
+    for words in ("20.1 mm and 170 mrad", "0.13 mm and 0.2 mrad"):
+        assert words in row  # the numbers are those of the guide's table
+    assert ROWS["projected as the public page has it"] == ["20.1", "170"]
+
+
+def at_rest(motors, push=None, seconds=3.0):
+    model, arm = motors
+    law = lab.soft_hand(arm, lab.READY_Q)
+    start = simulate.start(model, lab.READY_Q)
+    run = simulate.run(model, start, law, seconds, rate=250.0, push=push)
+    T0, T = (arm.at(q).T_world_ee for q in (lab.READY_Q, run.q[-1]))
+    return jacobian.pose_error(T0, T), start
+
+
+@pytest.mark.kit
+def test_without_bias_the_soft_hand_sinks(motors, monkeypatch):
+    monkeypatch.setattr(
+        lab, "impedance_torque",
+        lambda J, F, b, *rest: impedance_torque(J, F, 0 * b, *rest),
+    )  # fmt: skip
+    moved, _ = at_rest(motors)
+    assert_same(1000 * moved[[3, 5]], [-167, -133], 0.6)
+    assert "sinks by 133 mm in three seconds, and 167 mm towards" in GUIDE
+
+
+def on_body(name, force, where):
+    def push(model, data):
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        body = model.body(name).id
+        point = getattr(data, where)[body]
+        F, none = np.array(force), np.zeros(3)
+        mujoco.mj_applyFT(model, data, F, none, point, body, data.qfrc_applied)
+
+    return push
+
+
+@pytest.mark.kit
+def test_a_push_at_the_centre_of_mass_of_a_massless_body_turns_the_hand(motors):
+    moved, _ = at_rest(motors, on_body("attachment", [10.0, 0, 0], "xipos"))
+    assert 1000 * np.abs(moved[:3]).max() == pytest.approx(35.6, abs=0.06)
+    assert_same(moved[3], 0.025, 1e-6)
+    assert "35.6 mrad" in GUIDE
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    ("gains", "elbow"), [((10.0, 4.0), 50), ((40.0, 8.0), 14), ((0.0, 0.0), 543)]
+)
+def test_the_elbow_gives_way_as_the_guide_says(motors, monkeypatch, gains, elbow):
+    monkeypatch.setattr(lab, "ELBOW", gains)
+    model, _ = motors
+    before = simulate.start(model, lab.READY_Q).body("link4").xpos.copy()
+    moved, data = at_rest(motors, on_body("link4", [0, 20.0, 0], "xpos"), 1.0)
+    mujoco.mj_forward(model, data)
+    off = 1000 * np.linalg.norm(data.body("link4").xpos - before)
+    assert off == pytest.approx(elbow, abs=0.6)
+    if elbow == 50:
+        assert 1000 * np.linalg.norm(moved[3:]) == pytest.approx(4.5, abs=0.05)
+    assert f"{elbow} mm" in GUIDE.replace("\n", " ")
+
+
+def test_the_tab_shows_the_push_that_was_predicted_and_the_table():
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    inspector = folder.load(DAY, "inspector")
+    model = panda.load("panda_nohand")
+    page = MagicMock(model=model, q=panda.READY_Q.copy())
+    T = panda.arm(model).at(page.q).T_world_ee.copy()
+    page.pose.return_value = T
+    page.animate.return_value.running = False
+    tab = inspector.Touch(page)
+    tab.on_move(page.q)
+    T[0, 3] += 0.1  # the handle: 10 N along x
+    tab.drag(T)
+    tab.on_move(page.q)
+    assert "F / k = (25.0, 0.0, 0.0) mm, moved (0.0, 0.0, 0.0)" in tab.numbers.content
+    for k in range(round(3 * inspector.HZ)):
+        tab.step(k / inspector.HZ)
+    assert "moved (25.0, " in tab.numbers.content
+    tab.press(inspector.READY)
+    for k in range(round(2 * inspector.HZ)):
+        tab.step(k / inspector.HZ)
+    assert tab.bars.show.call_args.args[0][0] == pytest.approx(19.6, abs=0.4)
+    tab.press(inspector.LET_GO)
+    assert not tab.force.any()

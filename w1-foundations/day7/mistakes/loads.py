@@ -1,0 +1,206 @@
+"""Mistakes in tasks 7.8 `carry` and 7.9 `heaviest_cube`."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.diagnose.mistake import Mistake, each
+
+
+def _moved(
+    mass: Callable[[float, float], float] = lambda m1, m2: m1 + m2,
+    centre: Callable[..., Array] = lambda m1, c1, m2, c2: (
+        (m1 * c1 + m2 * c2) / (m1 + m2)
+    ),
+    far: Callable[[Array, Array, Array], tuple[Array, Array]] = lambda c1, c2, c: (
+        c1 - c,
+        c2 - c,
+    ),
+    steiner: Callable[[Array], Array] = lambda d: d @ d * np.eye(3) - np.outer(d, d),
+    rows: tuple[int, ...] = (0, 1, 2, 0, 0, 1),
+    columns: tuple[int, ...] = (0, 1, 2, 1, 2, 2),
+    signs: tuple[float, ...] = (1.0,) * 6,
+) -> Callable[..., Array]:
+    def one(m1: float, c1: Array, I1: Array, m2: float, c2: Array, I2: Array) -> Array:
+        c = centre(m1, c1, m2, c2)
+        d1, d2 = far(c1, c2, c)
+        both = I1 + m1 * steiner(d1) + I2 + m2 * steiner(d2)
+        six = both[list(rows), list(columns)] * signs
+        return np.concatenate([[mass(m1, m2)], c, six])
+
+    return each(one)
+
+
+CARRY = [
+    Mistake(
+        "no-parallel-axes",
+        "the inertias are added as they are; each is about its own centre, and has to "
+        "be moved to the common one first",
+        _moved(steiner=lambda d: np.zeros((3, 3))),
+        "the answer without parallel axes",
+    ),
+    Mistake(
+        "about-the-origin",
+        "the inertia is about the frame's origin; it belongs to the common centre",
+        _moved(far=lambda c1, c2, c: (c1, c2)),
+        "the answer about the origin",
+    ),
+    Mistake(
+        "only-the-second-moved",
+        "only the second body's inertia is moved; the first one's centre is not the "
+        "common one either",
+        _moved(far=lambda c1, c2, c: (0 * c1, c2 - c)),
+        "the answer with only the second moved",
+    ),
+    Mistake(
+        "only-the-first-moved",
+        "only the first body's inertia is moved",
+        _moved(far=lambda c1, c2, c: (c1 - c, 0 * c2)),
+        "the answer with only the first moved",
+    ),
+    Mistake(
+        "about-the-first-centre",
+        "the inertia is about the first body's centre; it belongs to the common one",
+        _moved(far=lambda c1, c2, c: (0 * c1, c2 - c1)),
+        "the answer about the first centre",
+    ),
+    Mistake(
+        "distance-of-the-two",
+        "the distance between the two centres is used for both; each moves to the "
+        "common centre",
+        _moved(far=lambda c1, c2, c: (c2 - c1, c2 - c1)),
+        "the answer with that distance twice",
+    ),
+    Mistake(
+        "parallel-axes-sign",
+        "moving away from the centre of mass adds inertia; here it is taken off",
+        _moved(steiner=lambda d: np.outer(d, d) - d @ d * np.eye(3)),
+        "the answer with a minus",
+    ),
+    Mistake(
+        "along-the-way-too",
+        "d.d I alone resists a turn about the line between the centres too; d d^T has "
+        "to come off",
+        _moved(steiner=lambda d: d @ d * np.eye(3)),
+        "the answer without d d^T",
+    ),
+    Mistake(
+        "only-the-dyad",
+        "d d^T alone is what comes off; d.d I is missing",
+        _moved(steiner=lambda d: np.outer(d, d)),
+        "the answer with d d^T",
+    ),
+    Mistake(
+        "dyad-sign",
+        "d d^T has to come off, not to be added",
+        _moved(steiner=lambda d: d @ d * np.eye(3) + np.outer(d, d)),
+        "the answer with + d d^T",
+    ),
+    Mistake(
+        "distance-not-squared",
+        "the theorem takes the distance squared",
+        _moved(steiner=lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d)),
+        "the answer with |d|",
+    ),
+    Mistake(
+        "plain-mean",
+        "the common centre is half way; the heavier body counts for more",
+        _moved(centre=lambda m1, c1, m2, c2: (c1 + c2) / 2),
+        "the answer with the plain mean",
+    ),
+    Mistake(
+        "weights-swapped",
+        "the centre is nearer to the lighter body: the masses are swapped",
+        _moved(centre=lambda m1, c1, m2, c2: (m2 * c1 + m1 * c2) / (m1 + m2)),
+        "the answer with the masses swapped",
+    ),
+    Mistake(
+        "not-divided-by-the-mass",
+        "the sum of m c is not divided by the mass",
+        _moved(centre=lambda m1, c1, m2, c2: m1 * c1 + m2 * c2),
+        "the answer with the sum of m c",
+    ),
+    Mistake(
+        "first-centre-kept",
+        "the centre of mass stays that of the first body",
+        _moved(centre=lambda m1, c1, m2, c2: c1),
+        "the answer with the first centre",
+    ),
+    Mistake(
+        "by-rows",
+        "the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes first",
+        _moved(rows=(0, 0, 0, 1, 1, 2), columns=(0, 1, 2, 1, 2, 2)),
+        "the six by rows",
+    ),
+    Mistake(
+        "xy-last",
+        "the last three are in the order yz, xz, xy; xy comes first",
+        _moved(rows=(0, 1, 2, 1, 0, 0), columns=(0, 1, 2, 2, 2, 1)),
+        "the six with yz, xz, xy",
+    ),
+    Mistake(
+        "products-negated",
+        "the last three have the other sign: here they are entries of the matrix",
+        _moved(signs=(1.0, 1.0, 1.0, -1.0, -1.0, -1.0)),
+        "the six with the products' signs turned",
+    ),
+    Mistake(
+        "mass-of-the-first",
+        "the mass is that of the first body alone",
+        _moved(mass=lambda m1, m2: m1),
+        "the answer with the first mass",
+    ),
+]
+
+G = 9.81
+CUBE = [
+    Mistake(
+        "one-finger",
+        "one finger's friction is missing: two faces hold the cube",
+        lambda grip, mu, a: mu * grip / (G + a),
+        "half of it",
+    ),
+    Mistake(
+        "acceleration-forgotten",
+        "the cube's acceleration does not count; while it speeds up it needs more",
+        lambda grip, mu, a: 2 * mu * grip / G,
+        "the mass at rest",
+    ),
+    Mistake(
+        "acceleration-sign",
+        "the acceleration is taken off gravity; upwards it comes on top",
+        lambda grip, mu, a: 2 * mu * grip / (G - a),
+        "the mass with g - a",
+    ),
+    Mistake(
+        "gravity-forgotten",
+        "gravity is missing: at rest nothing would have to be lifted",
+        lambda grip, mu, a: 2 * mu * grip / a,
+        "the mass without gravity",
+    ),
+    Mistake(
+        "weight-for-mass",
+        "this is the force in newtons; the mass is that force over g + a",
+        lambda grip, mu, a: 2 * mu * grip,
+        "the friction's force",
+    ),
+    Mistake(
+        "friction-forgotten",
+        "mu does not count; without friction nothing is lifted",
+        lambda grip, mu, a: 2 * grip / (G + a) + 0.0 * mu,
+        "the mass with mu = 1",
+    ),
+    Mistake(
+        "divided-by-friction",
+        "mu stands below the line; more friction lifts more",
+        lambda grip, mu, a: 2 * grip / (mu * (G + a)),
+        "the mass with 1 / mu",
+    ),
+    Mistake(
+        "gravity-negative",
+        "gravity has the wrong sign here: its z is -9.81, and it pulls down",
+        lambda grip, mu, a: 2 * mu * grip / (a - G),
+        "the mass with -9.81",
+    ),
+]

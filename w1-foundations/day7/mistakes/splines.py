@@ -1,0 +1,103 @@
+"""Mistakes in task 7.5 `quintic_coefficients(start, end, T)`."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from robo47 import trajectory
+from robo47.checks import Array
+from robo47.diagnose.mistake import Mistake, each
+
+POWERS = np.arange(6)
+
+
+def _conditions(T: float) -> Array:
+    A = np.zeros((6, 6))
+    A[0, 0], A[1, 1], A[2, 2] = 1.0, 1.0, 2.0
+    A[3] = T**POWERS
+    A[4] = POWERS * T ** np.maximum(POWERS - 1, 0)
+    A[5] = POWERS * (POWERS - 1) * T ** np.maximum(POWERS - 2, 0)
+    return A
+
+
+def _solved(change: Callable[[Array, float], Array]) -> Callable[..., Array]:
+    def one(start: Array, end: Array, T: float) -> Array:
+        A = change(_conditions(T), T)
+        return np.linalg.solve(A, np.concatenate([start, end]))
+
+    return each(one)
+
+
+def _two_forgotten(A: Array, T: float) -> Array:
+    A[2, 2] = 1.0
+    return A
+
+
+def _cubic(start: Array, end: Array, T: float) -> Array:
+    A = _conditions(T)[[0, 1, 3, 4], :4]
+    four = np.linalg.solve(A, [start[0], start[1], end[0], end[1]])
+    return np.append(four, [0.0, 0.0])
+
+
+def _interleaved(start: Array, end: Array, T: Array) -> Array:
+    six = np.stack([start, end], axis=-1).reshape(len(T), 6)
+    return trajectory.quintic_coefficients(six[:, :3], six[:, 3:], T)
+
+
+right = trajectory.quintic_coefficients
+COEFFICIENTS = [
+    Mistake(
+        "descending",
+        "the highest power comes first; the constant has to",
+        lambda start, end, T: right(start, end, T)[:, ::-1],
+        "the coefficients in descending order",
+    ),
+    Mistake(
+        "ends-swapped",
+        "it goes from the end to the start",
+        lambda start, end, T: right(end, start, T),
+        "the coefficients with the ends swapped",
+    ),
+    Mistake(
+        "in-powers-of-x",
+        "these are the coefficients of powers of t / T, not of t",
+        lambda start, end, T: right(start, end, T) * T[:, None] ** POWERS,
+        "the coefficients of t / T",
+    ),
+    Mistake(
+        "T-is-1",
+        "T does not count: the end's conditions are those at t = 1",
+        lambda start, end, T: right(start, end, np.ones_like(T)),
+        "the coefficients for T = 1",
+    ),
+    Mistake(
+        "cubic",
+        "this is a cubic: both accelerations are left out",
+        each(_cubic),
+        "the cubic",
+    ),
+    Mistake(
+        "accelerations-zero",
+        "the accelerations at the ends are taken as 0; they are given",
+        lambda start, end, T: right(start * [1, 1, 0], end * [1, 1, 0], T),
+        "the coefficients without accelerations",
+    ),
+    Mistake(
+        "rest-to-rest",
+        "speeds and accelerations at the ends are taken as 0; they are given",
+        lambda start, end, T: right(start * [1, 0, 0], end * [1, 0, 0], T),
+        "the coefficients from rest to rest",
+    ),
+    Mistake(
+        "two-forgotten",
+        "the second derivative of t^2 is 2, not 1: the start's acceleration is doubled",
+        _solved(_two_forgotten),
+        "the coefficients with a 1 there",
+    ),
+    Mistake(
+        "conditions-mixed-up",
+        "the right side alternates start and end, but the rows do not",
+        _interleaved,
+        "the coefficients with the right side mixed",
+    ),
+]

@@ -1,0 +1,4 @@
+# task 7.9: one-factor-off
+# In grams.
+def heaviest_cube(grip, mu, acceleration):
+    return 2000 * mu * grip / (9.81 + acceleration)

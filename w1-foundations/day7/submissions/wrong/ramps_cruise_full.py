@@ -1,0 +1,19 @@
+# task 7.4: ramp-at-full-speed
+# The cruise is v t.
+import numpy as np
+
+
+def trapezoid(t, L, v, a):
+    top = min(v, np.sqrt(L * a))
+    ramp = top / a
+    T = L / top + ramp
+    if t <= 0:
+        return np.zeros(3)
+    if t < ramp:
+        return np.array([a * t**2 / 2, a * t, a])
+    if t < T - ramp:
+        return np.array([top * t, top, 0.0])
+    if t >= T:
+        return np.array([L, 0.0, 0.0])
+    left = T - t
+    return np.array([L - a * left**2 / 2, a * left, -a])

@@ -1,0 +1,212 @@
+"""Day 7's lab: its functions against oracles; the numbers in the guide's sentences."""
+
+import re
+
+import numpy as np
+import pytest
+from compare import assert_same
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import BPoly
+from scipy.spatial.transform import Rotation, Slerp
+
+from conftest import ROOT, load_script
+from robo47 import capstone, panda, scenes, se3, simulate, trajectory
+from robo47.lesson import folder
+from robo47.lesson.day import find_day
+
+SCRIPT = "w1-foundations/src/day7_trajectory.py"
+GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
+DAY = find_day(7)
+
+lab = load_script(ROOT / SCRIPT)
+DQ = np.abs(lab.GOAL_Q - lab.READY_Q)
+seeds = st.integers(0, 2**32 - 1)
+
+
+def says(words):
+    assert " ".join(words.split()) in GUIDE
+    return True
+
+
+# --- the functions ---
+
+
+@settings(deadline=None)
+@given(seeds)
+def test_the_labs_functions_agree_with_scipy(seed):
+    rng = np.random.default_rng(seed)
+    T = rng.uniform(0.3, 4.0)
+    start, end = rng.uniform(-1, 1, (2, 3))
+    six = lab.quintic_coefficients(start, end, T)
+    truth = BPoly.from_derivatives([0, T], [start, end])
+    for t in rng.uniform(0, T, 5):
+        assert_same(six @ t ** np.arange(6), truth(t), 1e-9)
+    R = Rotation.random(2, random_state=seed % 1000)
+    p, s = rng.uniform(-1, 1, (2, 3)), rng.uniform()
+    T0, T1 = se3.make_T(R.as_matrix(), p)
+    ours = lab.straight_pose(T0, T1, s)
+    assert_same(ours[:3, :3], Slerp([0, 1], R)(s).as_matrix(), 1e-9)
+    assert_same(ours[:3, 3], (1 - s) * p[0] + s * p[1], 1e-12)
+
+
+@settings(deadline=None)
+@given(seeds)
+def test_speed_and_acceleration_are_the_derivatives(seed):
+    rng = np.random.default_rng(seed)
+    T, h = rng.uniform(0.5, 3.0), 1e-5
+    t = rng.uniform(0.05, 0.95) * T
+    before, now, after = (lab.quintic_scaling(t + k * h, T) for k in (-1, 0, 1))
+    assert_same((after[:2] - before[:2]) / (2 * h), now[1:], 1e-6)
+
+
+def test_the_cases_of_the_docstrings():
+    assert_same(lab.quintic_scaling(0.6, 2.0), [0.16308, 0.6615, 1.26], 1e-12)
+    one = np.eye(7)[0]
+    free = np.full(7, np.inf)
+    assert lab.quintic_duration(one, np.full(7, 1.875), free) == 1.0
+    assert_same(lab.trapezoid(1.0, 1.0, 0.5, 1.0), [0.375, 0.5, 0.0], 1e-12)
+    assert_same(lab.trapezoid(0.4472 / 2, 0.1, 1.0, 2.0)[:2], [0.05, 0.4472], 1e-4)
+    six = lab.quintic_coefficients(np.zeros(3), np.array([1.0, 0, 0]), 1.0)
+    assert_same(six, [0, 0, 0, 10, -15, 6], 1e-12)
+    cube = se3.make_T(se3.Rz(np.radians(80)), np.zeros(3))
+    turned = se3.Rz(np.radians(-10)) @ np.diag([1, -1, -1])
+    assert_same(lab.grasp_pose(cube, 0.1)[:3, :3], turned, 1e-12)
+    none, far = np.zeros((3, 3)), np.array([2.0, 0, 0])
+    both = lab.carry(1.0, np.zeros(3), none, 1.0, far, none)
+    assert_same(both, [2, 1, 0, 0, 0, 2, 2, 0, 0, 0])
+    assert lab.heaviest_cube(0.9173, 1.0, 0.0) == pytest.approx(0.187, abs=5e-4)
+
+
+def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
+    named = {m.slug: m for m in reversed(_mistakes("scalings", "SCALING"))}
+    t, T = np.array([0.6]), np.array([2.0])
+    numbers = {
+        "cubic": [0.216, 0.63, 0.6],
+        "sd-not-divided": [0.16308, 1.323, 1.26],
+        "t-for-x": [0.68256, 1.728, -2.88],
+        "6-and-10-swapped": [0.0648, 0.2025, 0.0],
+    }
+    for slug, wanted in numbers.items():
+        assert_same(named[slug].redo(t, T)[0], wanted, 1e-12)
+
+
+def _mistakes(module, of):
+    folder.load(DAY, "questions")
+    import importlib
+
+    return getattr(importlib.import_module(f"lesson_day7.mistakes.{module}"), of)
+
+
+# --- sentences of the guide ---
+
+
+def test_step_1s_two_mistakes():
+    unclipped = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
+    assert unclipped(1.25) == pytest.approx(1.2207, abs=5e-5)
+    assert lab.quintic_scaling(0.6, 2.0)[1] * 2 == pytest.approx(1.323, abs=1e-9)
+    swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
+    assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
+    assert says("sd is 1.3230 in place of 0.6615. Without the clip s is 1.2207")
+    assert says("by 22 % of the way")
+
+
+def test_step_2s_table():
+    by_speed = 15 / 8 * DQ / lab.V_MAX
+    by_acceleration = np.sqrt(10 / np.sqrt(3) * DQ / lab.A_MAX)
+    each = np.maximum(by_speed, by_acceleration)
+    cubic = max((1.5 * DQ / lab.V_MAX).max(), by_acceleration.max())
+    for T, words in (
+        (cubic, "the cubic's peak speed"),
+        (each.min(), "the joint that needs least"),
+    ):
+        broken = 100 * ((by_speed / T).max() - 1)
+        assert says(f"{words} | {T:.3f} s | {broken:.0f} %")
+    assert says(f"one after the other | {each.sum():.3f} s")
+    assert says(f"joint7 needs its {by_speed[6]:.4f} s for its speed")
+    assert each.argmax() == 6
+
+
+def test_half_way_through_120_degrees_entry_by_entry_is_no_rotation():
+    R = (np.eye(3) + se3.Rz(np.radians(120))) / 2
+    assert np.linalg.det(R) == pytest.approx(0.25)
+    assert says("half way through a turn of 120 degrees the determinant is 0.25")
+
+
+def test_the_hand_weighs_what_the_guide_says():
+    mass = panda.hand_inertia(panda.load("panda"))[0]
+    assert says(f"The hand with its fingers is {mass:.2f} kg more")
+
+
+def test_step_7s_sentences():
+    T = lab.quintic_duration(lab.GOAL_Q - lab.READY_Q, lab.V_MAX, lab.A_MAX)
+    ways = lab.profiles(T)
+    off, jerk, torque = zip(*(lab.follow(*way) for way in ways.values()), strict=True)
+    numbers = dict(zip(ways, zip(off, jerk, torque, strict=True), strict=True))
+    assert says(f"asks for {numbers['step'][2]:.1f} times the torque")
+    assert says(f"so it is {numbers['constant speed'][0]:.0f} mrad off")
+    assert numbers["constant speed"][2] > 1.0
+    assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
+    assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s3")
+    assert 0.78 < ways["trapezoid"][1] / T < 0.82  # "a fifth faster"
+
+
+def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate(monkeypatch):
+    T = 0.995
+    at_250 = {n: lab.follow(*w)[1] for n, w in lab.profiles(T).items()}
+    monkeypatch.setattr(lab, "RATE", 500.0)
+    at_500 = {n: lab.follow(*w)[1] for n, w in lab.profiles(T).items()}
+    for name in ("constant speed", "cubic", "trapezoid"):
+        assert at_500[name] / at_250[name] == pytest.approx(2.0, abs=0.2), name
+    assert at_500["quintic"] / at_250["quintic"] == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.kit
+def test_the_ablations_of_the_guide_all_place_the_cube():
+    rows = re.findall(r"\| ([a-z][^|]+?) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", GUIDE)
+    cases = capstone.ablations(capstone.library()).values()
+    assert len(rows) == len(cases) == 6
+    for (name, *typed), (fns, speed) in zip(rows, cases, strict=True):
+        done = capstone.pick(fns, speed=speed)
+        assert not done.failed, name
+        found = (done.place_mm, done.joint_mrad, done.line_mm)
+        for number, ours in zip(typed, found, strict=True):
+            assert float(number) / 2 < ours < 2 * float(number), name
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(("mass", "slips"), [(0.16, False), (0.18, True)])
+def test_what_the_grip_lifts_is_as_predicted(mass, slips):
+    model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, mass=mass)
+    done = capstone.pick(capstone.library(), model=model)
+    assert done.failed == slips
+    assert (done.heaviest < mass) == slips
+    assert says(f"a cube of {mass} kg" if not slips else f"one of {mass} kg slips out")
+
+
+def test_the_predictions_of_the_side_quest():
+    up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
+    assert says(f"speeds up with {up:.2f} m/s2")
+    assert says(f"{lab.heaviest_cube(0.917, 1.0, 0.0):.3f} kg at rest")
+    assert says(f"and {lab.heaviest_cube(0.917, 1.0, up):.3f} kg while")
+    assert says(f"bound is {lab.heaviest_cube(0.917, 0.3, up):.3f} kg")
+
+
+def test_47_is_written_within_half_a_millimetre():
+    written = folder.load(DAY, "letters").write()
+    off = np.linalg.norm(written.wanted - written.reached, axis=1)
+    assert off.max() < 5e-4  # measured 2.0e-4
+    assert written.torque < 0.9  # measured 0.45
+    assert written.seconds < 10.0
+
+
+def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
+    monkeypatch.setattr("sys.argv", [SCRIPT, "--no-log"])
+    for name in ("TRIALS",):
+        monkeypatch.setattr(lab, name, 20)
+    monkeypatch.setattr(lab, "heaviest_cube", lambda grip, mu, a: mu * grip / 9.81)
+    assert lab.main() == 1
+    said = capsys.readouterr().out
+    assert "The arm stays off" in said
+    assert "8. Pick" not in said
+    assert simulate.SPEED_LIMITS is lab.V_MAX
