@@ -13,8 +13,8 @@ RUN, WEEK, START = "scripts/run_day.py", "scripts/run_week.py", "scripts/start_d
 
 
 @pytest.fixture
-def day(clone):
-    return find_day(1, clone)
+def day(one_day):
+    return find_day(1, one_day)
 
 
 def test_ones_own_lab_runs_and_not_a_module_beside_it(run_in, day):

@@ -23,8 +23,8 @@ SHARE = Metric("right", "share", min=0.95)
 
 
 @pytest.fixture
-def day(clone):
-    return find_day(1, clone)
+def day(one_day):
+    return find_day(1, one_day)
 
 
 @pytest.fixture
