@@ -118,6 +118,16 @@ def clone(tmp_path):
 
 
 @pytest.fixture
+def one_day(clone):
+    """Return that copy with its first day alone: the labs of a week take seconds."""
+    from robo47.lesson.day import all_days
+
+    for day in all_days(clone)[1:]:
+        shutil.rmtree(day.own)
+    return clone
+
+
+@pytest.fixture
 def run_in(clone):
     """Run a script of that copy as a student would, in a process of its own."""
 

@@ -280,7 +280,7 @@ def test_sections_know_their_level_and_what_is_code():
 
 @pytest.mark.parametrize(
     ("value", "says"),
-    [("0.5", "must be at most 1e-10"), ("-1e-16", "never negative"), ("nan", "number")],
+    [("0.5", "must be under 1e-10"), ("-1e-16", "never negative"), ("nan", "number")],
 )
 def test_a_number_that_cannot_be_right_is_told(items, clone, value, says):
     log = clone / "metrics" / "metrics.csv"

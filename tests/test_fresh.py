@@ -32,8 +32,9 @@ def commit(folder):
 
 
 @pytest.fixture
-def student(clone, run_in):
+def student(one_day, run_in):
     """A student's clone with the day's lab solved, run and committed."""
+    clone = one_day
     for name in (".gitignore", "pyproject.toml", "constraints.txt"):
         (clone / name).write_bytes((ROOT / name).read_bytes())
     day = find_day(1, clone)

@@ -23,8 +23,8 @@ SHARE = Metric("right", "share", min=0.95)
 
 
 @pytest.fixture
-def day(clone):
-    return find_day(1, clone)
+def day(one_day):
+    return find_day(1, one_day)
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_the_weeks_labs_stand_in_one_table(run_in, begun):
     done = run_in(RUN_WEEK)
     assert done.returncode == 0, done.stdout + done.stderr
     lines = done.stdout.splitlines()
-    assert lines[0].split() == ["day", "whose", "number", "value", "limit"]
+    assert lines[0].split() == ["day", "whose", "check", "number", "limit"]
     own = [line for line in lines if line.startswith("1    yours")]
     assert len(own) == len(begun.metrics)
     assert all(line.endswith("PASS") for line in own)

@@ -151,7 +151,7 @@ def _card(series: Series) -> str:
         ("latest", plot.number(latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
-        ("threshold", series.limits),
+        ("threshold", escape(series.limits)),
     ]
     terms = "".join(
         f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"

@@ -28,7 +28,7 @@ COLOURS = {
     "open": "#5c6670",
     "none": "#5c6670",
 }
-ABSENT = str.maketrans({"≤": "<=", "≥": ">=", "–": "-"})  # from Pillow's own font
+ABSENT = str.maketrans({"–": "-"})  # from Pillow's own font
 ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 
 

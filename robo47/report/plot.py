@@ -135,7 +135,7 @@ def _threshold(series: Series, axis: _Axis) -> list[Shape]:
     if series.threshold is None:
         return []
     shapes: list[Shape] = []
-    for sign, bound in (("≤", series.threshold.max), ("≥", series.threshold.min)):
+    for sign, bound in (("<", series.threshold.max), (">", series.threshold.min)):
         if bound is None or (axis.log and bound <= 0):
             continue
         y = axis.y(bound)

@@ -43,12 +43,12 @@ class Series:
 
     @property
     def limits(self) -> str:
-        """The threshold in signs, "≤ 1e-08"; "–" where there is none."""
+        """The threshold in signs, "< 1e-08"; "–" where there is none."""
         if self.threshold is None:
             return "–"
         low, high = self.threshold.min, self.threshold.max
-        parts = [] if low is None else [f"≥ {low:g}"]
-        parts += [] if high is None else [f"≤ {high:g}"]
+        parts = [] if low is None else [f"> {low:g}"]
+        parts += [] if high is None else [f"< {high:g}"]
         return ", ".join(parts)
 
     @property
