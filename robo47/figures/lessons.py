@@ -17,7 +17,7 @@ def lesson_figures(number: int) -> dict[str, Callable[[], Any]]:
         number: of the day.
 
     Returns:
-        {"day1_order": function that returns a PIL image, ...}; {} where the day has
+        {"dayN_name": function that returns a PIL image, ...}; {} where the day has
         no pictures of its own.
 
     Raises:

@@ -20,11 +20,11 @@ FRAME = panda.END_FRAME["panda_nohand"]
 ForwardKinematics = Callable[[mujoco.MjModel, Array], Array]
 
 
-def joint_sliders(compose_fk: ForwardKinematics | None = None) -> ipywidgets.HBox:
+def joint_sliders(by_hand: ForwardKinematics | None = None) -> ipywidgets.HBox:
     """Return seven sliders, a picture that follows them, and T_world_ee twice.
 
     Args:
-        compose_fk: takes the model and q (7,), radians, and returns T_world_ee (4, 4);
+        by_hand: takes the model and q (7,), radians, and returns T_world_ee (4, 4);
             its answer is shown and drawn as `ee`. By default the library's.
 
     Raises:
@@ -43,8 +43,8 @@ def joint_sliders(compose_fk: ForwardKinematics | None = None) -> ipywidgets.HBo
 
     def follow(_change: object = None) -> None:
         q = np.array([slider.value for slider in sliders])
-        T_world_ee = (compose_fk or library_fk)(model, q)
-        who = "compose_fk" if compose_fk else "robo47.kinematics"
+        T_world_ee = (by_hand or library_fk)(model, q)
+        who = by_hand.__name__ if by_hand else "robo47.kinematics"
         picture.value = draw(q, T_world_ee)
         numbers.value = compare(T_world_ee, who, mujoco_fk(model, q))
 

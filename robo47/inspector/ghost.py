@@ -2,7 +2,7 @@
 
 A day says in its `inspector.py` which function is the chain and what to ask it:
 
-    GHOST = Ghost("compose_fk", frames=("link0", ..., "ee"), questions=ask)
+    GHOST = Ghost("fk", frames=("link0", ..., "ee"), questions=ask)
 
 What comes back is compared with MuJoCo here; the code that gave it ran in the checker's
 sandbox (`student`). Metres, radians.

@@ -1,6 +1,6 @@
 """A day's Python files, imported by path: the machine names no day.
 
-`w1-foundations/day2/questions.py` becomes the module `lesson_day2.questions`; files of
+`w1-foundations/dayN/questions.py` becomes the module `lesson_dayN.questions`; files of
 one day import each other as `from .mistakes import ...`.
 """
 

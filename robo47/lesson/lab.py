@@ -155,11 +155,11 @@ def day_of(script: Path) -> Day:
     """Return the day whose lab a script is, by its name.
 
     Raises:
-        Robo47Error: the name is not like day1_transforms.py.
+        Robo47Error: the name is not like dayN_name.py.
     """
     found = re.match(r"day(\d+)_", script.name)
     if not found:
-        raise Robo47Error(f"{script.name} is no lab; expected a name like day1_*.py")
+        raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
     return find_day(int(found[1]))
 
 
