@@ -176,6 +176,15 @@ def tries(arm: tuple, T_goal: np.ndarray, limits: np.ndarray, rng) -> int:
     return 0
 
 
+def all_tries(arm: tuple, goals: np.ndarray, limits: np.ndarray, rng) -> np.ndarray:
+    """Return `tries` of each target, (n,); after three failures the rest is spared."""
+    found: list[int] = []
+    for T_goal in goals:
+        if found.count(0) < 3:
+            found.append(tries(arm, T_goal, limits, rng))
+    return np.array(found)
+
+
 def on_the_circle(radius: float, time: float) -> np.ndarray:
     """Return where the hand should be, (4, 4); the tool points down all the way."""
     phi, T = 2 * np.pi * time / LAP, np.diag([-1.0, 1.0, -1.0, 1.0])
@@ -292,11 +301,13 @@ def main() -> int:
     )
     lab.check("2 m away, out of reach: error / the library's", ratio, 1.01)
     lab.check("rad beyond the joint limits", beyond(limits, np.vstack([found, far])))
-    at = each(lambda goal: tries(arm, goal, limits, rng), fk_space(*arm, many[:FAR]))
-    print(f"  {FAR} targets anywhere: {np.sum(at == 1)} reached from the ready pose,")
+    at = all_tries(arm, fk_space(*arm, many[:FAR]), limits, rng)
+    print(
+        f"  {len(at)} targets anywhere: {np.sum(at == 1)} reached from the ready pose,"
+    )
     print(f"  {np.sum(at > 0)} with up to {TRIES} starts.")
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
-               n_trials=FAR, n_failures=int(np.sum(at == 0)))  # fmt: skip
+               n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip
 
     lab.step(f"5. A circle of {RADIUS} m, through a singularity, with damping")
     off, speeds, _ = draw_circle(arm, first_q(arm, RADIUS, limits), RADIUS, DAMPING)
