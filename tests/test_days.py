@@ -111,6 +111,7 @@ def test_the_catalogue_has_files_of_every_task(day):
     assert judged == asked
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize(("day", "submission"), FILES)
 def test_a_file_is_told_what_the_catalogue_says(day, submission):
     status = STATUS[submission.folder]

@@ -56,5 +56,5 @@ def solve_ik(
         J = site_jacobian(space_jacobian(screws, q), T[:3, 3])
         q = np.clip(q + dls_step(J, e, np.sqrt(e @ e / 2 + 1e-6)), *limits.T)
     if least > 1e-8**2:
-        raise ValueError('not reached')
+        raise ValueError("not reached")
     return best
