@@ -162,6 +162,9 @@ def test_a_slider_moves_the_arm_and_the_matrix():
 def test_the_sliders_show_the_function_that_they_are_given():
     from robo47.figures.sliders import joint_sliders
 
-    left, _ = joint_sliders(lambda model, q: np.eye(4)).children
+    def compose_fk(model, q):
+        return np.eye(4)
+
+    left, _ = joint_sliders(compose_fk).children
     assert "T_world_ee, compose_fk" in left.children[-1].value
     assert "color:crimson" in left.children[-1].value
