@@ -28,7 +28,8 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
     TABS = [Screws]
 
 Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
-frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no GHOST, no ghost arm is drawn.
+frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
+GHOST, no ghost arm is drawn.
 
 What a tab has in `page` (`robo47/inspector/page.py` says the arguments):
 
