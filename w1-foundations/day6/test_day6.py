@@ -226,6 +226,12 @@ def at_rest(motors, push=None, seconds=3.0):
 
 
 @pytest.mark.kit
+@pytest.mark.parametrize(("omega", "mm"), [(10.0, 0.225), (40.0, 0.068)])
+def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm):
+    assert circled(motors, OMEGA=omega)[0] == pytest.approx(mm, abs=2e-3)
+
+
+@pytest.mark.kit
 def test_without_bias_the_soft_hand_sinks(motors, monkeypatch):
     monkeypatch.setattr(
         lab, "impedance_torque",
