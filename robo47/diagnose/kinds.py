@@ -237,7 +237,8 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     if size == 0.0:
         return None
     factor = float(np.sum(S * T)) / size
-    if abs(factor) < 1e-6 or not matches(S, factor * T, kind.scale):
+    plain = abs(factor) > 1e-6 and abs(factor - 1.0) > 1e-3
+    if not plain or not matches(S, factor * T, kind.scale):
         return None
     return Finding(
         "one-factor-off",
