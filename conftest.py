@@ -29,7 +29,7 @@ def need(available: bool, what: str) -> None:
     if not available:
         if os.environ.get("ROBO47_CI"):
             pytest.fail(f"CI must provide {what}")
-        pytest.skip(f"needs {what}")
+        pytest.skip(f"needs {what}", allow_module_level=True)
 
 
 def load_script(path):
