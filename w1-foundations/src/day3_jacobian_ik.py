@@ -300,8 +300,11 @@ def main() -> int:
         lambda goal, x: miss(arm, x, goal), out, best
     )
     lab.check("2 m away, out of reach: error / the library's", ratio, 1.01)
-    lab.check("rad beyond the joint limits", beyond(limits, np.vstack([found, far])))
-    at = all_tries(arm, fk_space(*arm, many[:FAR]), limits, rng)
+    goals = fk_space(*arm, many[:FAR])
+    some = each(lambda goal: solve_ik(*arm, goal, READY_Q, limits), goals[:5])
+    ends = np.vstack([found, far, some])
+    lab.check("rad beyond the joint limits", beyond(limits, ends))
+    at = all_tries(arm, goals, limits, rng)
     print(
         f"  {len(at)} targets anywhere: {np.sum(at == 1)} reached from the ready pose,"
     )
