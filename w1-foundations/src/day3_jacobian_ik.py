@@ -23,7 +23,8 @@ TRIES = 10  # starts for one far target; with 1, a third of them is not reached
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # Franka's joint speed limits, rad/s
 # The hand draws a circle in the y-z plane, from START_Q on. With radius 0.36 every
 # method can do it; 0.38 grazes a singularity; 0.4 leads beyond the arm's reach.
-CENTRE, EASY, RADIUS = np.array([0.28, -0.06, 0.55]), 0.36, 0.38
+CENTRE = np.array([0.28, -0.06, 0.55])
+EASY, RADIUS = 0.36, 0.38
 START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])  # its elbow: no limit is met
 LAP, DT = 6.0, 0.02  # seconds a lap takes, and a step; what goes wrong changes with DT
 DAMPING = 0.05  # 0.1 is slower and less exact, 0 is the plain pseudo-inverse
