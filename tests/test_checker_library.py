@@ -1,5 +1,7 @@
 """What student code may import: the library of earlier days, and nothing later."""
 
+import dataclasses
+
 import pytest
 
 from robo47.checker import library
@@ -26,23 +28,23 @@ def test_what_travels_needs_no_simulator():
             assert "import mujoco" not in source, name
 
 
-def test_a_library_that_leads_to_a_later_answer_is_refused(monkeypatch):
-    import dataclasses
+def days_of(monkeypatch, *days):
+    by_number = {day.number: day for day in days}
+    monkeypatch.setattr(library, "day_numbers", lambda: list(by_number))
+    monkeypatch.setattr(library, "find_day", by_number.__getitem__)
 
-    first = find_day(1)
-    early = dataclasses.replace(first, number=1, library=("jacobian",))
-    late = dataclasses.replace(first, number=2, library=("screws",))
-    monkeypatch.setattr(library, "all_days", lambda: [early, late])
-    with pytest.raises(
-        Robo47Error, match=r"screws\.py is an answer of a day from 2 on"
-    ):
+
+def test_a_library_that_leads_to_this_days_answer_is_refused(monkeypatch):
+    early = dataclasses.replace(find_day(1), number=1, library=("jacobian",))
+    late = dataclasses.replace(early, number=2, library=("screws",))
+    days_of(monkeypatch, early, late)
+    with pytest.raises(Robo47Error, match=r"screws\.py is an answer of day 2"):
         library.library_of(late)
 
 
 def test_a_module_that_is_not_there_is_named(monkeypatch):
-    import dataclasses
-
     early = dataclasses.replace(find_day(1), number=1, library=("nonesuch",))
-    monkeypatch.setattr(library, "all_days", lambda: [early])
+    late = dataclasses.replace(early, number=2)
+    days_of(monkeypatch, early, late)
     with pytest.raises(Robo47Error, match=r"robo47/nonesuch\.py, which is not there"):
-        library.library_of(dataclasses.replace(early, number=2))
+        library.library_of(late)

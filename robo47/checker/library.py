@@ -7,7 +7,7 @@ import ast
 from functools import cache
 
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, all_days
+from robo47.lesson.day import Day, day_numbers, find_day
 from robo47.paths import ROOT, shown
 
 KIT = ROOT / "robo47"
@@ -24,21 +24,20 @@ def library_of(day: Day) -> dict[str, str]:
 
     Raises:
         Robo47Error: a manifest names a module that is not there, or one that imports an
-            answer of this day or a later one.
+            answer of this day. (A test looks at later days.)
     """
-    days = all_days()
-    allowed = [name for d in days if d.number < day.number for name in d.library]
-    later = {name for d in days if d.number >= day.number for name in d.library}
+    earlier = [find_day(n) for n in day_numbers() if n < day.number]
+    allowed = [name for d in earlier for name in d.library]
     found = {"kit": ""}  # a lab's first import, which leads to the kit's own Python
     waiting = list(allowed)
     while waiting:
         name = waiting.pop()
         if f"robo47.{name}" in found:
             continue
-        if name in later:
+        if name in day.library:
             raise Robo47Error(
-                f"robo47/{name}.py is an answer of a day from {day.number} on, and the "
-                f"library of an earlier day imports it"
+                f"robo47/{name}.py is an answer of day {day.number}, and the library of "
+                "an earlier day imports it"
             )
         source, inner = _read(name)
         found[f"robo47.{name}"] = source
