@@ -12,6 +12,8 @@ from conftest import environment_of
 from robo47 import metrics
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
 
 
@@ -170,7 +172,7 @@ class TestCheck:
         ("arguments", "says"),
         [
             ((1,), "make start DAY=1"),
-            ((7,), "no day 7 yet"),
+            ((48,), "no day 48 yet"),
             (("--task", "x"), "'x' is no task"),
             (("--task", "1.4", "--file", "nowhere.py"), "nowhere.py is not there"),
         ],

@@ -44,7 +44,7 @@ def test_a_library_that_leads_to_this_days_answer_is_refused(monkeypatch):
 
 def test_a_module_that_is_not_there_is_named(monkeypatch):
     early = dataclasses.replace(find_day(1), number=1, library=("nonesuch",))
-    late = dataclasses.replace(early, number=2)
+    late = dataclasses.replace(early, number=2, library=())
     days_of(monkeypatch, early, late)
     with pytest.raises(Robo47Error, match=r"robo47/nonesuch\.py, which is not there"):
         library.library_of(late)

@@ -17,6 +17,8 @@ from robo47.checker.deliverables.figure import FlawError, read_png
 from robo47.checker.deliverables.worksheet import split_sections
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 RNG = np.random.default_rng(47)
 PICTURE = RNG.integers(0, 256, (300, 400, 3), np.uint8)
 GUIDE = "A frame is an origin with three axes that are fixed to a body of the robot.\n"

@@ -11,6 +11,8 @@ from robo47.errors import Robo47Error
 from robo47.metrics import append_row, read_rows
 from robo47.metrics.header import LINE
 
+pytestmark = pytest.mark.kit
+
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "scripts" / "log_metric.py"
 OLD = "r,2026-09-01,1,fk,abc1234,0,home,manual,1,0,err,1e-16,note"

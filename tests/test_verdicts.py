@@ -5,6 +5,8 @@ import pytest
 from robo47.checker import sandbox
 from robo47.lesson.day import find_day
 
+pytestmark = pytest.mark.kit
+
 REFERENCE = find_day(1).source.read_text("utf-8")
 
 

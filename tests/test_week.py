@@ -17,6 +17,8 @@ from robo47.week.facts import DayFacts, hints_given, minutes_of
 from robo47.week.labs import days_of, name_of, week_of
 from robo47.week.numbers import Number, numbers_of
 
+pytestmark = pytest.mark.kit
+
 RUN_WEEK, REPORT = "scripts/run_week.py", "scripts/report_metrics.py"
 SMALL = Metric("fk", "err", max=1e-8)
 SHARE = Metric("right", "share", min=0.95)

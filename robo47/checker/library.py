@@ -36,8 +36,8 @@ def library_of(day: Day) -> dict[str, str]:
             continue
         if name in day.library:
             raise Robo47Error(
-                f"robo47/{name}.py is an answer of day {day.number}, and the library of "
-                "an earlier day imports it"
+                f"robo47/{name}.py is an answer of day {day.number}, and the library "
+                "of an earlier day imports it"
             )
         source, inner = _read(name)
         found[f"robo47.{name}"] = source

@@ -121,25 +121,26 @@ class Lab:
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
-        if not self.log:
+        if self.log:
+            try:
+                # A failed check is recorded too: NaN is its value.
+                metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
+            except Robo47Error:  # how the lab went is worth saying all the same
+                self._say_failures()
+                raise
+            rows = count(len(self.rows), "row")
+            print(f"\nlogged {rows} to {shown(METRICS_CSV)}")
+        else:
             print("\nnothing logged (--no-log)")
-            return self._conclude()
-        try:
-            # A failed check is recorded too: NaN is its value.
-            metrics.append_rows(self.rows, sync=True, allow_nonfinite=True)
-        except Robo47Error:  # how the lab went is worth saying all the same
-            self._conclude()
-            raise
-        print(f"\nlogged {count(len(self.rows), 'row')} to {shown(METRICS_CSV)}")
-        return self._conclude()
-
-    def _conclude(self) -> int:
-        for failure in self.failed:
-            print(cli.wrapped(f"FAILED: {failure}", "  "))
+        self._say_failures()
         if self.failed:
             return cli.EXIT_FAILED
         print(cli.paint("All checks PASSED.", "good"))
         return cli.EXIT_OK
+
+    def _say_failures(self) -> None:
+        for failure in self.failed:
+            print(cli.wrapped(f"FAILED: {failure}", "  "))
 
     def _judge(self, name: str, wanted: Metric, value: float, bound: float) -> None:
         good = wanted.passes(value)
