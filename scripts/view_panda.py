@@ -23,9 +23,9 @@ from robo47 import cli, menagerie, panda, window
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, find_day, started_day
-from robo47.paths import ROOT, shown
+from robo47.paths import shown
 
-PICTURE = ROOT / "w1-foundations" / "figures" / "day1_panda_viewer.png"
+DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
@@ -131,8 +131,8 @@ def parse() -> argparse.Namespace:
         metavar="FILE",
         nargs="?",
         type=Path,
-        const=PICTURE,
-        help=f"write a picture (to {shown(PICTURE)})",
+        const=DAYS_OWN,
+        help="write a picture; without FILE the one that the day hands in",
     )
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
@@ -158,13 +158,27 @@ def parse() -> argparse.Namespace:
     return parser.parse_args()
 
 
+def picture_of(options: argparse.Namespace) -> Path:
+    """Return which file a picture is written to.
+
+    Raises:
+        Robo47Error: no file is named, and the day hands no figure in.
+    """
+    if options.screenshot != DAYS_OWN:
+        return options.screenshot
+    day = find_day(options.day or started_day())
+    if not day.figure:
+        raise Robo47Error(f"day {day.number} hands no figure in; name a file")
+    return day.folder / day.figure
+
+
 def main() -> int:
     """Show the Panda in the way that was asked for."""
     options = parse()
     if options.screenshot:
         if options.entry:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
-        return screenshot(options.screenshot, options.start)
+        return screenshot(picture_of(options), options.start)
     if options.native:
         return native()
     day = find_day(options.day or started_day())

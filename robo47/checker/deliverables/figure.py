@@ -35,8 +35,8 @@ def check_figure(day: Day, handin: Handin) -> Item:
     name = day_files(day)["figure"]
     data = handin.files.get(name)
     if data is None:
-        command = f'make view DAY={day.number} ARGS="--screenshot {name}"'
-        says = f"Save your picture of the arm as {name}:\n{command}"
+        command = f"make view DAY={day.number} ARGS=--screenshot"
+        says = f"Save your picture as {name}. One of the arm: {command}"
         return Item("figure", "todo", says)
     try:
         picture = read_png(data)
