@@ -36,7 +36,10 @@ def redone(ask):
     found = []
     for mistake in ask.named:
         with np.errstate(all="ignore"):
-            S = parts(mistake.redo(*arguments))
+            try:
+                S = parts(mistake.redo(*arguments))
+            except (ValueError, np.linalg.LinAlgError):
+                continue  # it has no answer of its own to these; the judge goes on too
             if off_by(ask, S, T) > ask.near:
                 found.append((mistake, S))
     return found

@@ -13,9 +13,10 @@ RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
 
 
 def difference(a: Array, b: Array) -> Array:
-    """Return the largest difference of any entry per case, (n,); NaN counts as inf."""
+    """Return the largest difference of any entry per case, (n,); one NaN is inf."""
     with np.errstate(invalid="ignore"):
-        gap = np.where(a == b, 0.0, np.abs(a - b))  # inf equals inf
+        alike = (a == b) | (np.isnan(a) & np.isnan(b))  # inf equals inf, NaN NaN
+        gap = np.where(alike, 0.0, np.abs(a - b))
     return (
         np.nan_to_num(gap, nan=np.inf, posinf=np.inf).reshape(len(gap), -1).max(axis=1)
     )

@@ -18,7 +18,7 @@ Parts = tuple[Array, ...]
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
     """Return the first of: a named mistake, one place, what is wrong."""
     ask = case.ask
-    if found := _nothing_there(S) or redone(ask, case.arguments, S, T):
+    if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
         return found
     if found := _not_finite(S, case.given):
         return found

@@ -199,3 +199,6 @@ QUESTIONS = {
         near=NEAR,
     ),
 }
+
+# One thing with two names: on these questions the numbers are the same.
+ALIKE = {"site_jacobian": [{"omega-changed", "halves-read-as-v-omega"}]}

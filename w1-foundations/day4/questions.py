@@ -169,3 +169,6 @@ QUESTIONS = {
         ENERGY,
     ),
 }
+
+# One thing with two names: at qdd = 0 the numbers are the same.
+ALIKE = {"bias_torque": [{"nothing-added-outwards", "velocities-not-added"}]}

@@ -164,3 +164,6 @@ QUESTIONS = {
     ),
     "hybrid_wrench": _plain(_hybrid, WRENCH, TWIN.hybrid_wrench, HYBRID_WRENCH),
 }
+
+# One matrix with two readings: J^T pinv(J^T) is J^+ J.
+ALIKE = {"null_torque": [{"pinv-of-transpose", "kinematic-projector"}]}

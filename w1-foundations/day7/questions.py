@@ -186,3 +186,6 @@ QUESTIONS = {
         near=NEAR,
     ),
 }
+
+# One thing with two names: the whole rotation at once is that of the last pose.
+ALIKE = {"straight_pose": [{"whole-turn", "turned-at-once"}]}

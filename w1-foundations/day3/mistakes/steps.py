@@ -55,12 +55,6 @@ DLS = [
         "the step with half of it",
     ),
     Mistake(
-        "damping-sign",
-        "the damping is subtracted; that makes J J^T more singular, not less",
-        _with(lambda damping: -(damping**2)),
-        "the step with - damping^2 I",
-    ),
-    Mistake(
         "damping-everywhere",
         "damping^2 is added to every entry of J J^T; it belongs on the diagonal only",
         lambda J, e, damping: damped(J, e, damping[:, None, None] ** 2),

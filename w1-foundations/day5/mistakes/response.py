@@ -110,11 +110,6 @@ RESPONSE = [
         lambda t, w, z: 1 - _truth(t, w, z),
     ),
     Mistake(
-        "grows",
-        "the error grows: the sign in the exponent is wrong",
-        lambda t, w, z: _truth(-t, w, z),
-    ),
-    Mistake(
         "omega-in-turns",
         "omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s",
         lambda t, w, z: _truth(t, 2 * np.pi * w, z),
