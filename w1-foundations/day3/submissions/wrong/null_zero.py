@@ -1,4 +1,4 @@
-# task 3.8: all-zeros
+# task 3.8: nothing-left
 # The inverse of the first six columns, and so nothing is left.
 import numpy as np
 
