@@ -63,7 +63,7 @@ grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## gr
 	clones? make grade ROOT=../class))" $(ON_DAY) $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
-	@$(PY) -m pytest $(ARGS)
+	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)
 
 soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)

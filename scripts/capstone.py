@@ -3,7 +3,7 @@
     make capstone                       one cube, your functions of all days
     make capstone ARGS=--all            twenty random cubes
     make capstone ARGS=--kit            the library's functions alone
-    make capstone ARGS=--ablations      what a mistake does to the arm, in a table
+    make capstone ARGS=--ablations      what mistakes do, in a table
     make capstone ARGS="--clip a.gif"   a short film of it
     make capstone ARGS="--picture a.png"
 

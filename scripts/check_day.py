@@ -45,15 +45,13 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if not script.is_file():
         remedy = "" if options.file else f"; first: make start DAY={day.number}"
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
-    with (
-        cli.busy("checking"),
-        Sandbox() as sandbox,
-    ):  # it warms up while MuJoCo is imported
-        from robo47.checker import journal, report
-        from robo47.checker.deliverables import check_deliverables
-        from robo47.checker.tasks import check_tasks
+    with cli.busy("checking"):
+        with Sandbox() as sandbox:  # it warms up while MuJoCo is imported
+            from robo47.checker import journal, report
+            from robo47.checker.deliverables import check_deliverables
+            from robo47.checker.tasks import check_tasks
 
-        results = check_tasks(day, script, sandbox, options.task)
+            results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
         journal.note(results)
     done = all(result.passed for result in results)

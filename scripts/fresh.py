@@ -2,7 +2,7 @@
 
     python3 scripts/fresh.py             the week that you are in (make fresh)
     python3 scripts/fresh.py 2           week 2
-    python3 scripts/fresh.py --quick     with this environment: no set-up, seconds
+    python3 scripts/fresh.py --quick     in this environment, no set-up
 
 The commit, not your folder, is cloned to a temporary place, set up from nothing, and
 the labs of the week run there: yours where they are begun, else the kit's. Their

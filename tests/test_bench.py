@@ -130,7 +130,7 @@ def test_the_table_fits_80_columns():
 
 
 def test_the_readme_shows_this_table():
-    shown = (ROOT / "README.md").read_text("utf-8")
+    shown = (ROOT / "bench" / "README.md").read_text("utf-8")
     assert "python scripts/bench.py --table" in shown  # test_docs compares the outputs
     text = table.render(json.loads(RESULTS.read_text("utf-8")))
     assert text in shown

@@ -102,17 +102,18 @@ def test_each_kind_of_answer_has_its_own_words(kit, run, file):
 def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
     manifest = kit / "w9-toy" / "day46" / "day.toml"
     text = manifest.read_text()
-    manifest.write_text(text.replace("minutes = 10", 'minutes = 10\nlibrary = ["poe"]'))
+    own = text.replace("minutes = 10", 'minutes = 10\nlibrary = ["window"]')
     solve(kit, begun)
-    code = begun.read_text().replace(
-        "    # region 46.2", "    from robo47.poe import *"
-    )
-    call = "    import robo47.poe\n    return robo47.poe.anything(a, b)\n"
-    begun.write_text(code.replace("    from robo47.poe import *\n", call))
-    entry = entries(run, "--task", "46.2")["46.2"]
-    manifest.write_text(text)
+    call = "    import robo47.window\n    return robo47.window.anything(a, b)\n"
+    gap = "    # region 46.2\n"
+    begun.write_text(begun.read_text().replace(gap, gap + call))
+    try:
+        manifest.write_text(own)
+        entry = entries(run, "--task", "46.2")["46.2"]
+    finally:
+        manifest.write_text(text)
     assert entry["mistake"] == "not-by-hand"
-    assert "robo47.poe.anything" in entry["message"]
+    assert "robo47.window.anything" in entry["message"]
 
 
 def test_its_lab_runs_logs_and_is_judged_by_max_and_min(kit, run, begun):

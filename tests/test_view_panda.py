@@ -183,7 +183,7 @@ def test_a_clip_of_a_file_that_is_not_there_is_one_line(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone):
-    from robo47.checker.deliverables.figure import check_figure
+    from robo47.checker.deliverables import check_deliverables
     from robo47.lesson.day import find_day
 
     need(importlib.util.find_spec("PIL") is not None, "Pillow: make report")
@@ -191,8 +191,8 @@ def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone)
     done = run_in(VIEW, "--screenshot")
     assert (done.returncode, done.stderr) == (0, "")
     assert f"wrote w1-foundations/{day.figure}" in done.stdout
-    found = check_figure(day, day.folder)
-    assert found.passed, found.message
+    items = {item.name: item for item in check_deliverables(day, clone)}
+    assert items["figure"].passed, items["figure"].message
 
 
 @pytest.mark.gl
