@@ -141,19 +141,22 @@ def make_venv(venv, python, uv):
     stop("could not make it:\n" + said[-1500:], "Fix that and run make again.")
 
 
-def install(venv, extra, uv):
-    """Install the kit, editable, with one extra, at the pinned versions."""
-    what = ".[" + extra + "]" if extra != "core" else "."
+def install(venv, extras, uv):
+    """Install the kit, editable, with some extras, at the pinned versions."""
+    named = ",".join(extra for extra in extras if extra != "core")
+    what = ".[" + named + "]" if named else "."
     command = [os.path.join(venv, PYTHON_IN_VENV), "-m", "pip", "install"]
     command += ["--disable-pip-version-check"]
     if uv:
         command = [uv, "pip", "install", "--python", command[0]]
     command += ["--quiet", "--constraint", "constraints.txt", "--editable", what]
-    begun = os.path.join(venv, ".installing-" + extra)
-    if os.path.exists(begun):  # killed halfway: what looks installed may have gaps
+    begun = [os.path.join(venv, ".installing-" + extra) for extra in extras]
+    if any(map(os.path.exists, begun)):  # killed halfway: there may be gaps
         command.append("--reinstall" if uv else "--force-reinstall")
-    open(begun, "wb").close()
-    code, said = run(command, "installing robo47 (" + extra + "), a minute at most")
+    for mark in begun:
+        open(mark, "wb").close()
+    what = ", ".join(extras)
+    code, said = run(command, "installing robo47 (" + what + "), a minute at most")
     if code == 0:
         return
     if any(sign in said for sign in OFFLINE):
@@ -188,11 +191,12 @@ def bring(venv, extras, anew):
     """Bring an environment to what pyproject.toml and constraints.txt say."""
     uv = getattr(shutil, "which", lambda name: None)("uv")
     provide(venv, anew, uv)
+    stamps = {extra: os.path.join(venv, ".ready-" + extra) for extra in extras}
+    missing = [extra for extra in extras if not is_stamped(stamps[extra])]
+    if missing:
+        install(venv, missing, uv)
     for extra in extras:
-        stamp = os.path.join(venv, ".ready-" + extra)
-        if not is_stamped(stamp):
-            install(venv, extra, uv)
-        write_stamp(stamp)
+        write_stamp(stamps[extra])
         remove(os.path.join(venv, ".installing-" + extra))
 
 
