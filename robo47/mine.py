@@ -61,7 +61,8 @@ def load(days: Iterable[Day] | None = None) -> Mine:
                     setattr(mine.functions, name, own)
                     mine.yours.append(name)
                 else:
-                    told = why[task.id] if own is None else "does not load here"
+                    passed = why[task.id] == "passed"
+                    told = "does not load here" if passed else why[task.id]
                     mine.replaced.append((day.number, name, told))
     return mine
 
