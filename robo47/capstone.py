@@ -146,7 +146,9 @@ def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, float]]:
             SPEED,
         ),
         "armature forgotten": (
-            but(mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0)),
+            but(
+                mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0 * armature)
+            ),
             SPEED,
         ),
         "the hand forgotten": (

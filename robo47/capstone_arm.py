@@ -53,8 +53,8 @@ class Arm:
         self.screws, self.M_tcp = fns.joint_screws(T_zero), T_zero[6] @ self.T_link7_tcp
         self.limits, self.tau_max = simulate.limits(model)
         dofs = simulate.addresses(model)[1]
-        self.armature = float(model.dof_armature[dofs][0])
-        self.damping = float(model.dof_damping[dofs][0])
+        self.armature = model.dof_armature[dofs].copy()
+        self.damping = model.dof_damping[dofs].copy()
         self.empty = panda.inertias(model)
         self.empty = self._with(panda.hand_inertia(model, opening=0.04))
         self.inertias = self.empty

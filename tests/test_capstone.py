@@ -5,8 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from conftest import load_script
 from robo47 import capstone, scenes, simulate
 from robo47.errors import Robo47Error
+from robo47.lesson.day import all_days
 
 # What the lessons' functions take: one configuration, arrays and plain numbers.
 SHAPES = {
@@ -15,16 +17,16 @@ SHAPES = {
     "site_jacobian": [(6, 7), (3,)],
     "solve_ik": [(7, 6), (4, 4), (4, 4), (7,), (7, 2)],
     "link_inertias": [(7, 4, 4), (7,), (7, 3), (7, 3, 3)],
-    "mass_matrix": [(6, 7), (7, 6, 6), ()],
+    "mass_matrix": [(6, 7), (7, 6, 6), (7,)],
     "bias_torque": [(6, 7), (7, 6, 6), (7,), (3,)],
     "gravity_torque": [(6, 7), (7,), (7, 3), (3,)],
-    "computed_torque": [(7, 7), (7,), (), (7,), (7,), (7,), (7,), (), ()],
+    "computed_torque": [(7, 7), (7,), (7,), (7,), (7,), (7,), (7,), (), ()],
     "task_inertia": [(6, 7), (7, 7)],
     "site_bias": [(6, 7), (7,), (3,)],
     "null_torque": [(6, 7), (7, 7), (6, 6), (7,)],
     "spring_wrench": [(6,), (6,), (6, 6), (6, 6)],
     "critical_damping": [(6,), (6, 6)],
-    "impedance_torque": [(6, 7), (6,), (7,), (), (7,), (7,)],
+    "impedance_torque": [(6, 7), (6,), (7,), (7,), (7,), (7,)],
     "joint_move": [(7,), (7,), (), ()],
     "quintic_scaling": [(), ()],
     "straight_pose": [(4, 4), (4, 4), ()],
@@ -97,6 +99,15 @@ def test_every_function_gets_one_configuration_and_always_the_same_shapes(done):
     assert {name: shapes for name, shapes in calls.items() if len(shapes) > 1} == {}
     for name, shapes in SHAPES.items():
         assert calls[name] == {tuple(shapes)}, name
+
+
+def test_it_runs_with_the_functions_that_the_labs_ask_for():
+    fns = capstone.library()
+    for day in all_days():
+        lab = load_script(day.source)
+        names = [name for task in day.tasks for name in task.functions]
+        vars(fns).update({name: getattr(lab, name) for name in names})
+    assert capstone.pick(fns).place_mm < 2.0
 
 
 def test_with_gravity_forgotten_the_cube_is_still_placed_but_the_arm_is_far_off():
