@@ -31,6 +31,12 @@ def test_mistakes_are_met_once_and_left_behind_when_the_task_passes(tmp_path):
     assert met == [("1.1", "a", True), ("1.2", "c", False), ("1.1", "b", True)]
 
 
+def test_what_follows_from_another_task_is_no_mistake_of_its_own(tmp_path):
+    first, then = ("wrong", "a"), ("wrong", "b", "its words", (), "1.1")
+    journal.note(results(t1_1=first, t1_2=then), tmp_path)
+    assert journal.mistakes_met(journal.read(tmp_path)) == [("1.1", "a", False)]
+
+
 def test_a_torn_or_odd_journal_loses_its_odd_lines_alone(tmp_path):
     journal.note(results(t1_1=("wrong", "a")), tmp_path)
     with journal.path_of(tmp_path).open("ab") as file:

@@ -131,7 +131,8 @@ class TestWhatIsMissing:
     def test_is_a_module_that_the_script_imports(self, student, lacks):
         day = find_day(1, student)
         text = day.work.read_text("utf-8")
-        day.work.write_text(f"from helper import x\n{text}", "utf-8")
+        counts = "def counted():\n    n = 0\n    def more():\n        nonlocal n\n"
+        day.work.write_text(f"from helper import x\n{text}{counts}", "utf-8")
         commit(student)
         day.work.with_name("helper.py").write_text("x = 1\n")
         found = f"{WEEK}/work/helper.py: {day.script} imports it; not in the commit"

@@ -53,7 +53,8 @@ def note(results: Sequence[TaskResult], root: Path = ROOT) -> None:
     lines = []
     for result in results:
         known = last.get(result.task.id)
-        state = (result.verdict.status, result.verdict.mistake)
+        verdict = result.verdict  # what follows from another task is no mistake of its own
+        state = (verdict.status, "" if verdict.follows else verdict.mistake)
         if known is None or (known.status, known.mistake) != state:
             entry = Entry(round(time.time(), 1), result.task.id, *state)
             lines.append(json.dumps(entry) + "\n")

@@ -45,10 +45,11 @@ def _imports(work: Path) -> Iterator[tuple[Path, str]]:
     """Yield the modules that the student's files import, by file."""
     for script, tree in _trees(work):
         for node in ast.walk(tree):
-            names = [alias.name for alias in getattr(node, "names", ())]
-            if isinstance(node, ast.ImportFrom):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
                 names = [node.module or ""]
-            elif not isinstance(node, ast.Import):
+            else:
                 continue
             yield from ((script, name.partition(".")[0]) for name in names if name)
 
