@@ -1,6 +1,7 @@
 """A clone of the last commit gives the same numbers, or it is said what it lacks."""
 
 import os
+import re
 import shutil
 import subprocess
 from dataclasses import replace
@@ -17,6 +18,9 @@ from robo47.week.missing import findings
 
 FRESH = "scripts/fresh.py"
 WEEK = "w1-foundations"
+BLANK = re.compile(r"\*\(your \w+\)\*")
+DIARY = "# Mine\n<!-- numbers -->\n{}\n<!-- end -->\n"
+TWO = "1. *(your words)*\n\n2. Mine.\n"
 WHO = {
     f"GIT_{r}_{f}": "a@b" for r in ("AUTHOR", "COMMITTER") for f in ("NAME", "EMAIL")
 }
@@ -31,9 +35,21 @@ def commit(folder):
     git(folder, "commit", "-qm", "x")
 
 
+def hand_in(day):
+    """Fill a day's worksheet and the week's retrospective in, and draw its figure."""
+    if day.worksheet:
+        sheet = day.folder / day.worksheet
+        sheet.write_text(BLANK.sub("mine", sheet.read_text("utf-8")), "utf-8")
+    if day.figure:
+        (day.folder / day.figure).parent.mkdir(exist_ok=True)
+        (day.folder / day.figure).write_bytes(b"x")
+    for diary in (day.folder / "docs").glob("RETRO_*.md"):
+        diary.write_text(DIARY.format("| 1 |") + "mine\n", "utf-8")
+
+
 @pytest.fixture
 def student(one_day, run_in):
-    """A student's clone with the day's lab solved, run and committed."""
+    """A student's clone with the day's lab solved, all of it filled in and committed."""
     clone = one_day
     for name in (".gitignore", "pyproject.toml", "constraints.txt"):
         (clone / name).write_bytes((ROOT / name).read_bytes())
@@ -42,6 +58,7 @@ def student(one_day, run_in):
     for name in ("kit.py", day.script):
         text = day.source.with_name(name).read_text("utf-8")
         day.work.with_name(name).write_text(text + "# mine\n", "utf-8")
+    hand_in(day)
     git(clone, "init", "-q")
     git(clone, "config", "core.autocrlf", "false")
     assert run_in("scripts/run_day.py", "1").returncode == 0
@@ -122,9 +139,9 @@ class TestWhatIsMissing:
     def test_is_a_figure_that_git_ignores(self, student, lacks):
         with (student / ".gitignore").open("a") as file:
             file.write("day1*.png\n")
-        commit(student)
         day = find_day(1, student)
-        (day.folder / day.figure).write_bytes(b"x")
+        git(student, "rm", "-q", "--cached", f"{WEEK}/{day.figure}")
+        commit(student)
         (line,) = lacks()
         assert line.startswith(f"{WEEK}/{day.figure}: ignored by git (.gitignore, line")
 
@@ -137,6 +154,31 @@ class TestWhatIsMissing:
         day.work.with_name("helper.py").write_text("x = 1\n")
         found = f"{WEEK}/work/helper.py: {day.script} imports it; not in the commit"
         assert lacks() == [found]
+
+    def test_is_what_nobody_drew_or_wrote(self, student, lacks):
+        day = find_day(1, student)
+        git(student, "rm", "-q", f"{WEEK}/{day.figure}")
+        with (day.folder / day.worksheet).open("a") as file:
+            file.write("*(your words)*\n\n   *(your answer)*\nnot *(this)* one\n")
+        (day.folder / "docs" / "RETRO_w1.md").write_text(DIARY.format("| 1 |") + TWO)
+        commit(student)
+        assert lacks() == [
+            f"{WEEK}/docs/RETRO_w1.md: 1 place still to fill in",
+            f"{WEEK}/docs/day1.md: 2 places still to fill in",
+            f"{WEEK}/{day.figure}: not there; day 1 hands it in",
+        ]
+
+    def test_is_a_retrospective_without_its_numbers(self, student, lacks):
+        (student / WEEK / "docs" / "RETRO_w1.md").write_text(DIARY.format("") + TWO)
+        commit(student)
+        says = "its numbers are not filled in yet; make report"
+        assert lacks() == [f"{WEEK}/docs/RETRO_w1.md: {says}"]
+
+    def test_is_no_sheet_of_a_day_that_is_not_begun(self, student, lacks):
+        git(student, "rm", "-rq", f"{WEEK}/work", f"{WEEK}/docs/day1.md")
+        (student / WEEK / "docs" / "RETRO_w1.md").write_text(DIARY.format("") + TWO)
+        commit(student)
+        assert lacks() == []
 
     def test_is_a_path_that_only_this_machine_has(self, student, lacks):
         day = find_day(1, student)
@@ -199,6 +241,7 @@ class TestTheCommand:
         for name in ("kit.py", toy):
             copy = student / "w9-toy" / "work" / name
             copy.write_bytes((student / "w9-toy" / "src" / name).read_bytes() + b"#\n")
+        hand_in(find_day(46, student))
         assert run_in("scripts/run_day.py", "46").returncode == 0
         report = run_in("scripts/report_metrics.py")
         assert "wrote metrics/report-week9.html" in report.stdout

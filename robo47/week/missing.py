@@ -1,4 +1,4 @@
-"""What is here and not in a clone of the last commit, or would not work in it."""
+"""What a clone of the last commit lacks, or what would not work in it."""
 
 import ast
 import re
@@ -7,12 +7,16 @@ from pathlib import Path
 
 from robo47.checker.deliverables.handin import day_files
 from robo47.lesson.day import Day
+from robo47.metrics.words import count
 from robo47.paths import ROOT
 from robo47.week.clone import ignored_by, uncommitted
+from robo47.week.retro import no_numbers
 
 # Two parts at least: "/" alone, or "/s" in a unit, is no path.
 _ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
 _LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
+# A line of a template that nobody has replaced.
+_BLANK = re.compile(r"^\s*(?:\d+\.\s+)?\*\([^*\n]*\)\*\s*$", re.MULTILINE)
 
 
 def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
@@ -23,13 +27,22 @@ def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
         clone: its folder.
         root: what it is a clone of.
     """
+    weeks = sorted({day.folder.name for day in days})
+    lacks = dict(_unfinished(days, clone)) | _only_here(days, weeks, clone, root)
+    found = [f"{name}: {why}" for name, why in sorted(lacks.items())]
+    return found + [line for week in weeks for line in _absolute(clone / week, clone)]
+
+
+def _only_here(
+    days: Sequence[Day], weeks: Sequence[str], clone: Path, root: Path
+) -> dict[str, str]:
+    """Return what is in the student's folder and not in the commit, with the reason."""
     lacks = uncommitted(root)
     for name in sorted({n for day in days for n in day_files(day).values()}):
         here, there = (root / name).is_file(), (clone / name).is_file()
         if here and not there and name not in lacks:
             rule = ignored_by(name, root)
             lacks[name] = f"ignored by git ({rule})" if rule else "not in the commit"
-    weeks = sorted({day.folder.name for day in days})
     for script, module in (
         m for week in weeks for m in _imports(clone / week / "work")
     ):
@@ -37,8 +50,36 @@ def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
             path = script.parent.relative_to(clone) / name
             if (root / path).is_file() and not (clone / path).is_file():
                 lacks[path.as_posix()] = f"{script.name} imports it; not in the commit"
-    found = [f"{name}: {why}" for name, why in sorted(lacks.items())]
-    return found + [line for week in weeks for line in _absolute(clone / week, clone)]
+    return lacks
+
+
+def _unfinished(days: Sequence[Day], clone: Path) -> Iterator[tuple[str, str]]:
+    """Yield what the days that were begun hand in, and is not there or has blanks.
+
+    Whether what is written there is good, `make check` says.
+    """
+    for day in days:
+        files = day_files(day)
+        if not (clone / files["script"]).is_file():
+            continue
+        for what, name in files.items():
+            if not (clone / name).is_file():
+                yield name, f"not there; day {day.number} hands it in"
+            elif what == "worksheet":
+                yield from _blanks(clone / name, clone)
+        if day == days[-1]:  # which ends the week
+            for diary in sorted((clone / day.folder.name / "docs").glob("RETRO_*.md")):
+                yield from _blanks(diary, clone)
+
+
+def _blanks(sheet: Path, clone: Path) -> Iterator[tuple[str, str]]:
+    """Yield what nobody has filled in yet."""
+    text = sheet.read_text("utf-8", errors="replace")
+    name, blank = sheet.relative_to(clone).as_posix(), len(_BLANK.findall(text))
+    if no_numbers(text):
+        yield name, "its numbers are not filled in yet; make report"
+    elif blank:
+        yield name, f"{count(blank, 'place')} still to fill in"
 
 
 def _imports(work: Path) -> Iterator[tuple[Path, str]]:

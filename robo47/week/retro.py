@@ -67,6 +67,12 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
     )
 
 
+def no_numbers(text: str) -> bool:
+    """Return whether a retrospective's numbers are still to be filled in."""
+    found = _MARKS.findall(text.encode())
+    return len(found) == 1 and not found[0][1].strip()
+
+
 def _cell(value: float | None) -> str:
     return "no row yet" if value is None else number_of(value)
 
