@@ -20,6 +20,7 @@ from typing import Any
 from robo47 import capstone
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.tasks import check_tasks
+from robo47.diagnose import Verdict
 from robo47.lesson.day import Day, all_days
 from robo47.paths import ROOT
 
@@ -80,9 +81,15 @@ def statuses(day: Day) -> dict[str, str]:
     if key not in known:
         with Sandbox() as sandbox:
             results = check_tasks(day, day.work, sandbox)
-        known[key] = {r.task.id: r.verdict.status for r in results}
+        known[key] = {r.task.id: _in_words(r.verdict) for r in results}
         _write(path, known)
-    return {task.id: known[key].get(task.id, "todo") for task in day.tasks}
+    return {task.id: known[key].get(task.id, "to do") for task in day.tasks}
+
+
+def _in_words(verdict: Verdict) -> str:
+    if verdict.mistake == "does-not-load":
+        return "the file does not load"
+    return "to do" if verdict.status == "todo" else verdict.status
 
 
 def _module(day: Day) -> ModuleType | None:

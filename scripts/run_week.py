@@ -8,12 +8,14 @@ added to your log.
 """
 
 import sys
+from collections.abc import Sequence
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from robo47 import cli
 from robo47.lesson.lab import number_of
+from robo47.metrics.words import count
 from robo47.week.labs import Ran, days_of, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
@@ -53,6 +55,16 @@ def tell_failure(ran: Ran) -> str:
     return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
 
 
+def verdict(labs: Sequence[Ran], failed: int) -> str:
+    """Return one line on all of it."""
+    if failed:
+        says = f"{failed} of {count(len(labs), 'lab')}"
+        return f"{cli.paint('FAIL', 'bad')}  {says} did not pass"
+    numbers = count(sum(len(ran.day.metrics) for ran in labs), "number")
+    says = f"{count(len(labs), 'lab')}, {numbers} within their limits"
+    return f"{cli.paint('PASS', 'good')}  {says}"
+
+
 def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
@@ -65,6 +77,7 @@ def main() -> int:
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
         print(tell_failure(ran))
+    print(verdict(labs, len(failed)))
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
 
 

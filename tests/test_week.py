@@ -65,6 +65,7 @@ def test_the_weeks_labs_stand_in_one_table(run_in, begun):
     own = [line for line in lines if line.startswith("1    yours")]
     assert len(own) == len(begun.metrics)
     assert all(line.endswith("PASS") for line in own)
+    assert lines[-1] == "PASS  1 lab, 2 numbers within their limits"
     assert max(map(len, lines)) <= 80
 
 
@@ -76,6 +77,7 @@ def test_a_lab_that_fails_is_named_with_its_reason(run_in, begun):
     text = " ".join(done.stdout.split())
     assert "day 1 did not pass: error: no idea. See: make run DAY=1" in text
     assert "none" in done.stdout
+    assert done.stdout.splitlines()[-1] == "FAIL  1 of 1 lab did not pass"
 
 
 def row(value, script, when="2026-09-01"):
@@ -176,7 +178,13 @@ def test_the_page_shows_the_week(day):
     for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
         assert words in html
     assert "t not negated <span class=pass>✓ left behind" in html
-    assert "chain reversed still there" in html
+    assert "chain reversed <span class=fail>✗ still there" in html
+
+
+def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
+    ran, own = Number(SMALL, 1e-15, 0.5, 2e-15, 3), Number(SMALL, 1e-15, 0.5, None, 3)
+    assert "the kit's here" in page.render([facts(day, numbers=[ran, own])], "")
+    assert "the kit's here" not in page.render([facts(day, numbers=[own])], "")
 
 
 def test_no_text_of_a_journal_becomes_a_script(day):
@@ -235,7 +243,7 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
 ):
     wrong = begun.own / "submissions" / "wrong" / "inverse_no_minus.py"
     solved = begun.work.read_text("utf-8")
-    begun.work.write_text(wrong.read_text("utf-8"), "utf-8")
+    begun.work.write_text(f"{solved}\n\n{wrong.read_text('utf-8')}", "utf-8")
     run_in("scripts/check_day.py", "1")
     begun.work.write_text(solved, "utf-8")
     run_in("scripts/check_day.py", "1")

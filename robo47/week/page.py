@@ -26,6 +26,7 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 .chip { background: var(--card); border: 1px solid var(--grid); border-radius: 99px;
   padding: 3px 12px; font-size: 14px; }
 .last { margin-top: 32px; }
+@media (max-width: 500px) { th, td { padding-right: 10px; } .bar { display: none; } }
 """
 )
 
@@ -97,31 +98,34 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
 
 
 def _numbers(facts: Sequence[DayFacts]) -> str:
+    kits = any(number.kit is not None for one in facts for number in one.numbers)
     rows = [
-        _number(one, number, first=i == 0)
+        _number(one, number, first=i == 0, kits=kits)
         for one in facts
         for i, number in enumerate(one.numbers)
     ]
+    # What counts stands left: a phone shows the first four columns.
     return _table(
         "The numbers",
-        "<th>day</th><th>number</th><th class=n>yours</th>"
-        "<th class=n>your worst on the way</th><th class=n>the kit's here</th>"
-        "<th>limit</th><th></th>",
+        "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
+        "<th class=n>your worst on the way</th>"
+        + ("<th class=n>the kit's here</th>" if kits else ""),
         rows,
     )
 
 
-def _number(one: DayFacts, number: Number, *, first: bool) -> str:
+def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
     role, mark = "none", "○ no row yet"
     if number.latest is not None:
         role, mark = ("pass", "✓ pass") if number.passed else ("fail", "✗ fail")
-    values = (number.latest, number.worst, number.kit)
-    cells = "".join(f"<td class=n>{_value(value)}</td>" for value in values)
     day = one.day.number if first else ""
+    kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
         f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
-        f"<td>{escape(name_of(one.day, number.metric))}</td>{cells}"
-        f'<td>{escape(number.metric.limit)}</td><td class="{role}">{mark}</td></tr>'
+        f"<td>{escape(name_of(one.day, number.metric))}</td>"
+        f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
+        f"<td>{escape(number.metric.limit)}</td>"
+        f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
     )
 
 
@@ -148,7 +152,11 @@ def _mistakes(facts: Sequence[DayFacts]) -> str:
     chips = "".join(
         f'<span class="chip"><b>{escape(m.task)}</b> '
         f"{escape(m.mistake.replace('-', ' '))} "
-        + ("<span class=pass>✓ left behind</span>" if m.left_behind else "still there")
+        + (
+            "<span class=pass>✓ left behind</span>"
+            if m.left_behind
+            else "<span class=fail>✗ still there</span>"
+        )
         + "</span>"
         for m in met
     )
