@@ -49,7 +49,7 @@ def hand_in(day):
 
 @pytest.fixture
 def student(one_day, run_in):
-    """A student's clone with the day's lab solved, its sheets filled in, all committed."""
+    """A student's clone with the day solved, its sheets filled in, all committed."""
     clone = one_day
     for name in (".gitignore", "pyproject.toml", "constraints.txt"):
         (clone / name).write_bytes((ROOT / name).read_bytes())

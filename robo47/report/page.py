@@ -32,7 +32,7 @@ body { margin: 0 auto; max-width: 1240px; padding: 32px 20px 48px; color: var(--
   overflow-wrap: anywhere; }
 h1 { margin: 0; font-size: 28px; letter-spacing: -.01em; }
 h2 { margin: 36px 0 12px; font-size: 19px; }
-p { margin: 4px 0; } .muted { color: var(--muted); }
+p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); }
 .tiles { display: grid; gap: 12px; margin-top: 20px;
   grid-template-columns: repeat(auto-fit, minmax(130px, 1fr)); }
 .tile, .card { background: var(--card); border: 1px solid var(--grid);
@@ -132,7 +132,7 @@ def _jumps(report: Report) -> str:
         f"{_title(day)}</a>"
         for day in days
     )
-    return f"<p>{links}</p>"
+    return f'<p class="jumps">{links}</p>'
 
 
 def _day(day: int | None, series: list[Series]) -> str:

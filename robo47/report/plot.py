@@ -14,6 +14,7 @@ WIDTH, HEIGHT = 360, 170
 LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
 MOST = 240  # points: more cannot be told apart, and would only make the page heavy
 LABEL_GAP = 58  # between two commits under the axis
+HALF_LABEL = 26  # of a commit's seven figures
 
 
 class Path(NamedTuple):
@@ -141,8 +142,15 @@ def _threshold(series: Series, axis: _Axis) -> list[Shape]:
         y = axis.y(bound)
         shapes.append(Path([(LEFT, y), (RIGHT, y)], "limit", dashed=True))
         label_y = y + 12 if y < TOP + 12 else y - 4
-        shapes.append(Words(RIGHT, label_y, f"pass {sign} {bound:g}", "end", "limit"))
+        first, last = (_distance(series.rows[i], y, axis) for i in (0, -1))
+        x, anchor = (LEFT, "start") if first > last else (RIGHT, "end")
+        shapes.append(Words(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
     return shapes
+
+
+def _distance(row: Row, y: float, axis: _Axis) -> float:
+    """Return how far a run's dot is from a height: its label goes where there is room."""
+    return abs((axis.y(_finite_value(row)) if _finite(row) else TOP) - y)
 
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, count: int) -> Dot:
@@ -167,7 +175,8 @@ def _under_axis(places: list[tuple[float, Row]]) -> list[Shape]:
     for x, row in places:
         sha = str(row["git_sha"])[:7]
         if sha != before and x - last_x >= LABEL_GAP:
-            shapes.append(Words(x, BOTTOM + 18, sha or "no commit"))
+            middle = min(x, WIDTH - HALF_LABEL)
+            shapes.append(Words(middle, BOTTOM + 18, sha or "no commit"))
             last_x, before = x, sha
     first, last = str(places[0][1]["date"]), str(places[-1][1]["date"])
     if first == last:

@@ -26,7 +26,8 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 .chip { background: var(--card); border: 1px solid var(--grid); border-radius: 99px;
   padding: 3px 12px; font-size: 14px; }
 .last { margin-top: 32px; }
-@media (max-width: 500px) { th, td { padding-right: 10px; } .bar { display: none; } }
+@media (max-width: 500px) { th, td { padding-right: 7px; } .card { padding: 10px; }
+  .bar { display: none; } td.wide { min-width: 120px; } }
 """
 )
 
