@@ -149,7 +149,7 @@ def _threshold(series: Series, axis: _Axis) -> list[Shape]:
 
 
 def _distance(row: Row, y: float, axis: _Axis) -> float:
-    """Return how far a run's dot is from a height: its label goes where there is room."""
+    """Return how far a run is from a height, to find where a label has room."""
     return abs((axis.y(_finite_value(row)) if _finite(row) else TOP) - y)
 
 
