@@ -55,7 +55,7 @@ def load_script(path):
 def real_panda() -> Path:
     """Return the real Panda's folder."""
     folder = menagerie.panda_folder()
-    need(folder is not None, "the real Panda: python scripts/fetch_menagerie.py")
+    need(folder is not None, "the real Panda: python3 scripts/fetch_menagerie.py")
     assert folder is not None
     return folder
 

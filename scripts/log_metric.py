@@ -1,10 +1,10 @@
 """Add a row to the metrics log from the shell, or look after the log.
 
-    python scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
+    python3 scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
         value=2.2e-16 notes="after the fix"
-    python scripts/log_metric.py --check      every bad line, and why
-    python scripts/log_metric.py --repair     a mended copy beside it
-    python scripts/log_metric.py --restore    rows that were refused, put back
+    python3 scripts/log_metric.py --check      every bad line, and why
+    python3 scripts/log_metric.py --repair     a mended copy beside it
+    python3 scripts/log_metric.py --restore    rows that were refused, put back
 
 check=, metric= and value= are needed; date= and git_sha= are filled in. The
 other fields: run_id day seed config method n_trials n_failures notes.

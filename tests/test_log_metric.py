@@ -253,10 +253,10 @@ def test_a_refusal_names_commands_that_do_work_for_this_log(log):
     log.write_text(f"{renamed(value='val')}\n{OLD}\n")
     refused = run(log, *FIELDS)
     assert refused.returncode == 2
-    repair = f"python scripts/log_metric.py --repair --file {log} writes"
+    repair = f"python3 scripts/log_metric.py --repair --file {log} writes"
     assert repair in refused.stderr
     assert refused.stderr.endswith(
-        f"to add it later:\n  python scripts/log_metric.py --restore --file {log}\n"
+        f"to add it later:\n  python3 scripts/log_metric.py --restore --file {log}\n"
     )
     assert run(log, "--repair").returncode == 0
     log.with_name("metrics.mended.csv").replace(log)

@@ -19,7 +19,7 @@ def command(option: str, log: Path) -> str:
         option: as `--repair`.
         log: named in the command unless it is the kit's own.
     """
-    start = f"python scripts/log_metric.py {option}"
+    start = f"python3 scripts/log_metric.py {option}"
     path = log.absolute()
     if path == OWN_LOG:
         return start
