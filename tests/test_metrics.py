@@ -20,7 +20,7 @@ from robo47.metrics import COLUMNS, append_row, append_rows, logfile, read_rows
 from robo47.metrics.commit import short_sha
 from robo47.metrics.header import LINE
 from robo47.metrics.lock import warn_once
-from robo47.metrics.mend import restore
+from robo47.metrics.repair import restore
 from robo47.metrics.scan import scan
 
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}
