@@ -79,7 +79,8 @@ class Circle(Tab):
         page.slider("radius", 0.3, 0.4, RADIUS, self.turn, unit="m", step=0.005)
         page.buttons([DRAW, AGAIN], self.press)
         self.numbers = page.html()
-        self.bars = page.bars(NAMES, 1.0, "of its limit", "fastest joint so far")
+        title = "fastest joint so far, in parts of its limit"
+        self.bars = page.bars(NAMES, 1.0, "", title)
         self.loop = page.animate(self.step, 1 / DT)
         self.ghosts = [page.draw.ghost(colour) for colour in ("blue", "red")]
         start = np.zeros((2, 3))
