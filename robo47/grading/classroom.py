@@ -169,7 +169,6 @@ def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:
 
 
 def _bar(total: int, doing: str) -> "tqdm[None]":
-    """Return a bar for a terminal; a log gets none."""
     return tqdm(
         total=total, desc=doing, unit="student", leave=False, delay=1, disable=None
     )
