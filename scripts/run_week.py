@@ -1,6 +1,7 @@
 """Run every lab of a week and print its numbers in one table.
 
-    python3 scripts/run_week.py 1     week 1 (make week1)
+    python3 scripts/run_week.py 1           week 1 (make week1)
+    python3 scripts/run_week.py 1 --kit     the kit's labs alone
 
 Each day runs with your own file where you began it, else with the kit's. The numbers
 are the rows that the labs record, judged by the limits of the manifest; they are not
@@ -69,10 +70,12 @@ def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
     parser.add_argument("week", type=int, nargs="?", default=1, help="default: 1")
-    days = days_of(parser.parse_args().week)
+    parser.add_argument("--kit", action="store_true", help="the kit's labs alone")
+    options = parser.parse_args()
+    days = days_of(options.week)
     quiet = not sys.stderr.isatty()
-    bar = tqdm(run_labs(days), "labs", len(days), leave=False, disable=quiet)
-    labs = list(bar)
+    running = run_labs(days, kits=options.kit)
+    labs = list(tqdm(running, "labs", len(days), leave=False, disable=quiet))
     print(as_table([line for ran in labs for line in lines_of(ran)]))
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:

@@ -551,6 +551,14 @@ def test_bars_fill_their_line_and_escape_their_words():
     assert 'x="25.00%" y="20" width="75.00%"' in svg
     assert "<a>" not in svg
     assert "<x>" not in svg
+    assert "narrow" not in svg
+
+
+def test_a_long_label_has_a_short_one_for_a_phone():
+    title = "6  The hand: operational space, impedance, contact"
+    svg = charts.chart([charts.Row(title, "2 of 12 done", [], 12)], "")
+    assert f'class="wide">{title}<' in svg
+    assert 'class="narrow">6  The hand: operational sp…<' in svg
 
 
 @pytest.mark.parametrize(

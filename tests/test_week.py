@@ -69,6 +69,13 @@ def test_the_weeks_labs_stand_in_one_table(run_in, begun):
     assert max(map(len, lines)) <= 80
 
 
+def test_the_kits_labs_can_be_run_beside_what_is_begun(run_in, begun):
+    begun.work.write_text("raise SystemExit('error: no idea')\n")
+    done = run_in(RUN_WEEK, "1", "--kit")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "yours" not in done.stdout
+
+
 @pytest.mark.kit
 def test_a_lab_that_fails_is_named_with_its_reason(run_in, begun):
     begun.work.write_text("raise SystemExit('error: no idea')\n")

@@ -47,14 +47,15 @@ td.mark, th.mark { text-align: center; padding-right: 8px; }
 .all { max-height: 80vh; overflow: auto; } .all tr:first-child th { position: sticky;
   top: -14px; background: var(--card); z-index: 1; }
 .all td:first-child { position: sticky; left: -16px; background: var(--card); }
-.wider { display: none; }
+.wider, .narrow { display: none; }
 @media (max-width: 560px) { li .head > .muted { margin-left: 0; flex-basis: 100%; }
-  .wider { display: block; }
+  .wider { display: block; } .wide { display: none; } .narrow { display: inline; }
   td:first-child { max-width: 130px; overflow: hidden; text-overflow: ellipsis; } }
 h2 small { color: var(--muted); font-weight: 400; }
 """
 )
 LINE, TEXT, BAR = 40, 13, 12  # pixels: a row's height, a letter's, a bar's
+FITS = 28  # letters of a label on a phone, where the words at the right need room too
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,18 @@ def chart(rows: Sequence[Row], about: str) -> str:
     )
 
 
+def _labels(label: str, base: int) -> list[str]:
+    """Return a label, and for a phone a short one where it is long."""
+    ways = {"": label}
+    if len(label) > FITS:
+        short = label[: FITS - 1].rstrip(" ,:") + "…"
+        ways = {' class="wide"': label, ' class="narrow"': short}
+    return [
+        f'<text x="0" y="{base}" fill="var(--ink)"{kind}>{escape(text)}</text>'
+        for kind, text in ways.items()
+    ]
+
+
 def colour(role: str) -> str:
     """Return a bar's colour for a role of the page."""
     own = role in ("pass", "fail", "limit")
@@ -98,7 +111,7 @@ def _row(row: Row, top: int) -> str:
     base = top + TEXT
     bar = top + TEXT + 7
     shapes = [
-        f'<text x="0" y="{base}" fill="var(--ink)">{escape(row.label)}</text>',
+        *_labels(row.label, base),
         f'<text x="100%" y="{base}" text-anchor="end" fill="var(--muted)">'
         f"{escape(row.words)}</text>",
         f'<rect x="0" y="{bar}" width="100%" height="{BAR}" fill="var(--grid)"/>',

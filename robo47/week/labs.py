@@ -78,6 +78,8 @@ def run_labs(
     days: Sequence[Day],
     python: str | Path = sys.executable,
     environment: Mapping[str, str] | None = None,
+    *,
+    kits: bool = False,
 ) -> Iterator[Ran]:
     """Run labs side by side, the student's own where they are begun.
 
@@ -85,17 +87,22 @@ def run_labs(
         days: whose labs.
         python: to run them with.
         environment: its variables; this process's by default.
+        kits: run the kit's labs, whatever the student has begun.
 
     Returns:
         What became of each, in the order of the days.
     """
     variables = dict(os.environ if environment is None else environment)
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        yield from pool.map(lambda day: _run(day, str(python), variables), days)
+        yield from pool.map(
+            lambda day: _run(
+                day, str(python), variables, mine=day.work.is_file() and not kits
+            ),
+            days,
+        )
 
 
-def _run(day: Day, python: str, environment: dict[str, str]) -> Ran:
-    mine = day.work.is_file()
+def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> Ran:
     script = day.work if mine else day.source
     with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
         log = Path(folder) / "metrics.csv"
