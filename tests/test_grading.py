@@ -543,6 +543,15 @@ class TestTheOverview:
         assert standing[1].counts == Counter({"wrong": 2})
 
 
+def test_equal_marks_are_held_once_for_the_whole_class():
+    one, two = (
+        from_json(result("passed", "wrong", *["todo"] * 6).to_json(), DAY) for _ in "ab"
+    )
+    assert one == two
+    assert all(a is b for a, b in zip(one.tasks, two.tasks, strict=True))
+    assert from_json(one.to_json(), DAY) == one
+
+
 def test_bars_fill_their_line_and_escape_their_words():
     svg = charts.chart(
         [charts.Row("<a>", "1 & 2", [("pass", 1), ("fail", 3)], 4)], "<x>"

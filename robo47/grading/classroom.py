@@ -101,6 +101,7 @@ class Classroom:
         with _bar(len(self.students) * len(self.days), "grading") as bar:
             for key, package, result in grade_all(changed(), engine):
                 if isinstance(result, Result):
+                    result = result.lean()
                     self.journal.keep(key[1], package, result)
                     self.graded_now += 1
                 note(key, package, result)

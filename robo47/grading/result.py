@@ -1,7 +1,8 @@
 """What a grade consists of, and its form in the journal and on the wire."""
 
+import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from robo47.checker.deliverables import item_names
@@ -81,6 +82,17 @@ class Result:
         """Return it as plain data."""
         return asdict(self)
 
+    def lean(self) -> "Result":
+        """Return it with marks that others have too: a class has few different ones."""
+        marks, items = (tuple(map(_one, group)) for group in (self.tasks, self.items))
+        return replace(self, tasks=marks, items=items)
+
+
+@functools.lru_cache(4096)
+def _one(mark: Mark) -> Mark:
+    """Return the mark that was there first of all that are equal."""
+    return mark
+
 
 def from_json(data: Mapping[str, Any], day: Day) -> Result:
     """Return a result from plain data.
@@ -104,7 +116,7 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no text")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    return result
+    return result.lean()
 
 
 def counted(day: Day) -> Sequence[str]:
