@@ -26,14 +26,14 @@ from make_class import (
 
 from robo47.checker.deliverables import check_deliverables, git, handin, item_names
 from robo47.checker.deliverables.handin import Handin
-from robo47.errors import Robo47Error
+from robo47.errors import FaultError, Robo47Error
 from robo47.grading import charts, engine, overview, similar
 from robo47.grading.child import _tidy
 from robo47.grading.grader import Grader, grade_package
 from robo47.grading.journal import Journal
 from robo47.grading.package import Package, collect, fingerprint, unpack
 from robo47.grading.pull import OURS, pull_all
-from robo47.grading.result import FaultError, Mark, Result, from_json, ungraded
+from robo47.grading.result import Mark, Result, from_json, ungraded
 from robo47.grading.roster import Student, file_names, find_students
 from robo47.grading.sheet import Graded, plain
 from robo47.lesson.day import find_day
