@@ -229,9 +229,14 @@ def _code(script: Path) -> dict[str, Any]:
     beside = {
         path.stem: _text(path)
         for path in sorted(script.parent.glob("*.py"))[:MOST_NEIGHBOURS]
-        if path.is_file() and path.stat().st_size <= LARGEST_SCRIPT
+        if _is_own(path) and path.stat().st_size <= LARGEST_SCRIPT
     }
     return {"file": script.name, "code": _text(script), "beside": beside}
+
+
+def _is_own(path: Path) -> bool:
+    """Return whether a file counts as handed in: a grade follows no link either."""
+    return path.is_file() and not path.is_symlink()
 
 
 def _text(path: Path) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from robo47.checker.deliverables.git import GitError
+from robo47.checker.library import KIT
 from robo47.errors import FaultError
 from robo47.grading import page, similar
 from robo47.grading.engine import Engine, Key, grade_all
@@ -158,7 +159,10 @@ def _starter(day: Day) -> str:
 
 
 def _runs_of_kit(day: Day) -> "array[int]":
-    return similar.runs_of(read_script(day.source).encode(), _starter(day))
+    """Return the runs of a day's solution and of the library's modules that hold it."""
+    files = [day.source, *(KIT / f"{name}.py" for name in day.library)]
+    texts = "\n".join(map(read_script, files))
+    return similar.runs_of(texts.encode(), _starter(day))
 
 
 def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:
