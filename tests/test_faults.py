@@ -102,7 +102,9 @@ class TestASandboxThatIsKilled:
         monkeypatch.setattr(resources, "oom_kills", itertools.count().__next__)
         monkeypatch.setattr(process, "MODEST", 30_000_000)
         greedy = "import time, numpy as np\nX = np.ones(10**7)\ntime.sleep(0.2)\n"
-        assert ask(greedy + FINE)[0].kind == "stopped"
+        (reply,) = ask(greedy + FINE)
+        assert reply.kind == "stopped"
+        assert reply.error == "it used more memory than this machine has"
 
     def test_ends_a_session_with_a_word(self, student, kill, monkeypatch):
         kill(1)

@@ -167,9 +167,10 @@ class Process:
         except subprocess.TimeoutExpired:
             return "it closed the checker's own channel"
         self.killed = resources.was_killed(self.process)
-        starved = resources.oom_kills() > self._oom_kills and self._most < MODEST
-        if self.killed and starved:
-            raise _fault("ran out of memory and ended the checker's process")
+        if self.killed and resources.oom_kills() > self._oom_kills:
+            if self._most < MODEST:
+                raise _fault("ran out of memory and ended the checker's process")
+            return "it used more memory than this machine has"
         return f"it ended Python (exit code {code})"
 
     def _send(self, message: dict[str, Any]) -> None:
