@@ -32,7 +32,7 @@ def run(rounds: int = 9) -> dict:
         commands["make day1"] = ["make", "day1", "ARGS=--no-log"]
     if folder is not None:
         xml = str(folder / "panda_nohand.xml")
-        commands["the handout's script, mended"] = [sys.executable, str(HANDOUT), xml]
+        commands["the handout's script, fixed"] = [sys.executable, str(HANDOUT), xml]
     candidates = {
         name: lambda command=command: subprocess.run(
             command, cwd=ROOT, check=True, capture_output=True

@@ -82,7 +82,7 @@ def _dynamics(dynamics: dict[str, Any]) -> list[str]:
 
 def _lab(lab: dict[str, Any]) -> list[str]:
     seconds = lab["seconds"]
-    handout = seconds.get("the handout's script, mended")
+    handout = seconds.get("the handout's script, fixed")
     lines = ["The lab, warm, as whole processes", f"  {'':38}  {'s':>5}  / handout's"]
     for name, t in sorted(seconds.items(), key=lambda item: item[1]["median"]):
         ratio = f"{t['median'] / handout['median']:8.2f}" if handout else ""

@@ -11,10 +11,11 @@ entry has the Menagerie's servos (position drives), or seven motors that take to
 Units: metres, radians, newton metres.
 """
 
+import importlib
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -23,20 +24,17 @@ from robo47 import menagerie
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
-from robo47.panda_reading import (  # read there, named here
-    ARM_JOINTS,
-    arm,
-    hand_inertia,
-    home_pose,
-    inertias,
-    screws,
-)
 from robo47.paths import TWIN_XML, menagerie_root, shown
 
+if TYPE_CHECKING:
+    from robo47.panda_reading import arm, hand_inertia, home_pose, inertias, screws
+
 __all__ = [
-    "DRIVES", "END_FRAME", "READY_Q", "arm", "describe", "hand_inertia", "home_pose",
-    "home_q", "inertias", "load", "provenance", "screws",
+    "ARM_JOINTS", "DRIVES", "END_FRAME", "READY_Q", "arm", "describe", "hand_inertia",
+    "home_pose", "home_q", "inertias", "load", "provenance", "screws",
 ]  # fmt: skip
+
+ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 
 # The handout's `home_q`: the arm at the ready, every joint within its limits.
 READY_Q = np.array([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785])
@@ -52,11 +50,14 @@ Edit = Callable[[mujoco.MjSpec], None]
 _SHAPES = {"geom", "mesh", "material", "texture"}
 DRIVES = ("servo", "torque")
 # The twin has both ends; each entry keeps its own.
-_TWIN_LEAVES_OUT = {
-    "panda": "attachment",
-    "panda_nohand": "hand",
-    "scene": "attachment",
-}
+_TWIN_WITHOUT = {"panda": "attachment", "panda_nohand": "hand", "scene": "attachment"}
+
+
+def __getattr__(name: str) -> Any:
+    """Return a name of `robo47.panda_reading`; it loads much, so only if asked for."""
+    if TYPE_CHECKING or name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module("robo47.panda_reading"), name)
 
 
 def load(
@@ -224,7 +225,7 @@ def _twin_xml(entry: str) -> str:
     """Return the embedded twin with the end that the entry has."""
     root = ET.fromstring(TWIN_XML.read_bytes())
     for parent in root.iter():
-        for child in parent.findall(f"body[@name='{_TWIN_LEAVES_OUT[entry]}']"):
+        for child in parent.findall(f"body[@name='{_TWIN_WITHOUT[entry]}']"):
             parent.remove(child)
     if entry == "panda_nohand":
         _without_fingers(root)

@@ -14,9 +14,9 @@ from robo47 import kinematics, se3
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.panda import ARM_JOINTS
 from robo47.screws import screw_axis, skew
 
-ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 # Where the arm ends, by entry: the same point, turned by 180 degrees about z.
 ENDS = ("site:attachment_site", "body:hand")
 

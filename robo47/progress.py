@@ -18,7 +18,13 @@ def watched(lines: Iterator[Line], path: Path) -> Iterator[Line]:
     """
     size = os.path.getsize(path) if path.exists() else 0
     with tqdm(
-        total=size, unit="B", unit_scale=True, desc="reading", delay=0.5, leave=False
+        total=size,
+        unit="B",
+        unit_scale=True,
+        desc="reading",
+        delay=0.5,
+        leave=False,
+        disable=None,
     ) as bar:
         for line in lines:
             bar.update(line.size)

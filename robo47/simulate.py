@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.panda_reading import ARM_JOINTS
+from robo47.panda import ARM_JOINTS
 
 Controller = Callable[[float, Array, Array], ArrayLike]
 Watcher = Callable[[mujoco.MjModel, mujoco.MjData], Any]

@@ -81,7 +81,7 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
     # MuJoCo's own arrays, which it fills anew at every call: what is kept is copied.
     theirs = (data.xpos, data.xmat, data.site_xpos, data.site_xmat)
     ours = tuple(np.empty((len(qpos), *array.shape)) for array in theirs)
-    for i, q in enumerate(tqdm(qpos, "MuJoCo", leave=False, delay=1)):
+    for i, q in enumerate(tqdm(qpos, "MuJoCo", leave=False, delay=1, disable=None)):
         data.qpos[:] = q
         # Enough for these four; mj_forward would also compute velocities and forces.
         mujoco.mj_kinematics(model, data)

@@ -1,8 +1,8 @@
 """Measure what the kit claims to be fast, beside the tools people would pick instead.
 
     make bench                              everything, some minutes
-    python scripts/bench.py fk lab          only these parts
-    python scripts/bench.py --table         the last results, nothing is run
+    python3 scripts/bench.py fk lab          only these parts
+    python3 scripts/bench.py --table         the last results, nothing is run
 
 Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
 configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make

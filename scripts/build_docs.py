@@ -101,7 +101,7 @@ def days_table(week: str, folder: Path) -> str:
     for day in all_days():
         if day.folder.name == week:
             guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
-            title = f"[{day.number}: {day.title.lower()}]({guide})"
+            title = f"[{day.number}: {day.title}]({guide})"
             command = f"`make day{day.number}`"
             lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
     return "\n".join(lines) + "\n"

@@ -15,6 +15,7 @@ import json
 import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
@@ -23,6 +24,9 @@ from robo47.checker.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, find_day, find_task, started_day
 from robo47.paths import METRICS_CSV, ROOT, shown
+
+if TYPE_CHECKING:
+    from robo47.checker.deliverables import Item
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
@@ -48,21 +52,26 @@ def check(day: Day, options: argparse.Namespace) -> int:
     with cli.busy("checking"):
         with Sandbox() as sandbox:  # it warms up while MuJoCo is imported
             from robo47.checker import journal, report
-            from robo47.checker.deliverables import check_deliverables
             from robo47.checker.tasks import check_tasks
 
             results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
         journal.note(results)
     done = all(result.passed for result in results)
-    items = [] if options.task else check_deliverables(day, tasks_pass=done)
-    found = report.Report(day, results, items)
+    found = report.Report(day, results, [] if options.task else handed_in(day, done))
     if options.json:
         print(json.dumps(report.as_json(found), indent=1))
     else:
         colour = report.wants_colour(sys.stdout)
         print(report.as_text(found, explain=options.explain, colour=colour))
     return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def handed_in(day: Day, tasks_pass: bool) -> "list[Item]":
+    """Check what the day hands in besides its tasks."""
+    from robo47.checker.deliverables import check_deliverables
+
+    return check_deliverables(day, tasks_pass=tasks_pass)
 
 
 def watch(day: Day, options: argparse.Namespace) -> int:

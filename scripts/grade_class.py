@@ -1,11 +1,11 @@
 """Grade a class: a folder with one clone per student, by this copy of the kit.
 
-    python scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
-    python scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python scripts/grade_class.py CLONES --day 1-7         a week; or --day all
-    python scripts/grade_class.py CLONES --pull          update the clones first
-    python scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
-    python scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
+    python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
+    python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
+    python3 scripts/grade_class.py CLONES --day 1-7      a week; or --day all
+    python3 scripts/grade_class.py CLONES --pull         update the clones first
+    python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
+    python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
 each folder is a student. Beside the table: class.html (what to explain again,

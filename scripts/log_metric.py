@@ -1,10 +1,10 @@
 """Add a row to the metrics log from the shell, or look after the log.
 
-    python scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
+    python3 scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
         value=2.2e-16 notes="after the fix"
-    python scripts/log_metric.py --check      every bad line, and why
-    python scripts/log_metric.py --repair     a mended copy beside it
-    python scripts/log_metric.py --restore    rows that were refused, put back
+    python3 scripts/log_metric.py --check      every bad line, and why
+    python3 scripts/log_metric.py --repair     a repaired copy beside it
+    python3 scripts/log_metric.py --restore    rows that were refused, put back
 
 check=, metric= and value= are needed; date= and git_sha= are filled in. The
 other fields: run_id day seed config method n_trials n_failures notes.
@@ -18,7 +18,7 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from robo47 import cli
 from robo47.errors import Robo47Error
 from robo47.metrics import append_row
-from robo47.metrics.mend import (
+from robo47.metrics.repair import (
     came_back,
     header_problem,
     repair,
@@ -64,7 +64,7 @@ def parser() -> argparse.ArgumentParser:
     it.add_argument("fields", nargs="*", metavar="FIELD=VALUE", help="one row's cells")
     does = it.add_mutually_exclusive_group()
     does.add_argument("--check", action="store_true", help="list every bad line")
-    does.add_argument("--repair", action="store_true", help="write a mended copy")
+    does.add_argument("--repair", action="store_true", help="write a repaired copy")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
     it.add_argument(
         "--file",
@@ -145,23 +145,23 @@ def show_check(path: Path) -> int:
         waits = f"{count(waiting, 'refused row')} {'waits' if waiting == 1 else 'wait'}"
         print(f"{waits}. To add what waits: {command('--restore', path)}")
     if bad:
-        print(f"a mended copy: {command('--repair', path)}")
+        print(f"a repaired copy: {command('--repair', path)}")
     problems = count(bad + bool(wrong), "problem")
     print(f"{shown(path)}: {count(rows, 'row')}, {problems}")
     return cli.EXIT_FAILED if bad or wrong or waiting else cli.EXIT_OK
 
 
 def show_repair(path: Path) -> int:
-    """Write the mended copy and print what was done; return 1 if lines are left."""
+    """Write the repaired copy and print what was done; return 1 if lines are left."""
     done = repair(path, watched(scan(path, as_is=True), path))
     if done.header:
-        print(f"line 1: mended: {done.header}")
-    for line in done.mended:
-        print(f"line {line.number}: mended: {line.problem}{end_of(line)}")
+        print(f"line 1: repaired: {done.header}")
+    for line in done.repaired:
+        print(f"line {line.number}: repaired: {line.problem}{end_of(line)}")
     for line in done.unread:
         print(f"line {line.number}: left out: {line.problem}{end_of(line)}")
-    rows, mended = count(done.rows, "row"), count(len(done.mended), "line")
-    print(f"{shown(done.copy)}: {rows}, {mended} mended")
+    rows, repaired = count(done.rows, "row"), count(len(done.repaired), "line")
+    print(f"{shown(done.copy)}: {rows}, {repaired} repaired")
     if done.rest:
         print(f"{shown(done.rest)}: {count(len(done.unread), 'line')} left out")
     advice = "If the copy is right, rename it to that."

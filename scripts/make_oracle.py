@@ -146,7 +146,7 @@ def xml_of(entry: str) -> str:
     """Return the path of the real Panda's file, the one that Pinocchio reads."""
     folder = menagerie.panda_folder()
     if folder is None:
-        raise Robo47Error("no Panda here; run python scripts/fetch_menagerie.py first")
+        raise Robo47Error("no Panda here; run python3 scripts/fetch_menagerie.py first")
     return str(folder / f"{entry}.xml")
 
 

@@ -1,8 +1,8 @@
 """Turn the metrics log into a page and a picture worth showing.
 
-    python scripts/report_metrics.py               metrics/report.html and .png
-    python scripts/report_metrics.py --day 1       one day of the course
-    python scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
+    python3 scripts/report_metrics.py               metrics/report.html and .png
+    python3 scripts/report_metrics.py --day 1       one day of the course
+    python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in the dark. Thresholds come from the
 days' manifests. Rows that were repaired while reading or could not be read are

@@ -110,6 +110,7 @@ def test_it_runs_with_the_functions_that_the_labs_ask_for():
     assert capstone.pick(fns).place_mm < 2.0
 
 
+@pytest.mark.kit
 def test_with_gravity_forgotten_the_cube_is_still_placed_but_the_arm_is_far_off():
     fns, speed = capstone.ablations(capstone.library())["gravity forgotten"]
     result = capstone.pick(fns, speed=speed)

@@ -1,10 +1,10 @@
-"""Every day of the course: manifest, starter, questions, catalogue and documents."""
+"""Every day of the course: manifest, starter, questions and documents."""
 
 import re
 
 import inprocess
 import pytest
-from catalogue import STATUS, run_as_lab, submissions, told
+from catalogue import run_as_lab
 
 from conftest import ROOT, kits_worksheet
 from robo47.checker.deliverables.worksheet import split_sections
@@ -14,17 +14,6 @@ from robo47.lesson.day import all_days
 from robo47.lesson.starter import find_regions, make_starter
 
 DAYS = all_days()
-FILES = [
-    pytest.param(day, one, id=f"day{day.number}/{one.name}")
-    for day in DAYS
-    for one in submissions(day)
-]
-SHOWN = [
-    pytest.param(day, one, id=f"day{day.number}/{one.name}")
-    for day in DAYS
-    for one in submissions(day, "wrong")
-    if one.runs
-]
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
 
 
@@ -102,28 +91,6 @@ class TestScript:
         for task in day.tasks:
             for function in task.functions:
                 assert re.search(rf'def {function}\((?:.|\n)*?:\n    """', text)
-
-
-@each_day
-def test_the_catalogue_has_files_of_every_task(day):
-    asked = {task.id for task in day.tasks}
-    judged = {t for one in submissions(day, "wrong", "close") for t in one.tasks}
-    assert judged == asked
-
-
-@pytest.mark.kit
-@pytest.mark.parametrize(("day", "submission"), FILES)
-def test_a_file_is_told_what_the_catalogue_says(day, submission):
-    status = STATUS[submission.folder]
-    for task, verdict in told(day, submission).items():
-        assert (verdict.mistake or verdict.status) == submission.expected, task
-        assert verdict.status in (status, "todo" if status == "wrong" else status)
-
-
-@pytest.mark.kit
-@pytest.mark.parametrize(("day", "submission"), SHOWN)
-def test_a_wrong_file_run_as_a_lab_fails(day, submission):
-    assert run_as_lab(day, submission) == 1
 
 
 def test_the_machine_names_no_day():

@@ -35,7 +35,7 @@ SHOWN = 6e-7  # a matrix is shown with 6 decimals
 def browser(tmp_path_factory) -> Iterator[Any]:
     for module in ("viser", "playwright"):
         found = importlib.util.find_spec(module) is not None
-        need(found, f"{module}: python scripts/setup_env.py view browser")
+        need(found, f"{module}: python3 scripts/setup_env.py view browser")
     need(CHROMIUM is not None, "Chromium: apt install chromium")
     from playwright.sync_api import sync_playwright
 

@@ -159,11 +159,11 @@ def test_repair_writes_a_good_copy_and_leaves_the_log_alone(log, content):
     done = run(log, "--repair")
     assert done.returncode == 0
     assert log.read_bytes() == content
-    copy = log.with_name("metrics.mended.csv")
+    copy = log.with_name("metrics.repaired.csv")
     assert copy.read_text() == f"{LINE}\n{OLD}\n"
     again = run(log, "--repair")
     assert again.returncode == 0
-    assert log.with_name("metrics.mended-2.csv").exists()
+    assert log.with_name("metrics.repaired-2.csv").exists()
 
 
 def test_repair_keeps_what_it_cannot_read_word_for_word(log):
@@ -171,9 +171,9 @@ def test_repair_keeps_what_it_cannot_read_word_for_word(log):
     done = run(log, "--repair")
     assert done.returncode == 1
     assert "line 3: left out: 2 columns" in done.stdout
-    assert "line 4: mended: it has commas outside quotes" in done.stdout
-    assert log.with_name("metrics.mended.rest.txt").read_text() == "cut,2026\n"
-    copy = log.with_name("metrics.mended.csv")
+    assert "line 4: repaired: it has commas outside quotes" in done.stdout
+    assert log.with_name("metrics.repaired.rest.txt").read_text() == "cut,2026\n"
+    copy = log.with_name("metrics.repaired.csv")
     assert [row["notes"] for row in read_rows(copy)] == ["note", "note,more"]
     assert Path(f"{log}.repairs").read_text().count("\n") == 1
 
@@ -181,7 +181,7 @@ def test_repair_keeps_what_it_cannot_read_word_for_word(log):
 def test_a_column_that_the_log_does_not_have_goes_to_the_notes(log):
     log.write_text(f"{LINE},mood\n{OLD},good\n")
     assert run(log, "--repair").returncode == 0
-    (row,) = read_rows(log.with_name("metrics.mended.csv"))
+    (row,) = read_rows(log.with_name("metrics.repaired.csv"))
     assert row["notes"] == "note mood=good"
 
 
@@ -208,9 +208,9 @@ def test_a_header_with_a_renamed_column_is_restored_and_no_cell_moves(log, heade
     log.write_text(f"{header}\n{old}\n" + f"{old}2\n")
     done = run(log, "--repair")
     assert done.returncode == 0
-    assert "line 1: mended: its " in done.stdout
+    assert "line 1: repaired: its " in done.stdout
     assert "moved to the notes" not in done.stdout
-    copy = log.with_name("metrics.mended.csv")
+    copy = log.with_name("metrics.repaired.csv")
     assert copy.read_text() == f"{LINE}\n{OLD}\n{OLD}2\n"
 
 
@@ -238,14 +238,14 @@ def test_a_renamed_column_beside_an_added_one_keeps_its_values(log):
     log.write_text(f"{renamed(value='val')},mood\n{OLD},good\n")
     done = run(log, "--repair")
     assert "mood moved to the notes" in done.stdout
-    (row,) = read_rows(log.with_name("metrics.mended.csv"))
+    (row,) = read_rows(log.with_name("metrics.repaired.csv"))
     assert (row["value"], row["notes"]) == (1e-16, "note mood=good")
 
 
 def test_cells_under_columns_without_a_name_are_kept_in_the_notes(log):
     log.write_text(f"{LINE},,\n{OLD},a,b\n{OLD},,\n")
     assert run(log, "--repair").returncode == 0
-    rows = read_rows(log.with_name("metrics.mended.csv"))
+    rows = read_rows(log.with_name("metrics.repaired.csv"))
     assert [row["notes"] for row in rows] == ["note a b", "note"]
 
 
@@ -253,13 +253,13 @@ def test_a_refusal_names_commands_that_do_work_for_this_log(log):
     log.write_text(f"{renamed(value='val')}\n{OLD}\n")
     refused = run(log, *FIELDS)
     assert refused.returncode == 2
-    repair = f"python scripts/log_metric.py --repair --file {log} writes"
+    repair = f"python3 scripts/log_metric.py --repair --file {log} writes"
     assert repair in refused.stderr
     assert refused.stderr.endswith(
-        f"to add it later:\n  python scripts/log_metric.py --restore --file {log}\n"
+        f"to add it later:\n  python3 scripts/log_metric.py --restore --file {log}\n"
     )
     assert run(log, "--repair").returncode == 0
-    log.with_name("metrics.mended.csv").replace(log)
+    log.with_name("metrics.repaired.csv").replace(log)
     assert "1 refused row waits" in run(log, "--check").stdout
     assert "1 row put back" in run(log, "--restore").stdout
     assert len(read_rows(log)) == 2

@@ -20,7 +20,7 @@ from robo47.metrics import COLUMNS, append_row, append_rows, logfile, read_rows
 from robo47.metrics.commit import short_sha
 from robo47.metrics.header import LINE
 from robo47.metrics.lock import warn_once
-from robo47.metrics.mend import restore
+from robo47.metrics.repair import restore
 from robo47.metrics.scan import scan
 
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}
@@ -290,11 +290,11 @@ SWAPPED = LINE.replace("run_id,date", "date,run_id")
         (HEADER + b"\n" + f"{OLD}\r\n".encode("utf-16-le"), "UTF-16"),
         (HEADER.replace(b",", b";") + b"\n", "semicolons"),
         (HEADER.replace(b",", b"\t") + b"\n", "tabs"),
-        (b"\n" + HEADER + b"\n", "its first line is blank. python scripts/log_"),
+        (b"\n" + HEADER + b"\n", "its first line is blank. python3 scripts/log_"),
         (OLD.encode() + b"\n", f"the first line must be: {LINE}"),
         (
             HEADER.replace(b"seed,", b"") + b"\n",
-            "missing seed. python scripts/",
+            "missing seed. python3 scripts/",
         ),
         (HEADER.replace(b"seed", b"sed") + b"\n", "missing seed; extra sed"),
         (HEADER + b",mood\n", "extra mood"),

@@ -5,7 +5,7 @@ from robo47.paths import ROOT
 
 
 def test_a_command_names_a_log_that_is_not_the_kits_own():
-    start = "python scripts/log_metric.py --check"
+    start = "python3 scripts/log_metric.py --check"
     assert command("--check", OWN_LOG) == start
     assert command("--check", ROOT / "a.csv") == f"{start} --file a.csv"
     spaced = ROOT.parent / "my logs" / "a.csv"

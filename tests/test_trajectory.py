@@ -240,7 +240,7 @@ def test_many_at_once_equal_one_at_a_time():
 def ruckig_move(dq, jerk):
     need(
         importlib.util.find_spec("ruckig") is not None,
-        "Ruckig: python scripts/setup_env.py trajectory",
+        "Ruckig: python3 scripts/setup_env.py trajectory",
     )
     import ruckig
 

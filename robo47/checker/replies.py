@@ -1,6 +1,6 @@
 """What is asked of the sandbox, and what comes back."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,18 +100,10 @@ def read(message: dict[str, Any]) -> Reply:
         value = wire.unpack_value(message.get("value"))
     except ValueError as error:
         return Reply(error=f"it returned {visible(error)}", kind="unsendable")
-    line, *_ = (*_lines(message, "line"), None)
-    return Reply(
-        value=value,
-        error=visible(message.get("error", "")),
-        kind=visible(message.get("kind", ""), 80),
-        line=line,
-        callers=_lines(message, "callers"),
-        changed=_texts(message, "changed"),
-        refused=_texts(message, "refused"),
-        printed=visible_lines(message.get("printed", "")),
-        shares=_texts(message, "shares"),
-    )
+    told = {
+        name: read(message[name]) for name, read in _READ.items() if name in message
+    }
+    return Reply(value=value, **told)
 
 
 def twice(first: Reply, second: Reply) -> Reply:
@@ -158,16 +150,35 @@ def _pack_argument(arg: Any) -> dict[str, Any]:
     return packed
 
 
-def _texts(message: dict[str, Any], name: str) -> tuple[str, ...]:
-    found = message.get(name)
-    return tuple(map(visible, found[:MOST])) if isinstance(found, list) else ()
+def _kind(told: Any) -> str:
+    return visible(told, 80)
 
 
-def _lines(message: dict[str, Any], name: str) -> tuple[int, ...]:
+def _texts(told: Any) -> tuple[str, ...]:
+    return tuple(map(visible, told[:MOST])) if isinstance(told, list) else ()
+
+
+def _lines(told: Any) -> tuple[int, ...]:
     """Return what may be numbers of lines in a file."""
-    found = message.get(name)
-    numbers: Sequence[Any] = found[:MOST] if isinstance(found, list) else [found]
+    numbers: Sequence[Any] = told[:MOST] if isinstance(told, list) else []
     return tuple(n for n in numbers if type(n) is int and 0 < n < 10_000_000)
+
+
+def _line(told: Any) -> int | None:
+    return next(iter(_lines([told])), None)
+
+
+# How to read each part of a reply; what the sandbox has nothing to say of is left out.
+_READ: dict[str, Callable[[Any], Any]] = {
+    "error": visible,
+    "kind": _kind,
+    "line": _line,
+    "callers": _lines,
+    "changed": _texts,
+    "refused": _texts,
+    "printed": visible_lines,
+    "shares": _texts,
+}
 
 
 def _union(*some: tuple[str, ...]) -> tuple[str, ...]:

@@ -4,11 +4,13 @@ import os
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-from robo47.checker.deliverables import Item
 from robo47.checker.tasks import TaskResult
 from robo47.lesson.day import Day, Task
+
+if TYPE_CHECKING:
+    from robo47.checker.deliverables import Item
 
 WIDTH = 80
 _LABEL = {
@@ -34,7 +36,7 @@ class Report:
 
     day: Day
     tasks: Sequence[TaskResult]
-    items: Sequence[Item] = ()
+    items: Sequence["Item"] = ()
 
     @property
     def counted(self) -> list[TaskResult]:

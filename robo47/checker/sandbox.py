@@ -170,8 +170,10 @@ class _Rounds:
         """Fill both rounds; return where it ended early, and why, or None."""
         order = [*self.left, *reversed(self.left)]
         spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
-        calls = [pack(self.questions[i]) for i in order]
-        calls[len(self.left)]["anew"] = True  # what the file kept so far is gone
+        packed = {i: pack(self.questions[i]) for i in self.left}
+        calls = [packed[i] for i in order]
+        anew = len(self.left)  # from here on, what the file kept so far is gone
+        calls[anew] = {**calls[anew], "anew": True}
         self.process.ask(calls)
         for position, i in enumerate(order):
             task = self.questions[i].task

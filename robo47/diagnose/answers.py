@@ -32,9 +32,10 @@ def read(
             "nothing-returned",
             "It returns nothing (None): the result is worked out, but not handed back.",
         )
-    columns: list[list[Array]] = [[] for _ in ask.kinds]
+    kinds = ask.kinds
+    columns: list[list[Array]] = [[] for _ in kinds]
     for reply in replies:
-        row = _parts(reply.value, ask.kinds)
+        row = _parts(reply.value, kinds)
         if isinstance(row, Finding):
             return row
         for column, part in zip(columns, row, strict=True):
@@ -145,18 +146,19 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Array, ...] | Finding:
 
 
 def _array(value: object, kind: Kind) -> Array | Finding:
-    expected = f"expected is {kind.expected}"
     try:
         array = np.asarray(value)
     except ValueError:  # parts of different shapes
         some = value if isinstance(value, tuple | list) else ()
         shapes = ", ".join(str(np.shape(part)) for part in some)
-        return Finding("shape", f"It returns parts of shapes {shapes}; {expected}.")
+        says = f"It returns parts of shapes {shapes}; expected is {kind.expected}."
+        return Finding("shape", says)
     if array.dtype.kind not in "fiub":
-        says = f"It returns {array.dtype} values; {expected} of real numbers."
-        return Finding("not-numbers", says)
+        says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
+        return Finding("not-numbers", f"{says} numbers.")
     if array.shape != kind.shape:
-        text = f"It returns shape {array.shape}; {expected}, shape {kind.shape}"
+        text = f"It returns shape {array.shape}; expected is {kind.expected}, shape"
         reason = kind.why_shape(array.shape)
-        return Finding("shape", f"{text}: {reason}." if reason else f"{text}.")
+        why = f": {reason}" if reason else ""
+        return Finding("shape", f"{text} {kind.shape}{why}.")
     return array

@@ -21,7 +21,7 @@ def explain(S: Array, T: Array) -> Finding:
         return found
     off = difference(S, T).max()
     why = (
-        "as single precision leaves: is there a float32 somewhere?"
+        "as float32, a difference quotient or a loop that stops too early leaves it."
         if off < SINGLE_INSIDE
         else "so a number is rounded: is one typed by hand, such as 3.14 or 0.707?"
     )

@@ -65,7 +65,9 @@ def arm_clip(
     """
     seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
     pictures = []
-    for q in tqdm(np.asarray(qs, dtype=float), "drawing", delay=1, leave=False):
+    for q in tqdm(
+        np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
+    ):
         full = with_fingers(q)
         true = link_frames(full)
         ghosts = tuple(

@@ -45,7 +45,9 @@ def clip(result: Result, path: Path) -> str:
     rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
     frames = [
         _drawn(qpos, CLIP_SIZE, fast=True)
-        for qpos in tqdm(result.qpos[rows], "drawing", delay=1, leave=False)
+        for qpos in tqdm(
+            result.qpos[rows], "drawing", delay=1, leave=False, disable=None
+        )
     ]
     size = save_clip(frames, path, seconds=result.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"

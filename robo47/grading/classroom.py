@@ -178,4 +178,6 @@ def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:
 
 
 def _bar(total: int, doing: str) -> "tqdm[None]":
-    return tqdm(total=total, desc=doing, unit="student", leave=False, delay=1)
+    return tqdm(
+        total=total, desc=doing, unit="student", leave=False, delay=1, disable=None
+    )

@@ -27,7 +27,7 @@ def with_client(page: bytes) -> bytes:
     if page.count(head) != 1:
         raise Robo47Error(
             "viser's page is not as expected. Install the pinned one: "
-            "python scripts/setup_env.py view"
+            "python3 scripts/setup_env.py view"
         )
     titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
     return titled.replace(head, head + _ours())

@@ -73,7 +73,7 @@ class LocalServer(viser.ViserServer):
             self.stop()
             raise Robo47Error(
                 f"viser {viser.__version__} cannot be kept from answering other sites' "
-                "pages. Install the pinned one: python scripts/setup_env.py view"
+                "pages. Install the pinned one: python3 scripts/setup_env.py view"
             )
         _values_only(self)
         self.gui.configure_theme(

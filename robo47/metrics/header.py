@@ -83,15 +83,15 @@ def problem(head: bytes, path: Path) -> str:
         )
     if seen.utf16:
         return utf16_problem(path)
-    mend = _mend(path)
+    repair = _repair(path)
     if seen.has_header and seen.delimiter != ",":
-        return f'{said}. Save it as "CSV UTF-8 (comma delimited)", or: {mend}.'
-    return f"{said}. {mend}; the first line must be: {LINE}"
+        return f'{said}. Save it as "CSV UTF-8 (comma delimited)", or: {repair}.'
+    return f"{said}. {repair}; the first line must be: {LINE}"
 
 
 def utf16_problem(path: Path) -> str:
     """Return what to do about a log that has UTF-16 text, at its start or later."""
-    return f"{_UTF16}. Append with scripts/log_metric.py instead; {_mend(path)}."
+    return f"{_UTF16}. Append with scripts/log_metric.py instead; {_repair(path)}."
 
 
 def is_utf16_end(end: bytes) -> bool:
@@ -99,8 +99,8 @@ def is_utf16_end(end: bytes) -> bool:
     return end in (b"\n\0", b"\0\n")
 
 
-def _mend(path: Path) -> str:
-    return f"{command('--repair', path)} writes a mended copy"
+def _repair(path: Path) -> str:
+    return f"{command('--repair', path)} writes a repaired copy"
 
 
 def _decoded(head: bytes, utf16: bool) -> str:
@@ -126,15 +126,15 @@ def _meant(names: tuple[str, ...]) -> tuple[str, ...] | None:
     if len(names) == len(COLUMNS) and misplaced == 1:
         return COLUMNS
     missing = [name for name in COLUMNS if name not in names]
-    mended = []
+    repaired = []
     for name in names:
         unknown = name not in COLUMNS
         near = difflib.get_close_matches(name.lower(), missing, 1, NEAR)
-        mended.append(near[0] if near and unknown else name)
-    filled = [name for name in mended if name]
+        repaired.append(near[0] if near and unknown else name)
+    filled = [name for name in repaired if name]
     twice = len(set(filled)) < len(filled)
-    either_way = set(mended) - set(COLUMNS) and set(COLUMNS) - set(mended)
-    return None if twice or either_way else tuple(mended)
+    either_way = set(repaired) - set(COLUMNS) and set(COLUMNS) - set(repaired)
+    return None if twice or either_way else tuple(repaired)
 
 
 def _difference(names: tuple[str, ...]) -> str:

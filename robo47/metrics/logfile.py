@@ -17,7 +17,7 @@ from pathlib import Path
 from robo47.errors import Robo47Error
 from robo47.metrics import header, lock
 from robo47.metrics.rows import is_open_quote
-from robo47.metrics.words import command
+from robo47.metrics.words import command, in_words
 from robo47.paths import shown
 
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
@@ -72,7 +72,7 @@ def append(path: StrPath, text: str, sync: bool) -> None:
             if not text:
                 return
     except OSError as error:
-        raise CannotAppendError(f"{_shown(name)}: {_in_words(error, name)}") from None
+        raise CannotAppendError(f"{_shown(name)}: {in_words(error, name)}") from None
     raise CannotAppendError(
         f"{_shown(name)} keeps being replaced by another program."
         " Close that and try again."
@@ -240,25 +240,3 @@ def _keep(name: str, text: str) -> str:
 
 def _shown(name: str) -> str:
     return shown(Path(name))
-
-
-def _in_words(error: OSError, name: str) -> str:
-    """Return what an error means for a person, and what to do about it."""
-    if os.path.isdir(name):
-        return "a folder is in the log's place. Move that folder away."
-    if error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)):
-        return "the disk is full. Free some space."
-    if error.errno == errno.EFBIG:
-        return "the file may not grow further (see `ulimit -f`). Raise that limit."
-    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return (
-            "it is read-only, or another program has it open. Make it and its"
-            " folder writable (chmod u+w), or close that program."
-        )
-    if error.errno in (errno.ENOENT, errno.ENOTDIR):
-        return "its folder does not exist. Make that folder, or mend the path."
-    if error.errno == errno.EINVAL:
-        return "it is not a regular file. Name a .csv file."
-    if isinstance(error, TimeoutError):
-        return f"{error}. End or continue that program."
-    return f"{error.strerror or error}. Mend that and try again."

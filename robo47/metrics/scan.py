@@ -1,4 +1,4 @@
-"""Reading the log line by line: what each holds, was mended to hold, or why not.
+"""Reading the log line by line: what each holds, was repaired to hold, or why not.
 
 One line is one row, so a quote that is never closed costs its own line only.
 """
@@ -81,7 +81,7 @@ def _opened(path: Path) -> BinaryIO:
         ) from None
     except OSError as error:
         raise Robo47Error(
-            f"{shown(path)} cannot be read: {error.strerror or error}. Mend that."
+            f"{shown(path)} cannot be read: {error.strerror or error}. Fix that."
         ) from None
 
 
@@ -104,7 +104,7 @@ def _lines(file: BinaryIO, plan: Layout, repaired: set[str]) -> Iterator[Line]:
 
 
 def _decoded(raw: bytes) -> tuple[str, str]:
-    """Return a line's text, and what had to be mended to read it."""
+    """Return a line's text, and what had to be repaired to read it."""
     problem = "" if raw.endswith(b"\n") else "it has no line end, so it may be cut"
     raw = raw.rstrip(b"\r\n")
     if b"\0" in raw:

@@ -259,7 +259,7 @@ def _look(title: str, lines: list[Line]) -> str:
     return (
         f'<section><h2>{title} ({len(lines):,})</h2><div class="card scroll"><table>'
         f"<tr><th>line</th><th>why</th><th>text</th></tr>{rows}</table>{rest}"
-        '<p class="muted">More: <code>python scripts/log_metric.py --check</code></p>'
+        '<p class="muted">More: <code>python3 scripts/log_metric.py --check</code></p>'
         "</div></section>"
     )
 

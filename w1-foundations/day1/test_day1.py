@@ -95,6 +95,7 @@ def test_importing_the_lab_prints_nothing_and_starts_nothing(capsys):
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize(
     ("cwd", "script"),
     [(".", SCRIPT), ("w1-foundations", "src/day1_transforms.py"), (None, None)],

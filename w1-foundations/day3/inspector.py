@@ -1,4 +1,4 @@
-"""Day 3 in the inspector: the tab Jacobian.
+"""Day 3 in the inspector: the tab Jacobian; the tab Circle is in `circle.py`.
 
 The columns of J_site stand as arrows at the hand, the manipulability ellipsoid around
 it, and the singular values as bars: the smallest turns red near a singularity. A target
@@ -15,6 +15,8 @@ from robo47.inspector import words
 from robo47.inspector.arm import END
 from robo47.inspector.page import Page
 from robo47.inspector.tab import Tab
+
+from .circle import Circle
 
 JOINTS = 7
 NEAR_SINGULAR = 0.05  # the smallest singular value that is shown in red below
@@ -139,4 +141,4 @@ class Jacobian(Tab):
         return np.clip(q + step, *self.limits.T)
 
 
-TABS = [Jacobian]
+TABS = [Jacobian, Circle]

@@ -237,6 +237,7 @@ def tab():
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(find_day(3), "inspector")
     page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
+    page.draw.curve.side_effect = lambda *_: MagicMock()
     page.html.side_effect = lambda *text: MagicMock()
     S, M, _ = QUESTIONS.targets.arm()
     page.pose.return_value = screws.fk_space(S, M, panda.READY_Q)
@@ -275,3 +276,26 @@ def test_the_tab_compares_the_students_jacobian_by_value(tab):
     assert "bad" in tab.own.content
     tab._students(Reply(kind="missing"))
     assert "nothing to show" in tab.own.content
+
+
+@pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
+def test_the_circles_tab_draws_what_the_lab_draws(tab, radius):
+    S, M, limits = QUESTIONS.targets.arm()
+    q = lab.first_q((S, M), radius, limits)
+    circle = folder.load(find_day(3), "circle").Circle(tab.page)
+    circle.turn(radius)
+    assert_same(circle.pens[0].q, q, 1e-12)
+    for _ in range(len(np.arange(lab.DT, lab.LAP, lab.DT))):
+        circle.draw()
+    circle.show()
+    damped, plain = circle.pens
+    off, speeds, _ = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+    assert_same(damped.off[1:], off, 1e-6)
+    assert_same(damped.rate[1:], (speeds / lab.SPEED).max(axis=1), 1e-6)
+    assert max(damped.rate) < 1.0
+    assert f"radius {radius:g} m" in circle.numbers.content
+    if radius == lab.EASY:  # beyond it the plain one is chaos, which nobody can predict
+        off, speeds, _ = lab.draw_circle((S, M), q, radius, 0.0)
+        assert_same(plain.off[1:], off, 1e-6)
+        assert max(plain.rate) < 1.0
+    assert circle.steps == len(off)

@@ -193,6 +193,7 @@ def test_the_predictions_of_the_side_quest():
     assert says(f"bound is {lab.heaviest_cube(0.917, 0.3, up):.3f} kg")
 
 
+@pytest.mark.kit
 def test_47_is_written_within_half_a_millimetre():
     written = folder.load(DAY, "letters").write(lab)
     off = np.linalg.norm(written.wanted - written.reached, axis=1)

@@ -54,7 +54,8 @@ def main() -> None:
     _silence()
 
     def send(**reply: Any) -> None:
-        line = request["secret"] + json.dumps(reply) + "\n"
+        told = {name: value for name, value in reply.items() if value not in ("", [])}
+        line = request["secret"] + json.dumps(told) + "\n"
         channel.write(line.encode("ascii"))
         channel.flush()
 

@@ -1,4 +1,4 @@
-"""Looking after the log: find what is wrong, mend a copy, bring kept rows back."""
+"""Looking after the log: find what is wrong, repair a copy, bring kept rows back."""
 
 import os
 import subprocess
@@ -22,7 +22,7 @@ from robo47.metrics.scan import Line, scan
 from robo47.paths import shown
 
 
-class Mended(NamedTuple):
+class Repaired(NamedTuple):
     """What `repair` wrote: the copy, the unreadable rest, and the lines of each.
 
     `header` says what was wrong with the first line, or "".
@@ -31,7 +31,7 @@ class Mended(NamedTuple):
     copy: Path
     rest: Path | None
     rows: int
-    mended: list[Line]
+    repaired: list[Line]
     unread: list[Line]
     header: str
 
@@ -50,35 +50,35 @@ def unsaved_rows(path: Path) -> int:
         return 0
 
 
-def repair(path: Path, lines: Iterator[Line] | None = None) -> Mended:
-    """Write a mended copy of the log beside it; no file is ever overwritten.
+def repair(path: Path, lines: Iterator[Line] | None = None) -> Repaired:
+    """Write a repaired copy of the log beside it; no file is ever overwritten.
 
     Args:
         path: the log, in whatever state.
         lines: its lines, if the caller wants to watch them go by.
 
     Returns:
-        The copy, and which lines were mended or left out; what was left out is
+        The copy, and which lines were repaired or left out; what was left out is
         kept word for word in a text file beside the copy.
 
     Raises:
         Robo47Error: the log cannot be read, its header leaves in doubt which column
             is which, or its folder cannot be written.
     """
-    rows, mended, unread = [header.LINE], [], []
+    rows, repaired, unread = [header.LINE], [], []
     for line in lines or scan(path, as_is=True):
         if line.row is None:
             unread.append(line)
             continue
         rows.append(encode(line.row))
         if line.problem:
-            mended.append(line)
+            repaired.append(line)
             note_repair(path, rows[-1])
     copy = _write_new(path, ".csv", rows)
     rest = _write_new(path, ".rest.txt", [x.text for x in unread]) if unread else None
     head = _wrong_head(path)
     wrong = _header_mended(head) if head else ""
-    return Mended(copy, rest, len(rows) - 1, mended, unread, wrong)
+    return Repaired(copy, rest, len(rows) - 1, repaired, unread, wrong)
 
 
 def restore(path: Path) -> int:
@@ -143,11 +143,11 @@ def _header_mended(head: bytes) -> str:
 
 
 def _write_new(path: Path, suffix: str, lines: list[str]) -> Path:
-    """Write a file whose name nothing has yet: metrics.mended.csv, -2, -3 ..."""
+    """Write a file whose name nothing has yet: metrics.repaired.csv, -2, -3 ..."""
     text = "".join(line + "\n" for line in lines)
     for number in range(1, 1000):
         again = f"-{number}" if number > 1 else ""
-        copy = path.with_name(f"{path.stem}.mended{again}{suffix}")
+        copy = path.with_name(f"{path.stem}.repaired{again}{suffix}")
         try:
             with open(copy, "x", encoding="utf-8", newline="\n") as file:
                 file.write(text)
@@ -160,4 +160,4 @@ def _write_new(path: Path, suffix: str, lines: list[str]) -> Path:
                 f"cannot write {shown(copy)}: {why}. Free space, or make the folder"
                 " writable."
             ) from None
-    raise Robo47Error(f"1,000 mended copies are beside {shown(path)}: remove some.")
+    raise Robo47Error(f"1,000 repaired copies are beside {shown(path)}: remove some.")

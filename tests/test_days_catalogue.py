@@ -1,0 +1,41 @@
+"""Every submission in the days' catalogues: its verdict, and what it does as a lab."""
+
+import pytest
+from catalogue import STATUS, run_as_lab, submissions, told
+
+from robo47.lesson.day import all_days
+
+pytestmark = pytest.mark.kit
+
+DAYS = all_days()
+FILES = [
+    pytest.param(day, one, id=f"day{day.number}/{one.name}")
+    for day in DAYS
+    for one in submissions(day)
+]
+SHOWN = [
+    pytest.param(day, one, id=f"day{day.number}/{one.name}")
+    for day in DAYS
+    for one in submissions(day, "wrong")
+    if one.runs
+]
+
+
+@pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
+def test_the_catalogue_has_files_of_every_task(day):
+    asked = {task.id for task in day.tasks}
+    judged = {t for one in submissions(day, "wrong", "close") for t in one.tasks}
+    assert judged == asked
+
+
+@pytest.mark.parametrize(("day", "submission"), FILES)
+def test_a_file_is_told_what_the_catalogue_says(day, submission):
+    status = STATUS[submission.folder]
+    for task, verdict in told(day, submission).items():
+        assert (verdict.mistake or verdict.status) == submission.expected, task
+        assert verdict.status in (status, "todo" if status == "wrong" else status)
+
+
+@pytest.mark.parametrize(("day", "submission"), SHOWN)
+def test_a_wrong_file_run_as_a_lab_fails(day, submission):
+    assert run_as_lab(day, submission) == 1
