@@ -12,7 +12,6 @@ for want of memory, and the process held little of it, a FaultError says so. The
 of time do not count what a process waits for a processor.
 """
 
-import base64
 import contextlib
 import time
 from collections import defaultdict
@@ -23,11 +22,9 @@ from typing import Any
 from robo47.checker.process import EndedError, Process
 from robo47.checker.replies import LoadError, Question, Reply, pack, stopped, twice
 from robo47.checker.session import Session
-from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.checker.source import code_of
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
-LARGEST_SCRIPT, MOST_NEIGHBOURS = 1_000_000, 50  # bytes, files
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
@@ -219,30 +216,7 @@ def _request(
 ) -> dict[str, Any]:
     """Return what a process is told before the first question."""
     known = {"models": list(models), "facts": facts, "library": dict(library or {})}
-    return {**known, **_code(script), **others}
-
-
-def _code(script: Path) -> dict[str, Any]:
-    """Return a script and the ones beside it, for the request."""
-    if not script.is_file():
-        raise Robo47Error(f"{shown(script)} is not there")
-    if script.stat().st_size > LARGEST_SCRIPT:
-        raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
-    beside = {
-        path.stem: _text(path)
-        for path in sorted(script.parent.glob("*.py"))[:MOST_NEIGHBOURS]
-        if _is_own(path) and path.stat().st_size <= LARGEST_SCRIPT
-    }
-    return {"file": script.name, "code": _text(script), "beside": beside}
-
-
-def _is_own(path: Path) -> bool:
-    """Return whether a file counts as handed in: a grade follows no link either."""
-    return path.is_file() and not path.is_symlink()
-
-
-def _text(path: Path) -> str:
-    return base64.b64encode(path.read_bytes()).decode("ascii")
+    return {**known, **code_of(script), **others}
 
 
 def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:
