@@ -13,7 +13,7 @@ from queue import SimpleQueue
 
 import pytest
 from make_class import DAY, SOLVED, WEEK, commit, script
-from test_walls import standing
+from test_walls import is_there, standing
 
 from conftest import ROOT, need
 from robo47.checker import process, resources, sandbox, wall
@@ -307,6 +307,18 @@ class TestGit:
         commit(tmp_path, 1_788_000_000)
         fake("while :; do :; done")
         assert not git.read_history(tmp_path, [SCRIPT]).readable
+
+    @linux
+    def test_that_is_stopped_leaves_no_process_behind(self, tmp_path, fake):
+        commit(tmp_path, 1_788_000_000)
+        fake(f"sleep 600 & echo $! > {tmp_path}/pid; wait")
+        with pytest.raises(git.GitError):
+            git.read_history(tmp_path, [SCRIPT])
+        pid = int((tmp_path / "pid").read_text())
+        deadline = time.monotonic() + 20
+        while is_there(pid) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not is_there(pid)
 
     @linux
     @pytest.mark.parametrize("line", ["sleep 60", "kill -9 $$"])

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections import Counter
 from concurrent.futures import Executor, Future
 from dataclasses import replace
@@ -29,9 +30,17 @@ from robo47.checker.deliverables.handin import Handin
 from robo47.checker.tasks import TaskResult
 from robo47.diagnose import Verdict
 from robo47.errors import FaultError, Robo47Error
-from robo47.grading import charts, child, classroom, engine, overview, similar
+from robo47.grading import (
+    charts,
+    child,
+    classroom,
+    engine,
+    overview,
+    people,
+    similar,
+)
 from robo47.grading.child import _tidy
-from robo47.grading.grader import Grader, grade_package
+from robo47.grading.grader import Grader, grade_package, sweep
 from robo47.grading.journal import Journal
 from robo47.grading.package import Package, collect, fingerprint, unpack
 from robo47.grading.pull import OURS, pull_all
@@ -215,6 +224,35 @@ class TestTheGrader:
             grader.grade(package)
         resource.prlimit(grader.process.pid, size, (hard, hard))
         assert grader.grade(package).tasks[0].passed
+
+    def test_that_was_killed_leaves_nothing_for_longer_than_a_day(
+        self, tmp_path, monkeypatch
+    ):
+        monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+        old, new, other = (
+            tmp_path / name
+            for name in ("robo47-grader-a", "robo47-grader-b", "thesis-grader-c")
+        )
+        for folder in (old, new, other):
+            folder.mkdir()
+            (folder / "x.py").write_text("")
+        for folder in (old, other):
+            os.utime(folder, (1_000_000_000, 1_000_000_000))
+        sweep()
+        assert [old.exists(), new.exists(), other.exists()] == [False, True, True]
+
+    def test_shows_what_was_refused_though_the_code_caught_it(self):
+        curious = "try: open('/etc/shadow')\n    except OSError: pass"
+        text = SOLVED.replace(
+            "    T = np.eye(4)\n", f"    {curious}\n    T = np.eye(4)\n", 1
+        )
+        files = {name: text.encode() for name, text in script(text).items()}
+        found = child.grade(Package(1, "", Handin(files)), DAY)
+        assert found.tasks[0].passed
+        assert found.refused == ("read /etc/shadow",)
+        one = Graded(Student("A", "a", Path()), found)
+        course = overview.Course(DAY, [one], [], 0, deadline=False)
+        assert "read /etc/shadow" in people.list_refused(course)
 
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):

@@ -54,7 +54,7 @@ class Process:
         self.killed = False  # ended by a signal of somebody's
         self._oom_kills = resources.oom_kills()
         self._most = 0  # bytes of memory it was seen with
-        self._waited = 0.0
+        self.waited = 0.0  # seconds for a processor, by which its time was extended
         self._closed = threading.Event()
         self._in: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -156,10 +156,10 @@ class Process:
 
     def _extension(self) -> float:
         """Return the seconds that others had the processor; its own time is over."""
-        before, self._waited = self._waited, resources.scheduled(self.process)[1]
-        if self._waited - before < BARELY:
+        before, self.waited = self.waited, resources.scheduled(self.process)[1]
+        if self.waited - before < BARELY:
             raise EndedError("it runs on and on, as a loop without an end does")
-        return self._waited - before
+        return self.waited - before
 
     def _how_it_ended(self) -> str:
         try:

@@ -98,6 +98,7 @@ class Sandbox:
                     if killed or not process.killed:
                         raise
                     ended = None
+                deadline += process.waited
                 if process.killed and not killed:  # by whom? The same again tells
                     killed = True
                     continue

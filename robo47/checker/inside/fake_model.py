@@ -34,13 +34,17 @@ class MjModel:
 
         Args:
             data: "sizes", {"nq": 7, ...}, and "names", {"body": ["world", ...], ...}.
-            arrays: {"body_pos": (nbody, 3), ...}; copied, so a task may change them.
+            arrays: {"body_pos": (nbody, 3), ...}; each is copied when it is first asked
+                for, so a task may change it.
         """
         self.__dict__.update(data["sizes"])
-        self.__dict__.update({name: array.copy() for name, array in arrays.items()})
+        self._arrays = arrays
         self._names: dict[str, list[str]] = data["names"]
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
+        if name in self.__dict__.get("_arrays", ()):
+            self.__dict__[name] = own = self._arrays[name].copy()
+            return own
         kind = _SHORT.get(name, name)
         if kind in KINDS:
             return lambda key: View(self, kind, self._index(kind, key))
@@ -69,17 +73,17 @@ class View:
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
         if not name.startswith("_"):
-            arrays, prefix = vars(self._model), KINDS[self._kind][0]
-            row = arrays.get(prefix + name)
-            if isinstance(row, np.ndarray):
-                return row[self.id : self.id + 1].reshape(row.shape[1:] or (1,))
-            if self._kind == "joint" and f"dof_{name}" in arrays:
-                return arrays[f"dof_{name}"][self._joints("jnt_dofadr", _VELOCITIES)]
+            model, prefix = self._model, KINDS[self._kind][0]
+            if prefix + name in model._arrays:
+                row = getattr(model, prefix + name)[self.id : self.id + 1]
+                return row.reshape(row.shape[1:] or (1,))
+            if self._kind == "joint" and f"dof_{name}" in model._arrays:
+                return getattr(model, f"dof_{name}")[self._joints("dof", _VELOCITIES)]
             if self._kind == "joint" and name in ("qpos0", "qpos_spring"):
-                return arrays[name][self._joints("jnt_qposadr", _POSITIONS)]
+                return getattr(model, name)[self._joints("qpos", _POSITIONS)]
         raise AttributeError(f"the checker's copy of a {self._kind} has no {name!r}")
 
-    def _joints(self, addresses: str, sizes: dict[int, int]) -> slice:
+    def _joints(self, among: str, sizes: dict[int, int]) -> slice:
         """Return where a joint's numbers are among all joints'."""
-        start = vars(self._model)[addresses][self.id]
+        start = getattr(self._model, f"jnt_{among}adr")[self.id]
         return slice(start, start + sizes[int(self._model.jnt_type[self.id])])
