@@ -92,14 +92,35 @@
     send(field.dataset.r47, field.value);
   }, true);
 
-  addEventListener("click", async (event) => {
-    const button = event.target.closest?.("[data-r47-click], [data-r47-copy]");
-    if (!button) return;
+  // A button is known by what it says, not as an element: it may be drawn anew between
+  // press and release, and then the browser sends no click. Keys still send one.
+  const buttonOf = (event) => event.target.closest?.("[data-r47-click], [data-r47-copy]");
+  const nameOf = (button) => button && `${button.dataset.r47Click} ${button.textContent}`;
+  let pressed = null, done = false;
+  async function act(button) {
     if (button.dataset.r47Click) return send(button.dataset.r47Click, button.value);
     await navigator.clipboard.writeText(button.dataset.r47Copy);
     const label = button.textContent;
+    if (label === "copied") return;
     button.textContent = "copied";
     setTimeout(() => { button.textContent = label; }, 1200);
+  }
+  addEventListener("pointerdown", (event) => {
+    pressed = event.button ? null : nameOf(buttonOf(event));
+    done = false;
+  }, true);
+  addEventListener("pointercancel", () => { pressed = held = null; }, true);
+  addEventListener("pointerup", (event) => {
+    const at = document.elementFromPoint(event.clientX, event.clientY);
+    const button = at && buttonOf({ target: at });
+    if (pressed && pressed === nameOf(button)) { done = true; act(button); }
+    pressed = null;
+  }, true);
+  addEventListener("keydown", () => { done = false; }, true);
+  addEventListener("click", (event) => {
+    const button = buttonOf(event);
+    if (button && !done) act(button);
+    done = false;
   }, true);
 
   // Which link is under the pointer: the server knows the arm.

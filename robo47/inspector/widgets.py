@@ -67,13 +67,14 @@ class Slider:
 class Widgets:
     """Sliders, buttons, texts, bars and plots of one opened tab."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Host, title: str) -> None:
         """Start with none.
 
         Args:
             host: the page as a whole.
+            title: of the tab; begins the controls' names.
         """
-        self.host, self.gui = host, host.server.gui
+        self.host, self.gui, self.title = host, host.server.gui, title
         self.names: list[str] = []
         self.said: viser.GuiHtmlHandle | None = None
 
@@ -223,7 +224,7 @@ class Widgets:
         return Plot(self.gui, curves, x, y, height)
 
     def _name(self) -> str:
-        self.names.append(f"tab.{id(self)}.{len(self.names)}")
+        self.names.append(f"{self.title}.{len(self.names)}")
         return self.names[-1]
 
 
