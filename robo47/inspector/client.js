@@ -133,6 +133,9 @@
   setInterval(() => { if (at !== asked) { asked = at; send("hover", at); } }, 120);
 
   if (location.search.length > 1) send("address", location.search);
+  // viser's own word for a dark page; it is read once, when the page starts.
+  if (matchMedia("(prefers-color-scheme: dark)").matches)
+    history.replaceState(null, "", `${location.search || "?"}&darkMode`);
   addEventListener("popstate", () => send("address", location.search));
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(later).observe(document.body, { childList: true, subtree: true });
