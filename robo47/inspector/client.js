@@ -3,21 +3,21 @@
 (() => {
   const base = location.pathname.replace(/\/?$/, "/");
   const waiting = new Map(); // control -> value: the newest of each is sent
-  let sending = false, held = null, lastChange = 0, scheduled = false;
+  let sending = "", held = null, lastChange = 0, scheduled = false;
 
   async function pump() {
     if (sending) return;
-    sending = true;
     while (waiting.size) {
       const [control, value] = waiting.entries().next().value;
       waiting.delete(control);
+      sending = control;
       const query = new URLSearchParams({ control, value });
       try {
         await fetch(`${base}do?${query}`, { cache: "no-store" });
       } catch { /* the server is gone; viser's own sign says so */ }
     }
-    sending = false;
-    later();
+    sending = "";
+    settle();
   }
   function send(control, value) {
     waiting.delete(control);
@@ -34,8 +34,9 @@
     const state = read();
     if (!state) return;
     for (const field of document.querySelectorAll("[data-r47]")) {
-      const shown = state.values[field.dataset.r47];
-      if (shown === undefined || field === held || "typing" in field.dataset) continue;
+      const name = field.dataset.r47, shown = state.values[name];
+      const busy = field === held || name === sending || waiting.has(name);
+      if (shown === undefined || busy || "typing" in field.dataset) continue;
       if (field.type === "checkbox") field.checked = shown === "true";
       else if (field.value !== shown) field.value = field.type === "range" ? Number(shown) : shown;
     }
@@ -49,6 +50,9 @@
   function later() {
     if (!scheduled) { scheduled = true; setTimeout(show, 10); }
   }
+
+  // The server's answer is on its way; if there is none, what it said before holds.
+  const settle = () => setTimeout(later, 300);
 
   const dialOf = (event) => event.target.closest?.("[data-r47]");
   const decimals = (field) => Number(field.dataset.decimals || 4);
@@ -75,7 +79,7 @@
     const field = dialOf(event);
     if (field?.type === "range") held = field;
   }, true);
-  addEventListener("pointerup", () => { held = null; later(); }, true);
+  addEventListener("pointerup", () => { held = null; settle(); }, true);
 
   // Keys: 0.01, with Shift ten times as much, with Alt a tenth.
   const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };

@@ -89,9 +89,18 @@ class Widgets:
             text: plain text; "" for none.
             kind: "", "good", "bad" or "quiet".
         """
+        self.end()
+        assert self.said is not None
+        self.said.content = words.line(text, "tab", kind) if text else ""
+
+    def end(self) -> None:
+        """Make the line of `say`, unless it is there.
+
+        A widget that comes later has viser draw all the others anew: a slider that is
+        being dragged is then lost to the mouse.
+        """
         if self.said is None:
             self.said = self.html()
-        self.said.content = words.line(text, "tab", kind) if text else ""
 
     def matrix(self, handle: viser.GuiHtmlHandle, name: str, T: Array) -> None:
         """Show a pose under its name in a handle of `html`."""
