@@ -96,7 +96,9 @@ class Page:
 
     def later(self) -> None:
         """Move the page's clock on by two seconds."""
-        self.tab.evaluate("() => { const now = Date.now(); Date.now = () => now + 2000 }")
+        self.tab.evaluate(
+            "() => { const now = Date.now(); Date.now = () => now + 2000 }"
+        )
 
     def matrix(self, key: str) -> Array:
         text = self.tab.locator(f"[data-matrix={key}]:visible").inner_text()
@@ -182,7 +184,9 @@ def coloured_pixels(picture: Array, lowest: float, highest: float) -> int:
 
     image = Image.fromarray(picture.astype(np.uint8)).convert("HSV")
     hue, saturation, _ = np.moveaxis(np.asarray(image, dtype=float), 2, 0)
-    found = (saturation > 100) & (hue * 360 / 255 >= lowest) & (hue * 360 / 255 < highest)
+    found = (
+        (saturation > 100) & (hue * 360 / 255 >= lowest) & (hue * 360 / 255 < highest)
+    )
     return int(found.sum())
 
 
@@ -203,7 +207,7 @@ def page(first_page) -> Page:
     return first_page
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="class")
 def drawn(browser, served) -> Iterator[Page]:
     """A page whose picture is looked at."""
     page = Page(browser, served.url, query="")
@@ -230,23 +234,35 @@ def arm_pixels(picture: Array) -> int:
     return int((picture.max(axis=2) < 205).sum())
 
 
-def test_the_page_shows_the_arm_and_triads_in_three_colours(drawn):
-    picture = drawn.picture()
-    for lowest, highest in (15, 30), (165, 180), (195, 210):
-        assert coloured_pixels(picture, lowest, highest) > 100
+class TestThePicture:
+    """A class, so that its page is closed after it: each of its frames is work."""
 
+    def test_the_page_shows_the_arm_and_triads_in_three_colours(self, drawn):
+        picture = drawn.picture()
+        for lowest, highest in (15, 30), (165, 180), (195, 210):
+            assert coloured_pixels(picture, lowest, highest) > 100
 
-def test_the_arm_can_be_made_solid(drawn):
-    before = drawn.picture()
-    solid = drawn.tab.get_by_label("solid arm")
-    solid.click()
-    drawn.until(
-        lambda: (np.abs(drawn.picture() - before).max(axis=2) > 30).sum() > 5_000
-    )
-    solid.click()
-    drawn.until(
-        lambda: (np.abs(drawn.picture() - before).max(axis=2) > 30).sum() < 2_000
-    )
+    def test_the_arm_can_be_made_solid(self, drawn):
+        before = drawn.picture()
+        solid = drawn.tab.get_by_label("solid arm")
+        solid.click()
+        drawn.until(
+            lambda: (np.abs(drawn.picture() - before).max(axis=2) > 30).sum() > 5_000
+        )
+        solid.click()
+        drawn.until(
+            lambda: (np.abs(drawn.picture() - before).max(axis=2) > 30).sum() < 2_000
+        )
+
+    def test_the_link_under_the_pointer_shows_its_axis(self, drawn):
+        drawn.go("?q=0,0,0,-1.5,0,1.5,0&tab=Joints")
+        drawn.until(lambda: drawn.line("q") == "q = [0, 0, 0, -1.5, 0, 1.5, 0]")
+        purple = (285, 315)
+        drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) == 0)
+        drawn.tab.mouse.move(420, 480)  # the shoulder
+        drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) > 100)
+        drawn.tab.mouse.move(650, 250)  # the air
+        drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) == 0)
 
 
 def test_the_page_asks_nobody_else_for_anything(page, served):
@@ -373,17 +389,6 @@ def test_the_buttons_can_be_pressed_with_the_keyboard(page, model):
     page.until(lambda: close(page.matrix("mujoco"), truth(model, np.zeros(7))))
     page.tab.get_by_role("tab", name="Chain").press("Space")
     page.until(lambda: "factor 3 of 16" in page.said("step"))
-
-
-def test_the_link_under_the_pointer_shows_its_axis(drawn):
-    drawn.go("?q=0,0,0,-1.5,0,1.5,0&tab=Joints")
-    drawn.until(lambda: drawn.line("q") == "q = [0, 0, 0, -1.5, 0, 1.5, 0]")
-    purple = (285, 315)
-    drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) == 0)
-    drawn.tab.mouse.move(420, 480)  # the shoulder
-    drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) > 100)
-    drawn.tab.mouse.move(650, 250)  # the air
-    drawn.until(lambda: coloured_pixels(drawn.picture(), *purple) == 0)
 
 
 def test_every_text_can_be_read_in_light_and_in_dark(page, browser, served):

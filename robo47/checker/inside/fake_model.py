@@ -40,6 +40,9 @@ class MjModel:
         self.__dict__.update(data["sizes"])
         self.__dict__.update({name: array.copy() for name, array in arrays.items()})
         self._names: dict[str, list[str]] = data["names"]
+        if "rows" not in data:  # once for all copies: a chain asks for many views
+            data["rows"] = _rows(arrays)
+        self._rows: dict[str, list[str]] = data["rows"]
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
         kind = _SHORT.get(name, name)
@@ -51,12 +54,12 @@ class MjModel:
         """Return one object's rows, as `model.body("link1")` gives them."""
         index = self._index(kind, key)
         prefix = KINDS[kind][0]
+        mine = vars(self)
         rows = {
-            name[len(prefix) :]: array[index : index + 1].reshape(
-                array.shape[1:] or (1,)
+            name[len(prefix) :]: mine[name][index : index + 1].reshape(
+                mine[name].shape[1:] or (1,)
             )
-            for name, array in vars(self).items()
-            if name.startswith(prefix) and isinstance(array, np.ndarray)
+            for name in self._rows[prefix]
         }
         if kind == "joint":
             rows = {**self._joint_rows(index), **rows}
@@ -68,13 +71,10 @@ class MjModel:
         start, first = self.jnt_qposadr[index], self.jnt_dofadr[index]
         qpos = slice(start, start + _POSITIONS[kind])
         dof = slice(first, first + _VELOCITIES[kind])
-        rows = {
-            name[len("dof_") :]: array[dof]
-            for name, array in vars(self).items()
-            if name.startswith("dof_")
-        }
+        mine = vars(self)
+        rows = {name[len("dof_") :]: mine[name][dof] for name in self._rows["dof_"]}
         for name in ("qpos0", "qpos_spring"):
-            rows[name] = vars(self)[name][qpos]
+            rows[name] = mine[name][qpos]
         return rows
 
     def _index(self, kind: str, key: str | int) -> int:
@@ -88,3 +88,9 @@ class MjModel:
                 f"Invalid index {key}. Valid indices from 0 to {len(names) - 1}"
             )
         return int(key)
+
+
+def _rows(arrays: dict[str, np.ndarray]) -> dict[str, list[str]]:
+    """Return the names of the arrays by what they begin with, such as "body_"."""
+    prefixes = ["dof_", *(kind[0] for kind in KINDS.values())]
+    return {p: [name for name in arrays if name.startswith(p)] for p in prefixes}
