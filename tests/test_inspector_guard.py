@@ -277,7 +277,8 @@ def compose_fk(model, q, path=None):
     attempt("its memory", lambda: open("/proc/{pid}/mem", "rb").close())
     attempt("its command line", lambda: open("/proc/{pid}/cmdline").read())
     attempt("the kit", lambda: open({file!r}).read())
-    attempt("its code", lambda: __import__("robo47.inspector.guard").inspector.guard.Door())
+    guard = "robo47.inspector.guard"
+    attempt("its code", lambda: __import__(guard).inspector.guard.Door())
     raise ValueError(f"reached {{reached}}")
 """
 

@@ -4,6 +4,7 @@
   const base = location.pathname.replace(/\/?$/, "/");
   const waiting = new Map(); // control -> value: the newest of each is sent
   let sending = "", held = null, lastChange = 0, scheduled = false;
+  let going = null, since = 0; // an address that the server was asked to go to, and when
 
   async function pump() {
     if (sending) return;
@@ -20,6 +21,7 @@
     settle();
   }
   function send(control, value) {
+    if (control !== "hover") going = null;
     waiting.delete(control);
     waiting.set(control, String(value));
     pump();
@@ -40,7 +42,9 @@
       if (field.type === "checkbox") field.checked = shown === "true";
       else if (field.value !== shown) field.value = field.type === "range" ? Number(shown) : shown;
     }
-    if (!sending && !waiting.size && state.address !== location.search) {
+    if (state.address === going || performance.now() - since > 5000) going = null;
+    if (going || sending || waiting.size) return;
+    if (state.address !== location.search) {
       const now = Date.now();
       const way = now - lastChange > 1500 ? "pushState" : "replaceState";
       history[way](null, "", base + state.address);
@@ -136,11 +140,15 @@
   }, true);
   setInterval(() => { if (at !== asked) { asked = at; send("hover", at); } }, 120);
 
-  if (location.search.length > 1) send("address", location.search);
+  function go() {
+    send("address", location.search);
+    [going, since] = [location.search, performance.now()];
+  }
+  if (location.search.length > 1) go();
   // viser's own word for a dark page; it is read once, when the page starts.
   if (matchMedia("(prefers-color-scheme: dark)").matches)
     history.replaceState(null, "", `${location.search || "?"}&darkMode`);
-  addEventListener("popstate", () => send("address", location.search));
+  addEventListener("popstate", go);
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(later).observe(document.body, { childList: true, subtree: true });
   });
