@@ -45,7 +45,7 @@ class Noisy(Tab):
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
         draw.frame("mine", np.eye(4))
         draw.label("here", [0, 0, 0])
-        draw.ghost()
+        self.ghost = draw.ghost()
         draw.target(np.eye(4), self.set)
         self.heard, self.calls, self.closed = [], 0, False
         self.loop = page.animate(self.step, 100)
@@ -201,6 +201,33 @@ def test_a_value_that_no_control_has_changes_nothing(page, say, name, value):
     say(("frame", "link3"))
     assert page.controls.values["frame"] == "link3"
     np.testing.assert_array_equal(page.arm.q, before)
+
+
+def test_nothing_is_made_anew_under_somebodys_hand(page, say):
+    """viser draws every widget anew when there is one more, or one less."""
+    say(("tab", "Noisy"))
+    tab, before = Noisy.last, set(page.panel._children())
+    say((joint(page, 0), "0.3"), (joint(page, 0), "none"), ("tab", "Noisy"))
+    assert page.opened.tab is tab
+    assert set(page.panel._children()) == before
+
+
+def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
+    from robo47.inspector.app import Meshes
+    from robo47.inspector.serve import on_loop
+    from robo47.inspector.shapes import Shape
+
+    say(("tab", "Noisy"))
+    tab, before = Noisy.last, set(page.panel._children())
+    tab.ghost.pose({"link1": np.eye(4)})
+    white = (1.0, 1.0, 1.0, 1.0)
+    triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
+    meshes = Meshes([triangle], ghosts=True)
+    on_loop(page.server, lambda: page.dress(page.arm.model, meshes))
+    assert page.opened.tab is tab
+    assert set(page.panel._children()) == before
+    assert len(tab.ghost.meshes) == 1
+    assert tab.ghost.bodies["link1"].visible
 
 
 def test_a_flood_of_moves_is_one_move(page, say):

@@ -1,5 +1,6 @@
 """Who may talk to the inspector: this machine's own browsers, and nobody else."""
 
+import contextlib
 import importlib.util
 import socket
 import urllib.error
@@ -201,6 +202,104 @@ def test_a_client_sets_the_value_of_a_widget_and_nothing_else(viser):
         assert (slider.value, pick.value) == (0.9, "two")
     finally:
         server.stop()
+
+
+RUBBISH = [
+    {"type": "Nope"},
+    {"type": "GuiUpdateMessage"},
+    {"type": "GuiUpdateMessage", "uuid": 5, "updates": []},
+    {"type": "GuiUpdateMessage", "uuid": "x", "updates": {"value": float("nan")}},
+    {"type": "ScenePointerMessage", "event_type": "click", "screen_pos": "x"},
+    {"type": "TransformControlsUpdateMessage", "name": "/arm", "wxyz": [0] * 4,
+     "position": [float("inf")] * 3},
+    {"type": "ViewerCameraMessage", "wxyz": [float("nan")] * 4, "fov": "wide"},
+    {"type": "ShareUrlRequest"},
+    ["no", "map"],
+    "x" * 2_000_000,
+]  # fmt: skip
+
+
+def test_rubbish_and_floods_through_the_websocket_do_not_stop_the_page(served):
+    import msgspec
+    import viser
+    from websockets.exceptions import ConnectionClosed
+    from websockets.sync.client import connect as open_websocket
+
+    host = f"127.0.0.1:{served.port}"
+    raw = [b"", b"\xff" * 10_000, "text, not bytes"]
+    flood = [msgspec.msgpack.encode(RUBBISH[3])] * 500
+    packed = [[msgspec.msgpack.encode(each)] for each in RUBBISH]
+    for messages in (*packed, *([each] for each in raw), flood):
+        with (
+            contextlib.suppress(ConnectionClosed),  # it may well hang up
+            open_websocket(
+                f"ws://{host}{served.path}",
+                origin=f"http://{host}",
+                subprotocols=[f"viser-v{viser.__version__}"],
+                compression=None,
+                max_size=None,
+                close_timeout=0.5,
+            ) as page,
+        ):
+            page.recv(timeout=30)
+            for message in messages:
+                page.send(message)
+    connect(served, origin=f"http://{host}")
+    assert get(served) == 200
+    assert served.process.poll() is None
+
+
+def test_a_flood_of_requests_leaves_the_page_its_answers(served):
+    waiting = [socket.create_connection(("127.0.0.1", served.port)) for _ in range(100)]
+    try:  # a hundred that never say what they want
+        path = f"{served.path}do?control=hover&value=0.5,0.5,1.6"
+        assert {get(served, path=path) for _ in range(100)} == {204}
+        assert get(served) == 200
+    finally:
+        for each in waiting:
+            each.close()
+
+
+REACHING = """
+def compose_fk(model, q, path=None):
+    reached = []
+    def attempt(what, call):
+        try:
+            call()
+        except BaseException:
+            return
+        reached.append(what)
+    os = __import__("os")
+    def connect():
+        __import__("socket").create_connection(("127.0.0.1", {port}), 2).close()
+    attempt("its port", connect)
+    attempt("its process", lambda: os.kill({pid}, 0))
+    attempt("its memory", lambda: open("/proc/{pid}/mem", "rb").close())
+    attempt("its command line", lambda: open("/proc/{pid}/cmdline").read())
+    attempt("the kit", lambda: open({file!r}).read())
+    guard = "robo47.inspector.guard"
+    attempt("its code", lambda: __import__(guard).inspector.guard.Door())
+    raise ValueError(f"reached {{reached}}")
+"""
+
+
+def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_path):
+    from robo47 import panda
+    from robo47.checker.replies import Question
+    from robo47.checker.sandbox import Sandbox
+    from robo47.checker.wall import wall
+    from robo47.inspector import behind
+    from robo47.lesson.day import find_day
+
+    need(wall().name != "none", "bubblewrap or Landlock")
+    file, pid = behind.__file__, served.process.pid
+    script = tmp_path / "day1_transforms.py"
+    script.write_text(REACHING.format(port=served.port, pid=pid, file=file))
+    connect(served, origin=f"http://127.0.0.1:{served.port}")  # from here it is reached
+    with Sandbox() as sandbox:
+        source = behind.source_of(find_day(1), panda.load(), sandbox)
+        (reply,) = source.open(script).ask([Question("ghost", "compose_fk", (1, 2))], 9)
+    assert reply.error == "reached []", (reply.kind, reply.error)
 
 
 def test_it_listens_on_the_loopback_address_alone(served):

@@ -140,6 +140,7 @@ class Sandbox:
         except BaseException:
             process.close()
             raise
+        self._warm = Process()  # for the next one, which a person will wait for
         self._sessions = [session for session in self._sessions if session.alive]
         self._sessions.append(Session(process))
         return self._sessions[-1]

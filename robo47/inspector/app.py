@@ -133,10 +133,10 @@ class Inspector:
             self.hover.watch(model)
             if ghost and self.seen is not None:
                 self.hear(self.seen)
-        if ghost:
-            self.open_tab(
-                self.opened.kind.title
-            )  # a tab's own ghosts have no meshes yet
+            if ghost and self.opened.page is not None:
+                # Not opened anew: somebody may have a slider of it in hand.
+                self.opened.page.draw.dress(meshes.shapes)
+                self.opened.tell(self.arm.q)
 
     def show(self) -> None:
         """Show the numbers, and what every control shows."""
@@ -206,21 +206,21 @@ class Inspector:
     def go_to(self, query: str) -> None:
         """Go where an address says, as far as that is somewhere."""
         q, frame, title = address.read(query, self.arm.model.nq)
-        if title != self.opened.kind.title:
-            self.open_tab(title)
+        self.open_tab(title)
         self.choose_frame(frame)
         if q is not None:
             self.move(q)
 
     def open_tab(self, title: str) -> None:
-        """Leave the open tab with all that it made, and open another."""
-        if title in self.opened.kinds:
+        """Leave the open tab with all that it made, and open another one."""
+        is_open = self.opened.page and title == self.opened.kind.title
+        if title in self.opened.kinds and not is_open:
             with self.server.atomic():
                 self.opened.leave()
                 self.panel.open(list(self.opened.kinds), title)
                 self.scene.light(self.controls.values["frame"], None)
                 self.scene.trace(np.zeros((0, 3)))
-                page = Page(self, Sketch(self.server, self.scene.coarse))
+                page = Page(self, Sketch(self.server, self.scene.coarse), title)
                 self.opened.enter(title, page)
             self.schedule()
 

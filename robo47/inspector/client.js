@@ -3,23 +3,25 @@
 (() => {
   const base = location.pathname.replace(/\/?$/, "/");
   const waiting = new Map(); // control -> value: the newest of each is sent
-  let sending = false, held = null, lastChange = 0, scheduled = false;
+  let sending = "", held = null, lastChange = 0, scheduled = false;
+  let going = null, since = 0; // an address that the server was asked to go to, and when
 
   async function pump() {
     if (sending) return;
-    sending = true;
     while (waiting.size) {
       const [control, value] = waiting.entries().next().value;
       waiting.delete(control);
+      sending = control;
       const query = new URLSearchParams({ control, value });
       try {
         await fetch(`${base}do?${query}`, { cache: "no-store" });
       } catch { /* the server is gone; viser's own sign says so */ }
     }
-    sending = false;
-    later();
+    sending = "";
+    settle();
   }
   function send(control, value) {
+    if (control !== "hover") going = null;
     waiting.delete(control);
     waiting.set(control, String(value));
     pump();
@@ -34,12 +36,15 @@
     const state = read();
     if (!state) return;
     for (const field of document.querySelectorAll("[data-r47]")) {
-      const shown = state.values[field.dataset.r47];
-      if (shown === undefined || field === held || "typing" in field.dataset) continue;
+      const name = field.dataset.r47, shown = state.values[name];
+      const busy = field === held || name === sending || waiting.has(name);
+      if (shown === undefined || busy || "typing" in field.dataset) continue;
       if (field.type === "checkbox") field.checked = shown === "true";
       else if (field.value !== shown) field.value = field.type === "range" ? Number(shown) : shown;
     }
-    if (!sending && !waiting.size && state.address !== location.search) {
+    if (state.address === going || performance.now() - since > 5000) going = null;
+    if (going || sending || waiting.size) return;
+    if (state.address !== location.search) {
       const now = Date.now();
       const way = now - lastChange > 1500 ? "pushState" : "replaceState";
       history[way](null, "", base + state.address);
@@ -49,6 +54,9 @@
   function later() {
     if (!scheduled) { scheduled = true; setTimeout(show, 10); }
   }
+
+  // The server's answer is on its way; if there is none, what it said before holds.
+  const settle = () => setTimeout(later, 300);
 
   const dialOf = (event) => event.target.closest?.("[data-r47]");
   const decimals = (field) => Number(field.dataset.decimals || 4);
@@ -75,7 +83,7 @@
     const field = dialOf(event);
     if (field?.type === "range") held = field;
   }, true);
-  addEventListener("pointerup", () => { held = null; later(); }, true);
+  addEventListener("pointerup", () => { held = null; settle(); }, true);
 
   // Keys: 0.01, with Shift ten times as much, with Alt a tenth.
   const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
@@ -92,14 +100,35 @@
     send(field.dataset.r47, field.value);
   }, true);
 
-  addEventListener("click", async (event) => {
-    const button = event.target.closest?.("[data-r47-click], [data-r47-copy]");
-    if (!button) return;
+  // A button is known by what it says, not as an element: it may be drawn anew between
+  // press and release, and then the browser sends no click. Keys still send one.
+  const buttonOf = (event) => event.target.closest?.("[data-r47-click], [data-r47-copy]");
+  const nameOf = (button) => button && `${button.dataset.r47Click} ${button.textContent}`;
+  let pressed = null, done = false;
+  async function act(button) {
     if (button.dataset.r47Click) return send(button.dataset.r47Click, button.value);
     await navigator.clipboard.writeText(button.dataset.r47Copy);
     const label = button.textContent;
+    if (label === "copied") return;
     button.textContent = "copied";
     setTimeout(() => { button.textContent = label; }, 1200);
+  }
+  addEventListener("pointerdown", (event) => {
+    pressed = event.button ? null : nameOf(buttonOf(event));
+    done = false;
+  }, true);
+  addEventListener("pointercancel", () => { pressed = held = null; }, true);
+  addEventListener("pointerup", (event) => {
+    const at = document.elementFromPoint(event.clientX, event.clientY);
+    const button = at && buttonOf({ target: at });
+    if (pressed && pressed === nameOf(button)) { done = true; act(button); }
+    pressed = null;
+  }, true);
+  addEventListener("keydown", () => { done = false; }, true);
+  addEventListener("click", (event) => {
+    const button = buttonOf(event);
+    if (button && !done) act(button);
+    done = false;
   }, true);
 
   // Which link is under the pointer: the server knows the arm.
@@ -111,8 +140,15 @@
   }, true);
   setInterval(() => { if (at !== asked) { asked = at; send("hover", at); } }, 120);
 
-  if (location.search.length > 1) send("address", location.search);
-  addEventListener("popstate", () => send("address", location.search));
+  function go() {
+    send("address", location.search);
+    [going, since] = [location.search, performance.now()];
+  }
+  if (location.search.length > 1) go();
+  // viser's own word for a dark page; it is read once, when the page starts.
+  if (matchMedia("(prefers-color-scheme: dark)").matches)
+    history.replaceState(null, "", `${location.search || "?"}&darkMode`);
+  addEventListener("popstate", go);
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(later).observe(document.body, { childList: true, subtree: true });
   });

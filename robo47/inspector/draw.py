@@ -6,6 +6,7 @@ of `COLOURS` or (r, g, b), 0 to 255. What is returned is viser's handle: `visibl
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import count
 
 import numpy as np
@@ -46,6 +47,7 @@ class Sketch:
             coarse: the arm's simple meshes, for ghosts of it.
         """
         self.server, self.coarse, self._number = server, list(coarse), count()
+        self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
         self.root = server.scene.add_frame(ROOT, show_axes=False)
 
     def clear(self) -> None:
@@ -158,10 +160,21 @@ class Sketch:
             opacity: 0 to 1.
         """
         skin = Skin(self.server, self.path())
-        skin.put_on(self.coarse, rgb(colour))
-        for mesh, _ in skin.meshes:
-            mesh.opacity = opacity
+        skin.put_on(self.coarse, rgb(colour), opacity)
+        if not self.coarse:
+            self._bare.append(partial(skin.put_on, colour=rgb(colour), opacity=opacity))
         return skin
+
+    def dress(self, coarse: Sequence[Shape]) -> None:
+        """Put meshes on the ghosts that were drawn before there were any.
+
+        Args:
+            coarse: the arm's simple meshes.
+        """
+        self.coarse = list(coarse)
+        for put_on in self._bare:
+            put_on(self.coarse)
+        self._bare.clear()
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
         """Draw a handle that can be dragged and turned with the mouse.

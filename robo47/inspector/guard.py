@@ -22,6 +22,7 @@ import logging
 import re
 import secrets
 import urllib.parse
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import wraps
@@ -66,6 +67,8 @@ class LocalServer(viser.ViserServer):
         rich.get_console().quiet = True  # the script says where to look, once
         # A broken client's message ends its connection; it is no news for the student.
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL + 1)
+        # Nor is what was still to be drawn when a page, or this server, was closed.
+        warnings.filterwarnings("ignore", "Queued a .* on a closed connection")
         self.door = Door()
         with _watched_doors(self.door) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)

@@ -16,14 +16,15 @@ from robo47.inspector.widgets import Host, Widgets
 class Page(Widgets):
     """One opened tab's view of the page."""
 
-    def __init__(self, host: Host, sketch: Sketch) -> None:
+    def __init__(self, host: Host, sketch: Sketch, title: str) -> None:
         """Start with nothing on it.
 
         Args:
             host: the page as a whole.
             sketch: what to draw with.
+            title: of the tab.
         """
-        super().__init__(host)
+        super().__init__(host, title)
         self.draw, self.scene, self.arm = sketch, host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
         self.animations: list[Animation] = []

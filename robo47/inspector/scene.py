@@ -44,13 +44,20 @@ class Skin:
         self.server, self.path = server, path
         self.bodies: dict[str, viser.FrameHandle] = {}
         self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
+        self.posed: Mapping[str, Array | None] = {}
 
-    def put_on(self, shapes: list[Shape], colour: Colour | None = None) -> None:
+    def put_on(
+        self,
+        shapes: list[Shape],
+        colour: Colour | None = None,
+        opacity: float | None = None,
+    ) -> None:
         """Replace its meshes.
 
         Args:
             shapes: what to draw.
             colour: of all of them; None for their own.
+            opacity: 0 to 1; None for solid.
         """
         old, self.meshes = self.meshes, []
         for i, shape in enumerate(shapes):
@@ -65,8 +72,10 @@ class Skin:
                 shape.vertices.astype(np.float32),
                 shape.faces,
                 color=colour or (r, g, b),
+                opacity=opacity,
             )
             self.meshes.append((mesh, shape))
+        self.pose(self.posed)
         for mesh, _ in old:  # after the new ones: no moment without an arm
             mesh.remove()
 
@@ -76,6 +85,7 @@ class Skin:
         Args:
             poses: {body: T_world_body (4, 4)}.
         """
+        self.posed = poses
         for name, body in self.bodies.items():
             T = poses.get(name)
             body.visible = T is not None
@@ -140,10 +150,7 @@ class ArmScene:
         self.paint()
         if ghosts:
             self.coarse = shapes
-            self.ghost.put_on(shapes, GHOST_COLOUR)
-            self.ghost.pose({})
-            for mesh, _ in self.ghost.meshes:
-                mesh.opacity = GHOST_OPACITY
+            self.ghost.put_on(shapes, GHOST_COLOUR, GHOST_OPACITY)
         self.update()
 
     def update(self) -> None:
@@ -208,6 +215,11 @@ class ArmScene:
 
 def _set_stage(server: viser.ViserServer) -> None:
     """Set camera, backdrop and floor."""
+    # viser lights with a photograph of a sky and casts shadows: on a computer without a
+    # GPU half a minute before the first picture, and a sixth of the frames.
+    server.scene.configure_environment_map(None)
+    server.scene.configure_default_lights(cast_shadow=False)
+    server.scene.add_light_hemisphere("/sky", ground_color=(190, 195, 205), intensity=2)
     camera = server.initial_camera
     camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
 

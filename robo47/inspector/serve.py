@@ -37,6 +37,7 @@ from robo47.paths import shown
 PORTS_TRIED = 100
 WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
 T = TypeVar("T")
+PATIENCE = 30.0  # seconds
 WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
 
 
@@ -89,7 +90,10 @@ def serve(show: Show, port: int) -> int:
             if page.day.ghost is not None:
                 student = watch(page, show, ends)
                 ends.callback(student.close)
-            threading.Thread(target=dress, args=(page, show), daemon=True).start()
+            dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
+            dresser.start()
+            # Python must not end while MuJoCo is at work in another thread: it crashes.
+            ends.callback(dresser.join, PATIENCE)
             while True:
                 time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
         except KeyboardInterrupt:

@@ -1,6 +1,6 @@
 """The student's file behind the page: kept warm in the checker's sandbox, reloaded.
 
-A thread of its own looks at the file five times a second, opens it anew when it was
+A thread of its own looks at the file twenty times a second, opens it anew when it was
 saved, and asks it for the newest configuration; what comes back is delivered on the
 server's event loop. Nothing of the student's runs in this process.
 """
@@ -21,7 +21,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.inspector.ghost import Ghost, Seen, no_pose
 
-POLL_SECONDS, ASK_SECONDS = 0.2, 2.0
+POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
 
 
 class Asker(Protocol):
@@ -117,7 +117,7 @@ class Student(threading.Thread):
         """Look, ask, deliver, until it is closed."""
         done: Array | None = None
         while not self.ended:
-            if self._look():
+            if changed := self._look():
                 done = None
             with self.news:
                 q, requests = self.q, list(self.requests.values())
@@ -125,6 +125,8 @@ class Student(threading.Thread):
             if q is not None and q is not done:
                 done = q
                 self.deliver(self._seen(q))
+            if changed:
+                self.saved()  # the checks need both cores; first the ghost
             for question, then in requests:
                 then(self._one(question))
             with self.news:
@@ -140,7 +142,6 @@ class Student(threading.Thread):
         self._stamp = stamp
         self._shut()
         self._problem = self._open() if stamp else ""
-        self.saved()
         return True
 
     def _open(self) -> str:

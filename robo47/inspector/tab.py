@@ -91,6 +91,7 @@ class Opened:
 
         self._guarded(make)
         self.tell(page.q)
+        page.end()
 
     def leave(self) -> None:
         """Close the open tab, and remove all that it made."""

@@ -67,13 +67,14 @@ class Slider:
 class Widgets:
     """Sliders, buttons, texts, bars and plots of one opened tab."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Host, title: str) -> None:
         """Start with none.
 
         Args:
             host: the page as a whole.
+            title: of the tab; begins the controls' names.
         """
-        self.host, self.gui = host, host.server.gui
+        self.host, self.gui, self.title = host, host.server.gui, title
         self.names: list[str] = []
         self.said: viser.GuiHtmlHandle | None = None
 
@@ -88,9 +89,18 @@ class Widgets:
             text: plain text; "" for none.
             kind: "", "good", "bad" or "quiet".
         """
+        self.end()
+        assert self.said is not None
+        self.said.content = words.line(text, "tab", kind) if text else ""
+
+    def end(self) -> None:
+        """Make the line of `say`, unless it is there.
+
+        A widget that comes later has viser draw all the others anew: a slider that is
+        being dragged is then lost to the mouse.
+        """
         if self.said is None:
             self.said = self.html()
-        self.said.content = words.line(text, "tab", kind) if text else ""
 
     def matrix(self, handle: viser.GuiHtmlHandle, name: str, T: Array) -> None:
         """Show a pose under its name in a handle of `html`."""
@@ -223,7 +233,7 @@ class Widgets:
         return Plot(self.gui, curves, x, y, height)
 
     def _name(self) -> str:
-        self.names.append(f"tab.{id(self)}.{len(self.names)}")
+        self.names.append(f"{self.title}.{len(self.names)}")
         return self.names[-1]
 
 
