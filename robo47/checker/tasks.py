@@ -3,6 +3,7 @@
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -119,6 +120,7 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
     }
 
 
+@lru_cache(8)  # a class is asked with the same few robots
 def _copied(robot: Robot) -> dict[str, Any]:
     """Return a robot as it travels; only an unchanged one is what `load` returns."""
     return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
