@@ -62,7 +62,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(report.as_json(found), indent=1))
     else:
-        colour = report.wants_colour(sys.stdout)
+        colour = cli.wants_colour(sys.stdout)
         print(report.as_text(found, explain=options.explain, colour=colour))
     return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
 

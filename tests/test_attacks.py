@@ -3,17 +3,22 @@
 What each wall keeps out once the guard is switched off is in test_walls.py.
 """
 
+import importlib.util
 import os
+import py_compile
+import textwrap
 import time
 
 import pytest
 
 from robo47.checker import process, sandbox
+from robo47.checker.library import library_of
 from robo47.checker.replies import Question
-from robo47.lesson.day import find_day
+from robo47.lesson.day import all_days, find_day
 from robo47.paths import METRICS_CSV, ROOT
 
 pytestmark = pytest.mark.kit
+UNCHECKED = py_compile.PycInvalidationMode.UNCHECKED_HASH
 DAY = find_day(1)
 REFERENCE = DAY.source.read_text("utf-8")
 
@@ -24,6 +29,69 @@ def attack(line, after=""):
         "    T = np.eye(4)\n", f"    {line}\n    T = np.eye(4)\n", 1
     )
     return after + text
+
+
+# How a helper file may look for a module m of the kit: returns what it found.
+HELPERS_WAYS = (
+    "import importlib; return importlib.import_module('robo47.' + m)",
+    "return __import__('robo47.' + m, fromlist=['x'])",
+    "__import__('robo47.' + m); return sys.modules['robo47.' + m]",
+    "return next(v for k, v in list(sys.modules.items()) if k.split('.')[-1] == m)",
+    """
+    import importlib.util as u
+    spec = u.spec_from_file_location('x', KIT + '/robo47/' + m + '.py')
+    found = u.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    return found""",
+    "sys.path.insert(0, KIT + '/robo47'); return __import__(m)",
+    """
+    import robo47
+    robo47.__path__ = [KIT + '/robo47']
+    sys.modules.pop('robo47.' + m, None)
+    return __import__('robo47.' + m, fromlist=['x'])""",
+    """
+    kept = sys.meta_path[:]
+    sys.meta_path[:] = [f for f in kept if isinstance(f, type)]
+    sys.path.append(KIT)
+    lost = {n: sys.modules.pop(n) for n in list(sys.modules) if n[:6] == 'robo47'}
+    try:
+        return __import__('robo47.' + m, fromlist=['x'])
+    finally:
+        sys.meta_path[:] = kept
+        sys.path.pop()
+        sys.modules.update(lost)""",
+    """
+    import types
+    for finder in sys.meta_path:
+        if 'robo47.' + m in getattr(finder, '_sources', {}):
+            found = types.ModuleType(m)
+            exec(finder._sources['robo47.' + m][0], vars(found))
+            return found""",
+    """
+    import pkgutil, types
+    found = types.ModuleType(m)
+    exec(pkgutil.get_data('robo47', m + '.py'), vars(found))
+    return found""",
+    """
+    import inspect, types
+    found = types.ModuleType(m)
+    exec(inspect.getsource(__import__('robo47.' + m, fromlist=['x'])), vars(found))
+    return found""",
+    """
+    import linecache, types
+    found = types.ModuleType(m)
+    exec(''.join(linecache.getlines(KIT + '/robo47/' + m + '.py')), vars(found))
+    return found""",
+    """
+    import types
+    frame, found = sys._getframe(), types.ModuleType(m)
+    while 'request' not in frame.f_locals:
+        frame = frame.f_back
+    exec(frame.f_locals['request']['library']['robo47.' + m], vars(found))
+    return found""",
+    "import runpy, types; return types.SimpleNamespace(**runpy.run_path("
+    "KIT + '/robo47/' + m + '.py'))",
+)
 
 
 class TestAnAttack:
@@ -170,6 +238,80 @@ class TestAnAttack:
         line = "import sys; del sys.modules['mujoco']; import mujoco"
         line += "; mujoco.mj_forward(None, None)"
         assert check(attack(line))["1.1"].mistake == "not-by-hand"
+
+    def test_by_a_helper_file_finds_no_library_of_its_day_or_a_later_one(
+        self, ask, student
+    ):
+        days = [day for day in all_days() if day.number > 1]
+        names = [name for day in (DAY, *days) for name in day.library]
+        assert {"se3", "trajectory"} <= set(names)
+        library = library_of(days[1])  # day 3 may import what days 1 and 2 brought
+        names = [name for name in names if f"robo47.{name}" not in library]
+        code = "".join(
+            f"def way{i}(m):\n{textwrap.indent(textwrap.dedent(way), '    ')}\n"
+            for i, way in enumerate(HELPERS_WAYS)
+        )
+        helper = f"import sys\nKIT = {str(ROOT)!r}\n{code}"
+        student(helper, "helper.py")
+        script = f"""
+            import helper
+            NAMES = {names!r}
+            def f(way, name):
+                import types
+                try:
+                    found = vars(getattr(helper, f"way{{way}}")(NAMES[name]))
+                except (Exception, SystemExit):
+                    return 0.0
+                real = (types.FunctionType, types.BuiltinFunctionType)
+                return float(any(isinstance(v, real) for v in found.values()))
+        """
+        asked = [
+            Question("", "f", (way, name))
+            for way in range(len(HELPERS_WAYS))
+            for name in range(len(names))
+        ]
+        replies = ask(script, *asked, library=library)
+        through = [
+            (HELPERS_WAYS[q.args[0]], names[q.args[1]])
+            for q, reply in zip(asked, replies, strict=True)
+            if reply.error or reply.value != 0
+        ]
+        assert through == []
+
+    @pytest.mark.parametrize("links", [False, True])
+    def test_by_a_link_beside_the_file_is_no_file_of_ones_own(
+        self, ask, student, links
+    ):
+        own = student("", "day1_transforms.py").parent
+        text = (ROOT / "robo47" / "se3.py").read_text("utf-8")
+        if links:
+            (own / "mine.py").symlink_to(ROOT / "robo47" / "se3.py")
+        else:
+            (own / "mine.py").write_text(text)  # a copy runs: a grade shows it
+        code = "def f():\n    import mine\n    return 47.0"
+        library = library_of(find_day(2))
+        assert ask(code, library=library)[0].kind == (
+            "ModuleNotFoundError" if links else ""
+        )
+
+    def test_with_code_that_python_would_run_unasked_runs_none_of_it(
+        self, ask, student
+    ):
+        own = student("", "sitecustomize.py").parent
+        mark = own / "ran"
+        evil = f"open({str(mark)!r}, 'w').close()"
+        for name in ("sitecustomize.py", "usercustomize.py", "conftest.py"):
+            (own / name).write_text(evil)
+        (own / "evil.pth").write_text(f"import os; {evil}")
+        (own / "__pycache__").mkdir()
+        source = own / "elsewhere.txt"
+        source.write_text("def g(): return 13.0")
+        cached = importlib.util.cache_from_source(str(own / "helper.py"))
+        py_compile.compile(str(source), cached, invalidation_mode=UNCHECKED)
+        student("def g(): return 47.0", "helper.py")
+        (reply,) = ask("import helper\ndef f(): return helper.g()")
+        assert reply.value == 47
+        assert not mark.exists()
 
     @pytest.mark.parametrize(
         "code",

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections import Counter
 from concurrent.futures import Executor, Future
 from dataclasses import replace
@@ -26,17 +27,28 @@ from make_class import (
 
 from robo47.checker.deliverables import check_deliverables, git, handin, item_names
 from robo47.checker.deliverables.handin import Handin
-from robo47.errors import Robo47Error
-from robo47.grading import charts, engine, overview, similar
+from robo47.checker.tasks import TaskResult
+from robo47.diagnose import Verdict
+from robo47.errors import FaultError, Robo47Error
+from robo47.grading import (
+    charts,
+    child,
+    classroom,
+    engine,
+    overview,
+    people,
+    similar,
+)
 from robo47.grading.child import _tidy
-from robo47.grading.grader import Grader, grade_package
+from robo47.grading.grader import Grader, grade_package, sweep
 from robo47.grading.journal import Journal
 from robo47.grading.package import Package, collect, fingerprint, unpack
 from robo47.grading.pull import OURS, pull_all
-from robo47.grading.result import FaultError, Mark, Result, from_json, ungraded
+from robo47.grading.result import Mark, Result, from_json, ungraded
 from robo47.grading.roster import Student, file_names, find_students
 from robo47.grading.sheet import Graded, plain
 from robo47.lesson.day import find_day
+from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 SCRIPT = f"{WEEK}/work/{DAY.script}"
@@ -163,6 +175,22 @@ def test_the_table_has_a_column_for_each_deliverable_of_the_checker(clone):
     assert tuple(item.name for item in found) == ITEMS
 
 
+def test_the_drawn_questions_depend_on_all_that_runs(monkeypatch):
+    """Else one writes the script first, and right answers for its seed in a helper."""
+    seeds = []
+
+    def noted(day, *_, seed):
+        seeds.append(seed)
+        return [TaskResult(task, Verdict("passed")) for task in day.tasks]
+
+    monkeypatch.setattr(child, "check_tasks", noted)
+    own = {SCRIPT: b"import helper", f"{WEEK}/work/helper.py": b"x = 1"}
+    other = {**own, f"{WEEK}/work/helper.py": b"x = 2"}
+    for files in (own, own, other):
+        child.grade(Package(1, "", Handin(files)), DAY)
+    assert seeds[0] == seeds[1] != seeds[2]
+
+
 class TestTheGrader:
     @pytest.fixture
     def closed(self):
@@ -196,6 +224,35 @@ class TestTheGrader:
             grader.grade(package)
         resource.prlimit(grader.process.pid, size, (hard, hard))
         assert grader.grade(package).tasks[0].passed
+
+    def test_that_was_killed_leaves_nothing_for_longer_than_a_day(
+        self, tmp_path, monkeypatch
+    ):
+        monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+        old, new, other = (
+            tmp_path / name
+            for name in ("robo47-grader-a", "robo47-grader-b", "thesis-grader-c")
+        )
+        for folder in (old, new, other):
+            folder.mkdir()
+            (folder / "x.py").write_text("")
+        for folder in (old, other):
+            os.utime(folder, (1_000_000_000, 1_000_000_000))
+        sweep()
+        assert [old.exists(), new.exists(), other.exists()] == [False, True, True]
+
+    def test_shows_what_was_refused_though_the_code_caught_it(self):
+        curious = "try: open('/etc/shadow')\n    except OSError: pass"
+        text = SOLVED.replace(
+            "    T = np.eye(4)\n", f"    {curious}\n    T = np.eye(4)\n", 1
+        )
+        files = {name: text.encode() for name, text in script(text).items()}
+        found = child.grade(Package(1, "", Handin(files)), DAY)
+        assert found.tasks[0].passed
+        assert found.refused == ("read /etc/shadow",)
+        one = Graded(Student("A", "a", Path()), found)
+        course = overview.Course(DAY, [one], [], 0, deadline=False)
+        assert "read /etc/shadow" in people.list_refused(course)
 
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):
@@ -489,6 +546,15 @@ class TestSimilarity:
         found = similar.like_the_kit({**runs, **copies}, kit)
         assert sorted(group.keys[0] for group in found) == sorted(copies)
         assert all(group.with_kit and group.share == 1 for group in found)
+
+    def test_knows_the_kits_library_copied_into_a_helper(self):
+        kit = classroom._runs_of_kit(DAY)
+        (name,) = DAY.library
+        text = (ROOT / "robo47" / f"{name}.py").read_bytes()
+        own = similar.runs_of(own_way(ODD_WAY).encode(), STARTER)
+        copy = similar.runs_of(text.replace(b"rotation", b"turn"), STARTER)
+        (group,) = similar.like_the_kit({"a": [own, copy], "b": [own]}, kit)
+        assert (group.keys, group.with_kit) == (("a",), True)
 
     @pytest.mark.parametrize("source", [b"\xff\0" * 999, b'"""' * 9999, b" " * 900_000])
     def test_takes_any_bytes_in_reasonable_time(self, source):

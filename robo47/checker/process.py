@@ -1,6 +1,5 @@
 """One interpreter for student code, from its start to its end."""
 
-import base64
 import contextlib
 import json
 import os
@@ -17,12 +16,12 @@ from typing import Any
 from robo47.checker import replies, resources
 from robo47.checker.replies import LoadError, Reply
 from robo47.checker.wall import command, wall
-from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.errors import FaultError
 
 START_SECONDS, LOAD_SECONDS = 60.0, 10.0
 RESIDENT_BYTES = 1024**3
-LARGEST_SCRIPT, MOST_NEIGHBOURS = 1_000_000, 50  # bytes, files
+MODEST = RESIDENT_BYTES // 2  # who holds more is why the machine's memory ran out
+BARELY = 0.1  # seconds of waiting for a processor that are not worth another look
 LONGEST_LINE, MOST_WAITING = 10_000_000, 1_000  # bytes of a reply, replies unread
 POLL_SECONDS = 0.05
 CHANNEL = "it wrote into the checker's own channel"
@@ -44,11 +43,18 @@ class Process:
     """One interpreter; it has no folder of its own, everything comes by a pipe."""
 
     def __init__(self) -> None:
-        """Start it; it gets ready while the caller prepares a request."""
+        """Start it; it gets ready while the caller prepares a request.
+
+        Raises:
+            FaultError: this machine starts no process now.
+        """
         self.wall = wall()
-        self.process = _starter.submit(_start, command(self.wall)).result()
         self.secret = b""
         self.answers = 0
+        self.killed = False  # ended by a signal of somebody's
+        self._oom_kills = resources.oom_kills()
+        self._most = 0  # bytes of memory it was seen with
+        self.waited = 0.0  # seconds for a processor, by which its time was extended
         self._closed = threading.Event()
         self._in: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -56,31 +62,31 @@ class Process:
             threading.Thread(target=run, daemon=True)
             for run in (self._read, self._write)
         ]
-        for thread in self._threads:
-            thread.start()
+        try:
+            self.process = _starter.submit(_start, command(self.wall)).result()
+            for thread in self._threads:
+                thread.start()
+        except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
+            raise _fault(f"starts no process for the checker ({error})") from None
 
-    def load(self, script: Path, request: dict[str, Any]) -> None:
+    def load(self, request: dict[str, Any]) -> None:
         """Load a student's file.
 
         Args:
-            script: the file; the other `.py` files beside it can be imported by it.
-            request: what else the process is told; see `inside/__main__.py`.
+            request: the file and what else it is told; see `inside/__main__.py`.
 
         Raises:
             LoadError: the file does not load.
-            Robo47Error: there is no such file, or the process does not start.
+            FaultError: the process does not start, or this machine ended it.
         """
         self.secret = secrets.token_hex(16).encode("ascii")
-        whole = {**request, **_code(script), "secret": self.secret.decode("ascii")}
-        self._send(whole)
+        self._send({**request, "secret": self.secret.decode("ascii")})
         try:
             ready = self._message(START_SECONDS)
         except EndedError as error:
-            raise Robo47Error(
-                f"the checker's process does not start: {error}"
-            ) from None
+            raise _fault(f"starts no process for the checker ({error})") from None
         if self.wall.name == "landlock" and ready.get("fenced") is not True:
-            raise Robo47Error("Linux's Landlock did not close; nothing was run")
+            raise _fault("did not close Linux's Landlock")
         try:
             message = self._message(LOAD_SECONDS)
             if message.get("loaded") is not True:
@@ -98,6 +104,7 @@ class Process:
 
         Raises:
             EndedError: none came within so many seconds, or ever will.
+            FaultError: this machine ended the process.
         """
         message = self._message(seconds)
         if message.get("at") != self.answers:
@@ -132,11 +139,11 @@ class Process:
                 line = self._in.get(timeout=POLL_SECONDS)
                 break
             except queue.Empty:
-                if resources.resident_bytes(self.process) > RESIDENT_BYTES:
+                self._most = max(self._most, resources.resident_bytes(self.process))
+                if self._most > RESIDENT_BYTES:
                     raise EndedError("it used more than 1 GB of memory") from None
                 if time.monotonic() > deadline:
-                    says = "it runs on and on, as a loop without an end does"
-                    raise EndedError(says) from None
+                    deadline += self._extension()
         if line is None:
             raise EndedError(self._how_it_ended())
         try:
@@ -147,11 +154,24 @@ class Process:
             pass
         raise EndedError(CHANNEL)
 
+    def _extension(self) -> float:
+        """Return the seconds that others had the processor; its own time is over."""
+        before, self.waited = self.waited, resources.scheduled(self.process)[1]
+        if self.waited - before < BARELY:
+            raise EndedError("it runs on and on, as a loop without an end does")
+        return self.waited - before
+
     def _how_it_ended(self) -> str:
         try:
-            return f"it ended Python (exit code {self.process.wait(timeout=1)})"
+            code = self.process.wait(timeout=1)
         except subprocess.TimeoutExpired:
             return "it closed the checker's own channel"
+        self.killed = resources.was_killed(self.process)
+        if self.killed and resources.oom_kills() > self._oom_kills:
+            if self._most < MODEST:
+                raise _fault("ran out of memory and ended the checker's process")
+            return "it used more memory than this machine has"
+        return f"it ended Python (exit code {code})"
 
     def _send(self, message: dict[str, Any]) -> None:
         self._out.put(json.dumps(message).encode("ascii") + b"\n")
@@ -181,6 +201,11 @@ class Process:
                 return self._in.put(line, timeout=POLL_SECONDS)
 
 
+def _fault(what: str) -> FaultError:
+    says = f"this machine {what}. Nothing was judged: close other programs, try again"
+    return FaultError(says)
+
+
 def _start(command: list[str]) -> subprocess.Popen[bytes]:
     return subprocess.Popen(
         command,
@@ -191,24 +216,6 @@ def _start(command: list[str]) -> subprocess.Popen[bytes]:
         env=_clean_environment(),
         **resources.start_options(),  # type: ignore[call-overload]
     )
-
-
-def _code(script: Path) -> dict[str, Any]:
-    """Return a script and the ones beside it, for the request."""
-    if not script.is_file():
-        raise Robo47Error(f"{shown(script)} is not there")
-    if script.stat().st_size > LARGEST_SCRIPT:
-        raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
-    beside = {
-        path.stem: _text(path)
-        for path in sorted(script.parent.glob("*.py"))[:MOST_NEIGHBOURS]
-        if path.is_file() and path.stat().st_size <= LARGEST_SCRIPT
-    }
-    return {"file": script.name, "code": _text(script), "beside": beside}
-
-
-def _text(path: Path) -> str:
-    return base64.b64encode(path.read_bytes()).decode("ascii")
 
 
 def _clean_environment() -> dict[str, str]:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from robo47.checker.inside import wire
 from robo47.text import visible, visible_lines
 
 MOST = 10  # entries of any list in a reply
@@ -93,6 +92,8 @@ def read(message: dict[str, Any]) -> Reply:
     Raises:
         Exception: any, where somebody forged the message.
     """
+    from robo47.checker.inside import wire  # NumPy, after the sandbox has begun
+
     if message.get("missing"):
         return Reply(kind="missing")
     try:
@@ -142,6 +143,8 @@ def _pack_argument(arg: Any) -> dict[str, Any]:
         return {"path": [list(pair) for pair in arg.pairs]}
     if isinstance(arg, (int, float)):
         return {"number": arg}
+    from robo47.checker.inside import wire
+
     packed = wire.pack_value(arg)
     assert isinstance(packed, dict), arg
     return packed

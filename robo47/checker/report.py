@@ -1,10 +1,9 @@
 """How a check reads: a line per task and deliverable, what is next, how far it is."""
 
-import os
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 from robo47.checker.tasks import TaskResult
 from robo47.lesson.day import Day, Task
@@ -168,12 +167,6 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         lines[-1] = f"{report.done} of {report.total} done."
     lines += _wrapped(f"Next: {report.next_step()}", 0)
     return "\n".join(lines)
-
-
-def wants_colour(stream: TextIO) -> bool:
-    """Return whether to paint: a terminal, and nobody said NO_COLOR."""
-    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    return stream.isatty() and not plain
 
 
 def _said(report: Report, result: TaskResult, explain: bool) -> str:

@@ -1,4 +1,4 @@
-"""Memory and processes of the sandbox, seen from outside, on each platform.
+"""Memory, time and end of the sandbox's process, seen from outside, on each platform.
 
 The standard library alone: a student installs no process tool for this.
 """
@@ -12,6 +12,9 @@ import sys
 from pathlib import Path
 
 END_SECONDS = 5.0  # for a killed process to be gone
+# How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
+# bubblewrap, as that tells it.
+_KILLED = (-9, -15, 128 + 9, 128 + 15)
 
 
 def start_options() -> dict[str, object]:
@@ -55,11 +58,46 @@ def resident_bytes(process: subprocess.Popen[bytes]) -> int:
         return 0
 
 
+def was_killed(process: subprocess.Popen[bytes]) -> bool:
+    """Return whether a process that ended was ended by a signal, and not by a fault."""
+    return process.returncode in _KILLED
+
+
+def oom_kills() -> int:
+    """Return how many processes Linux has killed so far since memory ran out."""
+    for line in _read("/proc/vmstat").splitlines():
+        if line.startswith("oom_kill "):
+            return int(line.split()[1])
+    return 0
+
+
+def scheduled(process: subprocess.Popen[bytes]) -> tuple[float, float]:
+    """Return for how many seconds a process and its children had a processor, and for
+    how many they waited for one; 0 where nobody knows.
+    """
+    times = [_read(f"/proc/{pid}/schedstat").split() for pid in _family(process.pid)]
+    ran, waited = (sum(int(each[i]) for each in times if each) for i in (0, 1))
+    return ran / 1e9, waited / 1e9
+
+
 def _linux_pages(pid: int) -> int:
     """Return the memory of a process and its children; bubblewrap's is a child."""
-    pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
-    children = Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()
-    return pages + sum(map(_linux_pages, map(int, children)))
+    sizes = [_read(f"/proc/{one}/statm").split() for one in _family(pid)]
+    return sum(int(words[1]) for words in sizes if words)
+
+
+def _family(pid: int) -> list[int]:
+    """Return a process and what it started, on Linux."""
+    children = _read(f"/proc/{pid}/task/{pid}/children").split()
+    return [pid, *(one for child in children for one in _family(int(child)))]
+
+
+def _read(path: str) -> str:
+    """Return a file of the kernel's; "" where there is none."""
+    try:
+        return Path(path).read_text("ascii")
+    except OSError:
+        return ""
 
 
 class _Counters(ctypes.Structure):

@@ -5,6 +5,11 @@ no file of the kit or the student in sight, within limits of time and memory. Re
 come on a private channel, each behind a secret made for that run. A function that hangs
 or ends the interpreter costs its own task, and those that build on it; the rest is
 asked again in a fresh process.
+
+What this machine does is nobody's mistake. A process that a signal ended is tried once
+more, and only the same again is the student's doing; where Linux says that it killed
+for want of memory, and the process held little of it, a FaultError says so. The limits
+of time do not count what a process waits for a processor.
 """
 
 import contextlib
@@ -15,54 +20,14 @@ from pathlib import Path
 from typing import Any
 
 from robo47.checker.process import EndedError, Process
-from robo47.checker.replies import Question, Reply, pack, twice
+from robo47.checker.replies import LoadError, Question, Reply, pack, stopped, twice
+from robo47.checker.session import Session
+from robo47.checker.source import code_of
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
+RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
+TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
-
-
-class Session:
-    """A student's loaded file that answers again and again, until it hangs."""
-
-    def __init__(self, process: Process) -> None:
-        """Take a process that has loaded the file."""
-        self._process = process
-        self._ended: Reply | None = None
-
-    @property
-    def alive(self) -> bool:
-        """Whether it still answers; where not, open another session."""
-        return self._ended is None
-
-    def ask(
-        self, questions: Sequence[Question], seconds: float = CALL_SECONDS
-    ) -> list[Reply]:
-        """Ask each question once.
-
-        Args:
-            questions: what to call.
-            seconds: for one call. Whoever takes longer ends the session.
-
-        Returns:
-            One reply per question; "stopped" from where the session ended.
-        """
-        replies: list[Reply] = []
-        if self._ended is None:
-            self._process.ask(map(pack, questions))
-        while len(replies) < len(questions) and self._ended is None:
-            try:
-                replies.append(self._process.next(seconds))
-            except EndedError as error:
-                self._ended = error.reply
-                self._process.close()
-        missing = len(questions) - len(replies)
-        return replies + [self._ended] * missing if self._ended else replies
-
-    def close(self) -> None:
-        """End it."""
-        if self._ended is None:
-            self._ended = Reply(error="the session was closed", kind="stopped")
-            self._process.close()
 
 
 class Sandbox:
@@ -112,27 +77,34 @@ class Sandbox:
 
         Raises:
             LoadError: the file does not load.
-            Robo47Error: there is no such file, it is no script, or no process starts.
+            FaultError: no process starts, or this machine ended it.
+            Robo47Error: there is no such file, or it is no script.
         """
         replies: dict[int, Reply] = {}
-        request = _request(models, facts, library, keep=True, cpu_seconds=CPU_SECONDS)
+        request = _request(
+            script, models, facts, library, keep=True, cpu_seconds=CPU_SECONDS
+        )
+        deadline, killed = time.monotonic() + RUN_SECONDS, False
         while left := [i for i in range(len(questions)) if i not in replies]:
+            if time.monotonic() > deadline:
+                replies |= dict.fromkeys(left, stopped(TOO_LONG))
+                break
             with contextlib.closing(self._take()) as process:
-                process.load(script, request)
-                rounds = _Rounds(process, questions, left)
-                stopped = rounds.ask()
+                rounds = _Rounds(process, questions, left, deadline)
+                try:
+                    process.load(request)
+                    ended = rounds.ask()
+                except LoadError:
+                    if killed or not process.killed:
+                        raise
+                    ended = None
+                deadline += process.waited
+                if process.killed and not killed:  # by whom? The same again tells
+                    killed = True
+                    continue
             replies |= rounds.whole()
-            if stopped:
-                at, reply = stopped
-                culprit = questions[at].task
-                waiting = _dependents(culprit, needs or {})
-                replies |= {at: reply}
-                for i in left:
-                    if i not in replies and questions[i].task == culprit:
-                        once = rounds.first.get(i)
-                        replies[i] = twice(once, once) if once else reply
-                    elif i not in replies and questions[i].task in waiting:
-                        replies[i] = Reply(error=f"task {culprit}", kind="waits")
+            if ended:
+                replies |= rounds.without(*ended, needs or {})
         return [replies[i] for i in range(len(questions))]
 
     def session(
@@ -155,11 +127,16 @@ class Sandbox:
             Robo47Error: there is no such file, it is no script, or no process starts.
         """
         request = _request(
-            models, facts, library, keep=False, cpu_seconds=SESSION_CPU_SECONDS
+            script,
+            models,
+            facts,
+            library,
+            keep=False,
+            cpu_seconds=SESSION_CPU_SECONDS,
         )
         process = self._take()
         try:
-            process.load(script, request)
+            process.load(request)
         except BaseException:
             process.close()
             raise
@@ -176,9 +153,14 @@ class _Rounds:
     """Some questions asked in order, then in reverse order of the file loaded anew."""
 
     def __init__(
-        self, process: Process, questions: Sequence[Question], left: list[int]
+        self,
+        process: Process,
+        questions: Sequence[Question],
+        left: list[int],
+        deadline: float,
     ) -> None:
         self.process, self.questions, self.left = process, questions, left
+        self.deadline = deadline
         self.first: dict[int, Reply] = {}
         self.second: dict[int, Reply] = {}
 
@@ -194,8 +176,9 @@ class _Rounds:
         for position, i in enumerate(order):
             task = self.questions[i].task
             started = time.monotonic()
+            seconds = min(CALL_SECONDS, spare[task], self.deadline - started)
             try:
-                reply = self.process.next(min(CALL_SECONDS, spare[task]))
+                reply = self.process.next(seconds)
             except EndedError as error:
                 return i, error.reply
             spare[task] -= time.monotonic() - started
@@ -206,15 +189,35 @@ class _Rounds:
         """Return what was answered twice."""
         return {i: twice(self.first[i], again) for i, again in self.second.items()}
 
+    def without(
+        self, at: int, reply: Reply, needs: Mapping[str, Iterable[str]]
+    ) -> dict[int, Reply]:
+        """Return what is not asked again, since a question's reply ended it."""
+        culprit = self.questions[at].task
+        waiting = _dependents(culprit, needs)
+        found = {}
+        for i in self.left:
+            task = self.questions[i].task
+            if i == at:
+                found[i] = reply
+            elif i not in self.second and task == culprit:
+                once = self.first.get(i)
+                found[i] = twice(once, once) if once else reply
+            elif i not in self.second and task in waiting:
+                found[i] = Reply(error=f"task {culprit}", kind="waits")
+        return found
+
 
 def _request(
+    script: Path,
     models: Sequence[dict[str, Any]],
     facts: dict[str, Any],
     library: Mapping[str, str] | None,
     **others: Any,
 ) -> dict[str, Any]:
+    """Return what a process is told before the first question."""
     known = {"models": list(models), "facts": facts, "library": dict(library or {})}
-    return {**known, **others}
+    return {**known, **code_of(script), **others}
 
 
 def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:

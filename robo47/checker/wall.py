@@ -22,7 +22,7 @@ from pathlib import Path
 
 from robo47.checker import bubblewrap
 from robo47.checker.inside import landlock, seccomp
-from robo47.errors import Robo47Error
+from robo47.errors import FaultError, Robo47Error
 
 INSIDE = Path(__file__).parent / "inside"
 FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
@@ -64,7 +64,7 @@ def wall() -> Wall:
         if name == "none" or tests[name]():
             asked = " (ROBO47_WALL asks for it)" if wanted else ""
             return Wall(name, _SAYS[name] + asked)
-    raise Robo47Error(f"ROBO47_WALL asks for {wanted}, which does not work here")
+    raise FaultError(f"ROBO47_WALL asks for {wanted}, which does not work here")
 
 
 def command(chosen: Wall) -> list[str]:

@@ -23,6 +23,7 @@ from robo47.checker.deliverables.item import Item
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.tasks import TaskResult, check_tasks
 from robo47.diagnose import Verdict
+from robo47.errors import FaultError
 from robo47.grading.package import Package, unpack
 from robo47.grading.result import Mark, Result, counted, ungraded
 from robo47.lesson.day import Day, find_day
@@ -50,9 +51,9 @@ def main() -> None:
         day = find_day(package.day)
         try:
             answer = grade(package, day).to_json()
-        except (OSError, MemoryError) as error:  # this machine's, not the student's
-            words = visible(f"{type(error).__name__}: {error}", 200)
-            answer = {"fault": _FOLDERS.sub("", words)}
+        except (FaultError, OSError, MemoryError) as error:  # not the student's
+            name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
+            answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
         except Exception as error:  # a hole in the checker costs one grade
             why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
             answer = ungraded(day, why).to_json()
@@ -69,7 +70,7 @@ def grade(package: Package, day: Day) -> Result:
         day: from this kit's manifest.
 
     Raises:
-        OSError, MemoryError: the machine failed.
+        FaultError, OSError, MemoryError: the machine failed.
     """
     if package.problem:
         return ungraded(day, package.problem)
@@ -91,8 +92,9 @@ def _tasks(package: Package, day: Day, folder: Path) -> tuple[list[TaskResult], 
             start = f"{name} is not there. Begin with: make start DAY={day.number}"
             verdict = Verdict("todo", "not-started", start)
         return [TaskResult(task, verdict) for task in day.tasks], verdict.message
-    # Nobody can know the hash of a file while writing it, and it is the same tomorrow.
-    seed = int(hashlib.sha256(handin.files[name]).hexdigest()[:8], 16)
+    # Nobody can know the hash of what they are writing, and it is the same tomorrow.
+    own = b"\0".join(data for _, data in sorted(package.modules().items()))
+    seed = int(hashlib.sha256(own).hexdigest()[:8], 16)
     unpack(package, folder)
     with Sandbox() as sandbox:
         results = check_tasks(day, folder / day.script, sandbox, seed=seed)

@@ -8,13 +8,15 @@ from pathlib import Path
 from tqdm import tqdm
 
 from robo47.checker.deliverables.git import GitError
+from robo47.checker.library import KIT
+from robo47.errors import FaultError
 from robo47.grading import page, similar
 from robo47.grading.engine import Engine, Key, grade_all
 from robo47.grading.journal import Journal
 from robo47.grading.overview import Course
 from robo47.grading.package import Package, collect
 from robo47.grading.pull import pull_all
-from robo47.grading.result import FaultError, Result, ungraded
+from robo47.grading.result import Result, ungraded
 from robo47.grading.roster import Student, file_names
 from robo47.grading.sheet import Graded, as_csv, write, write_feedback
 from robo47.lesson.day import Day
@@ -88,8 +90,12 @@ class Classroom:
                 day, student = self._days[key[0]], self._students[key[1]]
                 try:
                     package = collect(student, day)
-                except (OSError, GitError) as error:
-                    note(key, Package(day.number, ""), FaultError(visible(error)))
+                except (OSError, GitError, MemoryError) as error:
+                    note(
+                        key,
+                        Package(day.number, ""),
+                        FaultError(visible(error) or type(error).__name__),
+                    )
                     continue
                 runs[key] = compare[day.number](package)
                 known = self.journal.find(student.folder, package)
@@ -154,7 +160,10 @@ def _starter(day: Day) -> str:
 
 
 def _runs_of_kit(day: Day) -> "array[int]":
-    return similar.runs_of(read_script(day.source).encode(), _starter(day))
+    """Return the runs of a day's solution and of the library's modules that hold it."""
+    files = [day.source, *(KIT / f"{name}.py" for name in day.library)]
+    texts = "\n".join(map(read_script, files))
+    return similar.runs_of(texts.encode(), _starter(day))
 
 
 def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:

@@ -16,10 +16,10 @@ from concurrent.futures import (
 from dataclasses import dataclass
 from typing import Any
 
-from robo47.errors import Robo47Error
+from robo47.errors import FaultError, Robo47Error
 from robo47.grading.grader import close_graders, grade_package, sweep
 from robo47.grading.package import Package
-from robo47.grading.result import FaultError, Result
+from robo47.grading.result import Result
 
 PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 PATIENCE = 60.0  # seconds without any worker before giving up

@@ -18,14 +18,15 @@ import time
 from pathlib import Path
 
 from robo47.checker import resources
-from robo47.errors import Robo47Error
+from robo47.checker.wall import wall
+from robo47.errors import FaultError, Robo47Error
 from robo47.grading.package import Package, fingerprint
-from robo47.grading.result import FaultError, Result, from_json
+from robo47.grading.result import Result, from_json
 from robo47.lesson.day import find_day
 from robo47.paths import ROOT
 
-# For one package. The sandbox stops tasks that hang after 20 s each at most, so only
-# a machine under load, or a file that keeps the checker itself busy, gets here.
+# For one package. The sandbox stops a file after 100 s of its own, so only a machine
+# under load gets here.
 SECONDS = 240.0
 LEAVE_SECONDS = 5.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
@@ -37,6 +38,8 @@ class Grader:
 
     def __init__(self) -> None:
         """Start it."""
+        # The wall that was promised, or none of this: not what stands at that moment.
+        promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
         self.folder = tempfile.mkdtemp(prefix=_FOLDER)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         self.process = subprocess.Popen(
@@ -45,7 +48,7 @@ class Grader:
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             cwd=self.folder,  # MuJoCo writes its warnings there
-            env={**os.environ, **temporary, "PYTHONPATH": str(ROOT)},
+            env={**os.environ, **temporary, **promised},
             **resources.start_options(),  # type: ignore[call-overload]
         )
 
@@ -127,8 +130,8 @@ def grade_package(package: Package) -> Result:
         except queue.Empty:
             grader = Grader()
         return grader.grade(package)
-    except OSError as error:
-        raise FaultError(f"no process for it: {error.strerror or error}") from None
+    except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
+        raise FaultError(f"no process for it: {error}") from None
     finally:
         if grader and grader.alive:
             _idle.put(grader)

@@ -14,10 +14,6 @@ STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
 NO_MISTAKES = ("", "unwritten", "waits", "not-started")
 
 
-class FaultError(Exception):
-    """The machine failed, not the student; another run may fare better."""
-
-
 @dataclass(frozen=True)
 class Mark:
     """How a task or a deliverable stands.

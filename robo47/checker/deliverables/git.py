@@ -17,6 +17,7 @@ from robo47.checker import resources
 from robo47.metrics.commit import git_folder
 
 SECONDS = 20.0
+LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can claim more
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
 YEAR_2100 = 4_102_444_800
 _READ = ("HEAD", "config", "packed-refs")  # git would wait for ever at a pipe
@@ -24,6 +25,10 @@ _READ = ("HEAD", "config", "packed-refs")  # git would wait for ever at a pipe
 
 class GitError(Exception):
     """Git is not there, or did not answer in time: the machine's fault."""
+
+
+class _BusyError(GitError):
+    """Git worked all the time that it had: the repository's fault."""
 
 
 @dataclass(frozen=True)
@@ -119,11 +124,16 @@ def run(
     try:
         out, err = process.communicate(say.encode(), timeout=seconds)
     except subprocess.TimeoutExpired:
-        raise GitError(f"git took more than {seconds:.0f} s") from None
+        ran, waited = resources.scheduled(process)
+        busy = ran > (seconds - waited) / 2
+        kind = _BusyError if busy else GitError
+        raise kind(f"git took more than {seconds:.0f} s") from None
     finally:
         resources.end(process)
         for stream in (process.stdin, process.stdout, process.stderr):
             stream.close()
+    if resources.was_killed(process):
+        raise GitError("git was killed")
     texts = (data.decode("utf-8", "replace") for data in (out, err))
     return subprocess.CompletedProcess(command, process.returncode, *texts)
 
@@ -154,17 +164,21 @@ def _environment(**more: str) -> dict[str, str]:
 
 
 def _git(git: Path, *arguments: str, say: str = "") -> str | None:
-    """Return what git prints, or None where it fails."""
-    done = run(
-        *arguments,
-        folder=git,
-        seconds=SECONDS,
-        say=say,
-        GIT_DIR=str(git),  # none around it, and whoever owns it
-        GIT_NO_LAZY_FETCH="1",
-        GIT_ALLOW_PROTOCOL="none",
-        GIT_NO_REPLACE_OBJECTS="1",
-    )
+    """Return what git prints, or None where it fails or the repository is too much."""
+    try:
+        done = run(
+            *arguments,
+            folder=git,
+            seconds=SECONDS,
+            say=say,
+            GIT_ALLOC_LIMIT=LARGEST_OBJECT,
+            GIT_DIR=str(git),  # none around it, and whoever owns it
+            GIT_NO_LAZY_FETCH="1",
+            GIT_ALLOW_PROTOCOL="none",
+            GIT_NO_REPLACE_OBJECTS="1",
+        )
+    except _BusyError:
+        return None
     return done.stdout if done.returncode == 0 else None
 
 

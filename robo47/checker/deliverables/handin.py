@@ -4,6 +4,7 @@ A folder may be a stranger's. Links are not followed, only regular files are rea
 none beyond its limit. What is handed in is the same for `make check` and for a grade.
 """
 
+import errno
 import itertools
 import os
 import posixpath
@@ -27,6 +28,9 @@ _IMAGE = re.compile(
     r"!\[[^\]\n]{0,300}+\]\([ \t]{0,9}+<?([^)>\s]{1,300}+)[^)\n]{0,300}+\)"
     r"|<img[^>\n]{1,300}?src=[\"']([^\"'\n]{1,300})"
 )
+
+
+_NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
 
 
 class UnreadError(Exception):
@@ -147,9 +151,9 @@ def _size(root: Path, name: str) -> int | None:
     except (FileNotFoundError, NotADirectoryError, ValueError):  # ValueError: a NUL
         return None
     except OSError as error:
-        if len(name) > 200:  # a name that this system cannot have
+        if error.errno in _NO_NAME:
             return None
-        raise UnreadError(f"cannot be read: {error.strerror}") from None
+        raise
     if not stat.S_ISREG(status.st_mode):
         raise UnreadError("is no file")
     return status.st_size

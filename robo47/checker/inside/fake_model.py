@@ -4,7 +4,6 @@ Its arrays, counts, names and named views are those of a compiled model, which
 `robo47.checker.model_copy` has copied; there is nothing in it to compute with.
 """
 
-import types
 from typing import Any
 
 import numpy as np
@@ -35,47 +34,21 @@ class MjModel:
 
         Args:
             data: "sizes", {"nq": 7, ...}, and "names", {"body": ["world", ...], ...}.
-            arrays: {"body_pos": (nbody, 3), ...}; copied, so a task may change them.
+            arrays: {"body_pos": (nbody, 3), ...}; each is copied when it is first asked
+                for, so a task may change it.
         """
         self.__dict__.update(data["sizes"])
-        self.__dict__.update({name: array.copy() for name, array in arrays.items()})
+        self._arrays = arrays
         self._names: dict[str, list[str]] = data["names"]
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
+        if name in self.__dict__.get("_arrays", ()):
+            self.__dict__[name] = own = self._arrays[name].copy()
+            return own
         kind = _SHORT.get(name, name)
         if kind in KINDS:
-            return lambda key: self._view(kind, key)
+            return lambda key: View(self, kind, self._index(kind, key))
         raise AttributeError(f"the checker's copy of the model has no {name!r}")
-
-    def _view(self, kind: str, key: str | int) -> types.SimpleNamespace:
-        """Return one object's rows, as `model.body("link1")` gives them."""
-        index = self._index(kind, key)
-        prefix = KINDS[kind][0]
-        rows = {
-            name[len(prefix) :]: array[index : index + 1].reshape(
-                array.shape[1:] or (1,)
-            )
-            for name, array in vars(self).items()
-            if name.startswith(prefix) and isinstance(array, np.ndarray)
-        }
-        if kind == "joint":
-            rows = {**self._joint_rows(index), **rows}
-        return types.SimpleNamespace(id=index, name=self._names[kind][index], **rows)
-
-    def _joint_rows(self, index: int) -> dict[str, np.ndarray]:
-        """Return what a joint's view has from elsewhere: its rows of qpos and dof."""
-        kind = int(self.jnt_type[index])
-        start, first = self.jnt_qposadr[index], self.jnt_dofadr[index]
-        qpos = slice(start, start + _POSITIONS[kind])
-        dof = slice(first, first + _VELOCITIES[kind])
-        rows = {
-            name[len("dof_") :]: array[dof]
-            for name, array in vars(self).items()
-            if name.startswith("dof_")
-        }
-        for name in ("qpos0", "qpos_spring"):
-            rows[name] = vars(self)[name][qpos]
-        return rows
 
     def _index(self, kind: str, key: str | int) -> int:
         names = self._names[kind]
@@ -88,3 +61,29 @@ class MjModel:
                 f"Invalid index {key}. Valid indices from 0 to {len(names) - 1}"
             )
         return int(key)
+
+
+class View:
+    """One object's rows, as `model.body("link1")` gives them; looked up when asked."""
+
+    def __init__(self, model: MjModel, kind: str, index: int) -> None:
+        """Take whose rows: of a kind, the one at a place."""
+        self.id, self.name = index, model._names[kind][index]
+        self._model, self._kind = model, kind
+
+    def __getattr__(self, name: str) -> Any:  # noqa: D105
+        if not name.startswith("_"):
+            model, prefix = self._model, KINDS[self._kind][0]
+            if prefix + name in model._arrays:
+                row = getattr(model, prefix + name)[self.id : self.id + 1]
+                return row.reshape(row.shape[1:] or (1,))
+            if self._kind == "joint" and f"dof_{name}" in model._arrays:
+                return getattr(model, f"dof_{name}")[self._joints("dof", _VELOCITIES)]
+            if self._kind == "joint" and name in ("qpos0", "qpos_spring"):
+                return getattr(model, name)[self._joints("qpos", _POSITIONS)]
+        raise AttributeError(f"the checker's copy of a {self._kind} has no {name!r}")
+
+    def _joints(self, among: str, sizes: dict[int, int]) -> slice:
+        """Return where a joint's numbers are among all joints'."""
+        start = getattr(self._model, f"jnt_{among}adr")[self.id]
+        return slice(start, start + sizes[int(self._model.jnt_type[self.id])])

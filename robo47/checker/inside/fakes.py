@@ -116,7 +116,6 @@ class Fakes:
             name: np.array(value) if isinstance(value, list) else value
             for name, value in facts["constants"].items()
         }
-        lab = {"Lab": FakeLab}
         self._has: dict[str, dict[str, Any]] = {
             "mujoco": _mujoco(refuse, facts),
             "robo47": {},
@@ -126,8 +125,7 @@ class Fakes:
                 "load": self._load,
                 "describe": lambda entry="panda_nohand": "robot: the checker's copy",
             },
-            "robo47.lab": lab,
-            "robo47.lesson.lab": lab,
+            "robo47.lesson.lab": {"Lab": FakeLab},
             "robo47.errors": {"Robo47Error": type("Robo47Error", (Exception,), {})},
             "robo47.cli": {"run": lambda main: None},
         }

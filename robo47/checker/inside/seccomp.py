@@ -36,6 +36,7 @@ move_mount 429 429    open_tree 428 428       fsopen 430 430          fspick 433
 fsmount 432 432       mount_setattr 442 442   pivot_root 155 41       chroot 161 51
 unshare 272 97        setns 308 268           open_by_handle_at 304 265
 fanotify_init 300 262 add_key 248 217         request_key 249 218     keyctl 250 219
+inotify_init 253 -    inotify_init1 294 26    inotify_add_watch 254 27
 reboot 169 142        kexec_load 246 104      kexec_file_load 320 294
 init_module 175 105   finit_module 313 273    delete_module 176 106
 settimeofday 164 170  clock_settime 227 112   adjtimex 159 171
@@ -44,7 +45,8 @@ swapoff 168 225       acct 163 89             quotactl 179 60
 quotactl_fd 443 443   syslog 103 116          iopl 172 -              ioperm 173 -
 """
 _NEWER = 451  # what came later is not known here, nor to today's Python
-_FCNTL, _PRLIMIT = (72, 25), (302, 261)
+_FCNTL, _PRLIMIT, _PRCTL = (72, 25), (302, 261), (157, 167)
+_PDEATHSIG = 1  # of prctl: what ends it with the checker is set already, and stays
 _SIGNALLING = (8, 10, 15)  # F_SETOWN, F_SETSIG, F_SETOWN_EX: signal another by a pipe
 _MACHINES = {
     "x86_64": (0, 0xC000003E),
@@ -104,6 +106,10 @@ def _program(column: int, machine: int) -> list[Instruction]:
         (_IF_AT_LEAST, 0, 1, _NEWER),
         (_RETURN, 0, 0, _ENOSYS),
         *(i for number in numbers for i in _refuse(number)),
+        (_IF_EQUAL, 0, 4, _PRCTL[column]),
+        (_LOAD, 0, 0, _FIRST_ARGUMENT),
+        *_refuse(_PDEATHSIG),
+        (_RETURN, 0, 0, _ALLOW),
         (_IF_EQUAL, 0, 4, _PRLIMIT[column]),
         (_LOAD, 0, 0, _FIRST_ARGUMENT),
         (_IF_EQUAL, 1, 0, 0),  # the process itself
