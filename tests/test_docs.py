@@ -24,7 +24,7 @@ DOCUMENTS = [
 @pytest.mark.kit
 def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
     need(shutil.which("make") is not None, "make")
-    done = run("scripts/build_docs.py", "--check")
+    done = run("scripts/build_docs.py", "--check", timeout=400)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -1,12 +1,17 @@
 """A week as a whole: its labs in one table, its numbers, its page, its diary."""
 
+import html
 import json
 import os
+import re
+import shutil
 import subprocess
 from dataclasses import replace
 
 import pytest
+from test_report import MEASURE, dom
 
+from conftest import need
 from robo47.checker.deliverables.rows import file_mark
 from robo47.checker.journal import Met
 from robo47.errors import Robo47Error
@@ -181,11 +186,11 @@ def test_a_time_is_said_as_people_say_it(minutes, says):
 
 
 def test_the_page_shows_the_week(day):
-    html = page.render([facts(day)], "of my log")
+    text = page.render([facts(day)], "of my log")
     for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
-        assert words in html
-    assert "t not negated <span class=pass>✓ left behind" in html
-    assert "chain reversed <span class=fail>✗ still there" in html
+        assert words in text
+    assert "t not negated <span class=pass>✓ left behind" in text
+    assert "chain reversed <span class=fail>✗ still there" in text
 
 
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
@@ -196,9 +201,32 @@ def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
 
 def test_no_text_of_a_journal_becomes_a_script(day):
     evil = "<script>alert(1)</script>"
-    html = page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
-    assert "<script" not in html
-    assert "default-src 'none'" in html
+    text = page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
+    assert "<script" not in text
+    assert "default-src 'none'" in text
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(day, tmp_path, width):
+    names = ("chromium", "chromium-browser", "google-chrome")
+    browser = next(filter(None, map(shutil.which, names)), None)
+    need(browser is not None, "Chromium")
+    week = [
+        facts(d, numbers=[Number(m, 1.234e-15, 0.5, 2e-15, 3) for m in d.metrics])
+        for d in days_of(1)
+    ]
+    text = page.render(week, "of my log")
+    box = "getBoundingClientRect()"
+    seen = "[...d.querySelectorAll('td.pass')].every("
+    seen += f"e => e.{box}.left + 30 < e.closest('.card').{box}.right)"
+    harness = MEASURE.replace("d.documentElement.scrollWidth", seen)
+    harness = harness.format(width=width, page=html.escape(text))
+    found = re.search(r"<title>(.*?)</title>", dom(browser, tmp_path, harness))
+    assert found is not None
+    *title, shown, too_wide, _, _, made = found[1].split()
+    assert " ".join(title) == "Week 1: foundations"
+    assert (shown, too_wide, made) == ("true", "0", "0")
 
 
 BEFORE, AFTER = (
@@ -258,8 +286,8 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
     done = run_in(REPORT)
     assert done.returncode == 0, done.stderr
     assert "wrote metrics/report-week1.html" in done.stdout
-    html = (clone / "metrics" / "report-week1.html").read_text("utf-8")
-    assert "8 of 8" in html
-    assert "t not negated <span class=pass>✓ left behind" in html
+    text = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "8 of 8" in text
+    assert "t not negated <span class=pass>✓ left behind" in text
     assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
     assert "report-week" not in run_in(REPORT, "--day", "1").stdout
