@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from robo47.report.page import STYLE as REPORT_STYLE
+from robo47.report.style import STYLE as REPORT_STYLE
 
 STATUS = {  # role of the colour, mark in the table, word in the legend
     "passed": ("pass", "✓", "passed"),

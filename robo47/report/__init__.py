@@ -2,5 +2,5 @@
 
 Inside, one job each: `thresholds` (what the week's manifest asks for), `series`
 (rows into one series per check), `plot` (a series as lines, dots and words),
-`page` (HTML with inline SVG), `picture` (the same as a PNG).
+`page` (HTML with inline SVG, looks from `style`), `picture` (the same as a PNG).
 """

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from html import escape
 
 from robo47.lesson.lab import number_of
-from robo47.report.page import STYLE as REPORT_STYLE
+from robo47.report.style import STYLE as REPORT_STYLE
 from robo47.week.facts import DayFacts
 from robo47.week.labs import name_of, week_of
 from robo47.week.numbers import Number
