@@ -18,6 +18,7 @@ from inspection import ROOT, Served
 from conftest import need
 from robo47 import panda, se3, verify
 from robo47.checks import Array
+from robo47.inspector import address
 
 pytestmark = [pytest.mark.browser, pytest.mark.kit]
 
@@ -212,8 +213,7 @@ def first_page(browser, served) -> Iterator[Page]:
 @pytest.fixture
 def page(first_page) -> Page:
     """The page with the arm at the ready, in the tab Joints."""
-    ready = ",".join(str(x) for x in panda.READY_Q)
-    first_page.go(f"?q={ready}&frame=ee&tab=Joints")
+    first_page.go(address.write(panda.READY_Q, "ee", "Joints"))
     first_page.until(lambda: first_page.line("q").startswith("q = [0, -0.785, 0,"))
     first_page.until(lambda: close(first_page.angles(), panda.READY_Q))
     return first_page

@@ -58,7 +58,7 @@ The modules, from the numbers to the page:
     checks    the verdicts of `make check`, in the background
     words     numbers as HTML;  typed  numbers as people type them
     shapes    what MuJoCo's model looks like, as triangle meshes
-    triad, scene, draw, hover   what is in the picture
+    triad, skin, scene, draw, hover    what is in the picture
     history   the wanted configuration, and the way back;  address  it, in the URL
     controls, client            sliders, buttons and tabs as HTML, and their script
     page, tab, animate          what a tab gets, what it is, and its loops

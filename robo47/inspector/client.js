@@ -143,6 +143,7 @@
   function go() {
     send("address", location.search);
     [going, since] = [location.search, performance.now()];
+    setTimeout(later, 5100); // an address that nobody writes so never comes back
   }
   if (location.search.length > 1) go();
   // viser's own word for a dark page; it is read once, when the page starts.

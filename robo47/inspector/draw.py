@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from robo47 import se3
 from robo47.checks import Array
-from robo47.inspector.scene import Skin
 from robo47.inspector.shapes import Shape
+from robo47.inspector.skin import Skin
 from robo47.inspector.triad import Triad, place
 
 ROOT = "/tab"
@@ -44,7 +44,7 @@ class Sketch:
 
         Args:
             server: where to draw.
-            coarse: the arm's simple meshes, for ghosts of it.
+            coarse: the arm's simple meshes, for ghosts.
         """
         self.server, self.coarse, self._number = server, list(coarse), count()
         self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
@@ -166,15 +166,10 @@ class Sketch:
         return skin
 
     def dress(self, coarse: Sequence[Shape]) -> None:
-        """Put meshes on the ghosts that were drawn before there were any.
-
-        Args:
-            coarse: the arm's simple meshes.
-        """
+        """Put the arm's simple meshes on the ghosts that were drawn before them."""
         self.coarse = list(coarse)
-        for put_on in self._bare:
-            put_on(self.coarse)
-        self._bare.clear()
+        while self._bare:
+            self._bare.pop()(self.coarse)
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
         """Draw a handle that can be dragged and turned with the mouse.
