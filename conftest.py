@@ -115,7 +115,7 @@ def clone(tmp_path):
     copy = tmp_path / "clone"
     copy.mkdir()
     for name in ("robo47", "scripts", "w1-foundations", "metrics"):
-        skipped = shutil.ignore_patterns("__pycache__", "work")
+        skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     from robo47 import metrics
     from robo47.lesson.day import find_day

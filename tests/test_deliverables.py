@@ -3,6 +3,7 @@
 import hashlib
 import os
 import re
+import shutil
 import struct
 import subprocess
 import zlib
@@ -11,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from conftest import empty_worksheet
 from robo47 import metrics
 from robo47.checker.deliverables import check_deliverables, item_names
 from robo47.checker.deliverables.figure import FlawError, read_png
@@ -59,6 +61,23 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
             f"   {answer}",
         ]
     return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of Day 1 alone, with nothing done in it: the rest takes seconds."""
+    kit, copy = find_day(1), tmp_path / "clone"
+    week = copy / kit.folder.name
+    for pattern in ("day1/day.toml", "src/*.py", "docs/day1*.md", "figures/day1*.png"):
+        for path in kit.folder.glob(pattern):
+            place = week / path.relative_to(kit.folder)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(path, place)
+    (copy / "metrics").mkdir()
+    (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
+    (week / kit.figure).unlink(missing_ok=True)
+    (week / kit.worksheet).write_text(empty_worksheet(kit), "utf-8")
+    return copy
 
 
 @pytest.fixture

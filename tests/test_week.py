@@ -276,7 +276,7 @@ def test_nobodys_numbers_are_written_nowhere(day):
 def test_make_report_writes_the_weeks_page_from_what_was_done(
     run_in, begun, clone, diary
 ):
-    wrong = begun.own / "submissions" / "wrong" / "inverse_no_minus.py"
+    wrong = find_day(1).own / "submissions" / "wrong" / "inverse_no_minus.py"
     solved = begun.work.read_text("utf-8")
     begun.work.write_text(f"{solved}\n\n{wrong.read_text('utf-8')}", "utf-8")
     run_in("scripts/check_day.py", "1")
