@@ -100,6 +100,11 @@ def busy(what: str) -> Iterator[None]:
             print(" " * (len(what) + 4), end="\r", file=sys.stderr, flush=True)
 
 
+def print_nowhere() -> None:
+    """Let Python, at its end, print what is left where nobody reads any more."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def run(main: Callable[[], int]) -> None:
     """Run a command's `main` and exit with its code, never with a traceback.
 
@@ -117,7 +122,7 @@ def run(main: Callable[[], int]) -> None:
         complain(f"to do: {gap}")
         code = EXIT_FAILED
     except BrokenPipeError:  # `... | head` closed early: nobody is left to tell
-        sys.stdout = None  # type: ignore[assignment]
+        print_nowhere()
         code = EXIT_OK
     except OSError as error:  # the machine's no, not a mistake of ours
         if error.errno not in _REFUSALS or not error.filename:

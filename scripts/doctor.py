@@ -56,6 +56,9 @@ def main():
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        code = main()
+        sys.stdout.flush()
     except BrokenPipeError:  # `... | head` closed early
-        sys.stdout = None
+        cli.print_nowhere()
+        code = 0
+    sys.exit(code)
