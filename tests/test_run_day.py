@@ -70,8 +70,9 @@ def test_the_week_is_one_table_of_numbers_and_limits(run_in, day):
     before = log.read_bytes()
     done = run_in(WEEK, "1")
     assert done.returncode == 0, done.stderr
-    head, *lines = done.stdout.splitlines()
+    head, *lines, end = done.stdout.splitlines()
     assert head.split() == ["day", "whose", "check", "number", "limit"]
+    assert end == f"PASS  1 lab, {len(lines)} numbers within their limits"
     assert len(lines) == sum(len(one.metrics) for one in days_of(1, day.folder.parent))
     assert all("kit's" in line and line.endswith("PASS") for line in lines)
     assert max(map(len, done.stdout.splitlines())) <= 80
