@@ -126,14 +126,11 @@ def _describe(error, script):
 
 def verdicts(day, script: File, only=None, seed=1):
     """Return {task: verdict} of a file of ours."""
-    from robo47.checker import model_copy, tasks
+    from robo47.checker import tasks
 
-    original, model_copy.copy_model = (
-        model_copy.copy_model,
-        lambda model, entry="": model,
-    )
+    packed, tasks.packed = tasks.packed, lambda robot: robot.model
     try:
         results = tasks.check_tasks(day, script, InProcess(), only, seed)
     finally:
-        model_copy.copy_model = original
+        tasks.packed = packed
     return {result.task.id: result.verdict for result in results}

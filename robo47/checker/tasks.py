@@ -83,7 +83,7 @@ def check_tasks(
         replies = sandbox.run(
             script,
             [question for some in questions.values() for question in some],
-            [_copied(robot) for robot in models],
+            [packed(robot) for robot in models],
             model_copy.facts(),
             library_of(day),
             {task.id: set(day.needs(task.id)) for task in asked},
@@ -121,7 +121,7 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
 
 
 @lru_cache(8)  # a class is asked with the same few robots
-def _copied(robot: Robot) -> dict[str, Any]:
+def packed(robot: Robot) -> dict[str, Any]:
     """Return a robot as it travels; only an unchanged one is what `load` returns."""
     return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
 
