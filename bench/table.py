@@ -38,7 +38,10 @@ def _fk(fk: dict[str, Any]) -> list[str]:
         f"  {'':32}  {'us each':>8}  {'ours /':>6}  {'spread':>13}  {'error':>7}",
     ]
     for name, row in sorted(rows.items(), key=lambda item: item[1]["us"]):
-        spread = f"{row['low']:.3g}..{row['high']:.3g}"
+        low, high = (
+            f"{x:.0f}" if x > 99 else f"{x:.3g}" for x in (row["low"], row["high"])
+        )
+        spread = f"{low}..{high}"
         lines.append(
             f"  {name:32}  {row['us']:8.3f}  {ours / row['us']:6.3f}"
             f"  {spread:>13}  {row['error']:7.0e}"
