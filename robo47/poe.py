@@ -11,11 +11,12 @@ Units: metres, radians; screws are (omega; v).
 """
 
 import functools
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from robo47 import se3
+from robo47 import checks, se3
 from robo47.batch import ROUNDING, Cursor, Plan, evaluate, frame_with_z
 from robo47.checks import Array
 
@@ -107,9 +108,8 @@ def _lines(screws: bytes) -> list[Line]:
 
 def _line(omega: Array, v: Array) -> Line:
     if omega @ omega < 0.5:  # 0, a slide; other lengths than 0 and 1 were refused
-        speed = float(np.linalg.norm(v))
-        direction = v / speed if speed else np.array([0.0, 0.0, 1.0])
-        return Line(0.0, direction, np.zeros(3), speed)
+        direction = checks.unit(v, "v") if v.any() else np.array([0.0, 0.0, 1.0])
+        return Line(0.0, direction, np.zeros(3), math.hypot(*v))
     pitch = float(omega @ v)
     if abs(pitch) <= ROUNDING * max(1.0, float(np.abs(v).max())):
         pitch = 0.0

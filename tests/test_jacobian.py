@@ -97,6 +97,14 @@ def test_the_three_jacobians_of_any_arm_are_one_motion_seen_three_ways(S, M, dat
     assert_same(turned @ J_body, J_site, 1e-9)
 
 
+@pytest.mark.parametrize("length", [5e-324, 2.3e-160, 1e200])
+def test_a_slide_of_any_length_is_a_slide(length):
+    S = np.array([[0, 0, 0, 0, length, -length], [0, 0, 1, 0.3, 0, 0]])
+    J = jacobian.space_jacobian(S, [1.0, 0.5])
+    assert_same(J[:, 0] / length, S[0] / length, 1e-15)
+    assert_same(J[3:, 1] - S[1, 3:], [length, 0, 0], 1e-15 * max(1.0, length))
+
+
 @given(vectors, vectors)
 def test_moving_the_point_twice_is_moving_it_by_the_sum(a, b):
     J = jacobian.space_jacobian(PANDA, READY)

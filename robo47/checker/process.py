@@ -117,13 +117,8 @@ class Process:
         resources.end(self.process)
         self._closed.set()
         self._out.put(None)
-        for thread, stream in zip(
-            self._threads, (self.process.stdout, self.process.stdin), strict=True
-        ):
+        for thread in self._threads:  # where something holds a pipe's other end, later
             thread.join(resources.END_SECONDS)
-            if stream and not thread.is_alive():  # else something holds the other end
-                with contextlib.suppress(OSError):
-                    stream.close()
 
     def _reply(self, message: dict[str, Any]) -> Reply:
         try:
@@ -180,7 +175,7 @@ class Process:
         """Write what is to be sent; the process may take its time to read it."""
         stream = self.process.stdin
         assert stream is not None
-        with contextlib.suppress(OSError):  # it died; `_message` says so
+        with contextlib.suppress(OSError), stream:  # it died; `_message` says so
             for line in iter(self._out.get, None):
                 stream.write(line)
                 if self._out.empty():
@@ -189,10 +184,11 @@ class Process:
     def _read(self) -> None:
         stream = self.process.stdout
         assert stream is not None
-        with contextlib.suppress(OSError):
-            for line in iter(lambda: stream.readline(LONGEST_LINE), b""):
-                self._deliver(line)
-        self._deliver(None)
+        with stream:
+            with contextlib.suppress(OSError):
+                for line in iter(lambda: stream.readline(LONGEST_LINE), b""):
+                    self._deliver(line)
+            self._deliver(None)
 
     def _deliver(self, line: bytes | None) -> None:
         """Queue a line as soon as there is room; whoever floods us waits."""
