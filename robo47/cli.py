@@ -125,9 +125,12 @@ def run(main: Callable[[], int]) -> None:
         print_nowhere()
         code = EXIT_OK
     except OSError as error:  # the machine's no, not a mistake of ours
-        if error.errno not in _REFUSALS or not error.filename:
+        full = error.errno == errno.ENOSPC and not error.filename  # where we print
+        if not full and (error.errno not in _REFUSALS or not error.filename):
             raise
-        where = shown(Path(error.filename).absolute())
+        if full:
+            print_nowhere()  # else Python fails once more at its end
+        where = "the output" if full else shown(Path(error.filename).absolute())
         complain(f"error: {where}: {error.strerror}. Fix that and run this again.")
         code = EXIT_CANNOT_RUN
     except KeyboardInterrupt:

@@ -1,6 +1,6 @@
 """Measure what the kit claims to be fast, beside the tools people would pick instead.
 
-    make bench                              everything, some minutes
+    make bench                               everything, some minutes
     python3 scripts/bench.py fk lab          only these parts
     python3 scripts/bench.py --table         the last results, nothing is run
 

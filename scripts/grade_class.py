@@ -13,6 +13,7 @@ who is stuck), feedback/ (a file per student) and grading.jsonl, in which each
 result is kept as it comes: stop at any time, the same command goes on. Several
 days: a folder for each as above, one table for a learning platform, one page.
 Commit times are the students' own: whoever commits sets the clock.
+
 Exit code: 0 everybody has a row, also those who are "ungraded" (the column
 error says why), 1 somebody could not be pulled or this machine failed: run it
 again, 2 could not run.
@@ -45,12 +46,7 @@ from robo47.paths import shown
 
 def parse() -> argparse.Namespace:
     """Read the command line."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
     add("--day", default="1", metavar="N|N-M|all", help="default: 1")

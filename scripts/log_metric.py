@@ -55,12 +55,7 @@ def main() -> int:
 
 def parser() -> argparse.ArgumentParser:
     """Return the command line's description."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    it = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    it = cli.parser(__doc__)
     it.add_argument("fields", nargs="*", metavar="FIELD=VALUE", help="one row's cells")
     does = it.add_mutually_exclusive_group()
     does.add_argument("--check", action="store_true", help="list every bad line")

@@ -74,12 +74,7 @@ def write_week(report: Report, heading: str, out: Path) -> None:
 
 def parser() -> argparse.ArgumentParser:
     """Return the command line's description."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    it = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    it = cli.parser(__doc__)
     it.add_argument(
         "--since",
         type=datetime.date.fromisoformat,

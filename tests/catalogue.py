@@ -82,12 +82,13 @@ class Impatient(Lab):
             raise FirstFailure
 
 
-def run_as_lab(day: Day, submission: Submission | None = None) -> int:
+def run_as_lab(day: Day, submission: Submission | None = None, trials: int = 50) -> int:
     """Return the exit code of a day's lab with a file's functions in it.
 
     Args:
         day: whose complete script is run, without logging, in this process.
         submission: its functions of the day's tasks take the script's place.
+        trials: on how many random inputs.
     """
     lab = load_script(day.source)
     if submission:
@@ -97,7 +98,8 @@ def run_as_lab(day: Day, submission: Submission | None = None) -> int:
         names = {f for task in day.tasks for f in task.functions}
         vars(lab).update({k: v for k, v in vars(own).items() if k in names})
         lab.Lab = Impatient
-    vars(lab).update({k: 50 for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)})
+    counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
+    vars(lab).update(dict.fromkeys(counts, trials))
     arguments, sys.argv = sys.argv, [str(day.source), "--no-log"]
     try:
         quiet = warnings.catch_warnings(action="ignore")

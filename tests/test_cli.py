@@ -74,10 +74,12 @@ def test_an_error_is_wrapped_for_people_and_one_line_for_programs(monkeypatch, c
             2,
             "error: /x: Perm",
         ),
+        (OSError(errno.ENOSPC, "Disk full"), 2, "error: the output: Disk full"),
         (KeyboardInterrupt(), 130, "stopped"),
     ],
 )
-def test_what_a_user_can_meet_ends_in_a_line(capsys, error, code, says):
+def test_what_a_user_can_meet_ends_in_a_line(capsys, monkeypatch, error, code, says):
+    monkeypatch.setattr(cli, "print_nowhere", lambda: None)
     assert end(fail(error)) == code
     assert says in capsys.readouterr().err
 

@@ -17,7 +17,7 @@ from test_walls import is_there, standing
 
 from conftest import ROOT, need
 from robo47.checker import process, resources, sandbox, wall
-from robo47.checker.deliverables import git, handin
+from robo47.checker.deliverables import check_deliverables, git, handin
 from robo47.checker.model_copy import facts
 from robo47.checker.process import Process
 from robo47.checker.replies import Question
@@ -53,6 +53,10 @@ def kill(monkeypatch):
         monkeypatch.setattr(Process, "load", and_die)
 
     return first
+
+
+def _no_process():
+    raise FaultError("this machine starts no process")
 
 
 @linux
@@ -159,6 +163,33 @@ class TestAMachineThatStartsNoProcess:
         with pytest.raises(FaultError, match="this machine starts no process"):
             ask(FINE)
 
+    def test_leaves_no_half_of_one_behind(self, monkeypatch):
+        started = []
+        start, threads = process._start, iter((None, RuntimeError("no thread")))
+
+        def fails(self):
+            if error := next(threads):
+                raise error
+
+        monkeypatch.setattr(
+            process, "_start", lambda *a: started.append(start(*a)) or started[0]
+        )
+        monkeypatch.setattr("threading.Thread.start", fails)
+        with pytest.raises(FaultError, match="no thread"):
+            Process()
+        assert started[0].poll() is not None
+        for stream in (started[0].stdin, started[0].stdout):
+            stream.close()
+
+    def test_keeps_the_session_where_only_the_spare_fails(self, student, monkeypatch):
+        with Sandbox() as box:
+            one = Process()
+            monkeypatch.setattr(box, "_take", lambda: one)
+            monkeypatch.setattr(sandbox, "Process", _no_process)
+            session = box.session(student(FINE), [], facts())
+            assert session.ask([Question("", "f", ())])[0].value == 47
+        assert one.process.poll() is not None
+
     def test_says_so_in_one_line_of_make_check(self, tmp_path):
         code = (
             "import runpy, sys, errno\n"
@@ -236,22 +267,42 @@ class TestTime:
         monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, next(waits)))
         assert ask(self.SLOW)[0].value == 47
 
+    @linux
+    def test_of_waiting_is_no_tasks_either(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "TASK_SECONDS", 1.0)
+        monkeypatch.setattr(
+            resources, "scheduled", lambda _: (0.1, time.monotonic() - 5)
+        )
+        questions = [Question("1.1", "f", ())] * 3
+        assert [reply.value for reply in ask(self.SLOW, *questions)] == [47] * 3
+
+    @linux
+    def test_of_waiting_long_ago_is_over(self, student, monkeypatch):
+        monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, 50.0))
+        with Sandbox() as box:
+            session = box.session(student("def f():\n    while True: 0"), [], facts())
+            (reply,) = session.ask([Question("", "f", ())], 0.3)
+            assert reply.error == process.ENDLESS
+            assert session._process.waited < 1
+
     def test_is_up_where_nothing_else_ran(self, ask, short, monkeypatch):
         monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, 0.0))
         assert ask(self.SLOW)[0].kind == "stopped"
 
     @linux
     def test_is_what_linux_counts(self):
-        busy = (
-            "import time; end = time.monotonic() + 1\nwhile time.monotonic() < end: 0"
-        )
-        calm = "import time; time.sleep(1)"
-        for code, works in ((busy, True), (calm, False)):
-            with subprocess.Popen([sys.executable, "-c", code]) as one:
-                time.sleep(0.8)
-                used = sum(resources.scheduled(one))
+        start = "import time; print(flush=True); end = time.monotonic() + 60\n"
+        busy = start + "while time.monotonic() < end: 0"
+        for code, works in ((busy, True), (start + "time.sleep(60)", False)):
+            with subprocess.Popen(
+                [sys.executable, "-c", code], stdout=subprocess.PIPE
+            ) as one:
+                one.stdout.readline()
+                before = sum(resources.scheduled(one))
+                time.sleep(0.6)
+                used = sum(resources.scheduled(one)) - before
                 one.kill()
-            assert (used > 0.4) is works
+            assert (used > 0.3) is works
 
     def test_is_limited_for_all_tasks_together(self, ask, monkeypatch):
         """Each call and task keeps its limit, and still it would take minutes."""
@@ -366,6 +417,8 @@ def test_a_disk_that_fails_is_no_file_of_the_students(tmp_path, monkeypatch, num
     monkeypatch.setattr(Path, "lstat", fails)
     with pytest.raises(OSError, match=os.strerror(number)):
         handin.read_handin(DAY, tmp_path)
+    with pytest.raises(FaultError, match=f"{os.strerror(number)}. Nothing was judged"):
+        check_deliverables(DAY, tmp_path)
 
 
 def test_a_name_that_no_file_can_have_is_no_fault(tmp_path):

@@ -160,6 +160,7 @@ class TestWhatIsMissing:
         git(student, "rm", "-q", f"{WEEK}/{day.figure}")
         with (day.folder / day.worksheet).open("a") as file:
             file.write("*(your words)*\n\n   *(your answer)*\nnot *(this)* one\n")
+            file.write("*(see the photo above)*\n")
         (day.folder / "docs" / "RETRO_w1.md").write_text(DIARY.format("| 1 |") + TWO)
         commit(student)
         assert lacks() == [

@@ -35,7 +35,7 @@ def cluster(tmp_path):
 
     found = tmp_path / "scheduler.json"
     start("scheduler", "--port", "0", "--scheduler-file", str(found))
-    wait_for(found.exists)
+    wait_for(lambda: found.exists() and found.read_text().rstrip().endswith("}"))
     address = json.loads(found.read_text())["address"]
     workers = []
     for i in range(2):

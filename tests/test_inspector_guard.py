@@ -52,6 +52,7 @@ def connect(
             subprotocols=[f"viser-v{viser.__version__}"],
             compression=None,
             max_size=None,
+            close_timeout=0.5,  # the server does not take its leave
         ) as page,
     ):
         assert page.recv(timeout=30)  # the scene

@@ -1,5 +1,7 @@
 """The sandbox's fake of MjModel."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,10 @@ class TestTheFakeMjModel:
         for model in (real, ours):
             with pytest.raises(KeyError, match=r"Invalid name 'link9'.*'link7'"):
                 model.body("link9")
+
+    def test_can_be_copied(self):
+        _, ours = self.pairs()
+        assert copy.copy(ours.body("link1")).name == "link1"
 
     def test_says_what_it_lacks(self):
         with pytest.raises(AttributeError, match="copy of the model has no 'opt'"):

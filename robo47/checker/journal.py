@@ -53,9 +53,8 @@ def note(results: Sequence[TaskResult], root: Path = ROOT) -> None:
     lines = []
     for result in results:
         known = last.get(result.task.id)
-        verdict = (
-            result.verdict
-        )  # what follows from another task is no mistake of its own
+        verdict = result.verdict
+        # What follows from another task is no mistake of its own.
         state = (verdict.status, "" if verdict.follows else verdict.mistake)
         if known is None or (known.status, known.mistake) != state:
             entry = Entry(round(time.time(), 1), result.task.id, *state)

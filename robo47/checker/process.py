@@ -21,9 +21,9 @@ from robo47.errors import FaultError
 START_SECONDS, LOAD_SECONDS = 60.0, 10.0
 RESIDENT_BYTES = 1024**3
 MODEST = RESIDENT_BYTES // 2  # who holds more is why the machine's memory ran out
-BARELY = 0.1  # seconds of waiting for a processor that are not worth another look
 LONGEST_LINE, MOST_WAITING = 10_000_000, 1_000  # bytes of a reply, replies unread
 POLL_SECONDS = 0.05
+ENDLESS = "it runs on and on, as a loop without an end does"
 CHANNEL = "it wrote into the checker's own channel"
 
 # A child dies with the thread that started it, so one thread starts them all.
@@ -55,6 +55,7 @@ class Process:
         self._oom_kills = resources.oom_kills()
         self._most = 0  # bytes of memory it was seen with
         self.waited = 0.0  # seconds for a processor, by which its time was extended
+        self._waits = 0.0  # of all its life, when last looked
         self._closed = threading.Event()
         self._in: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -67,6 +68,8 @@ class Process:
             for thread in self._threads:
                 thread.start()
         except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
+            if hasattr(self, "process"):
+                resources.end(self.process)
             raise _fault(f"starts no process for the checker ({error})") from None
 
     def load(self, request: dict[str, Any]) -> None:
@@ -128,7 +131,8 @@ class Process:
 
     def _message(self, seconds: float) -> dict[str, Any]:
         """Return the next message."""
-        deadline = time.monotonic() + seconds
+        looked = time.monotonic()
+        deadline = looked + seconds
         while True:
             try:
                 line = self._in.get(timeout=POLL_SECONDS)
@@ -137,8 +141,11 @@ class Process:
                 self._most = max(self._most, resources.resident_bytes(self.process))
                 if self._most > RESIDENT_BYTES:
                     raise EndedError("it used more than 1 GB of memory") from None
-                if time.monotonic() > deadline:
-                    deadline += self._extension()
+                now = time.monotonic()
+                deadline += self._others(now - looked)
+                if now > deadline:
+                    raise EndedError(ENDLESS) from None
+                looked = now
         if line is None:
             raise EndedError(self._how_it_ended())
         try:
@@ -149,12 +156,12 @@ class Process:
             pass
         raise EndedError(CHANNEL)
 
-    def _extension(self) -> float:
-        """Return the seconds that others had the processor; its own time is over."""
-        before, self.waited = self.waited, resources.scheduled(self.process)[1]
-        if self.waited - before < BARELY:
-            raise EndedError("it runs on and on, as a loop without an end does")
-        return self.waited - before
+    def _others(self, most: float) -> float:
+        """Return for how much of the last seconds others had the processor."""
+        before, self._waits = self._waits, resources.scheduled(self.process)[1]
+        waited = min(self._waits - before, most)  # what is long past is over
+        self.waited += waited
+        return waited
 
     def _how_it_ended(self) -> str:
         try:

@@ -21,17 +21,18 @@ from typing import Any
 
 from robo47.checker.process import EndedError, Process
 from robo47.checker.replies import LoadError, Question, Reply, pack, stopped, twice
-from robo47.checker.session import Session
+from robo47.checker.session import CALL_SECONDS, Session
 from robo47.checker.source import code_of
+from robo47.errors import FaultError
 
-CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
+TASK_SECONDS = 10.0  # for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
 
 
 class Sandbox:
-    """Processes for one student's file after the other; the next is always warm."""
+    """Processes for one student's file after the other; the first is warm."""
 
     def __init__(self) -> None:
         """Start the first process, so that it loads while the caller prepares."""
@@ -140,9 +141,10 @@ class Sandbox:
         except BaseException:
             process.close()
             raise
-        self._warm = Process()  # for the next one, which a person will wait for
-        self._sessions = [session for session in self._sessions if session.alive]
-        self._sessions.append(Session(process))
+        alive = [session for session in self._sessions if session.alive]
+        self._sessions = [*alive, Session(process)]
+        with contextlib.suppress(FaultError):  # a spare, for the next save
+            self._warm = Process()
         return self._sessions[-1]
 
     def _take(self) -> Process:
@@ -176,13 +178,14 @@ class _Rounds:
         self.process.ask(calls)
         for position, i in enumerate(order):
             task = self.questions[i].task
-            started = time.monotonic()
-            seconds = min(CALL_SECONDS, spare[task], self.deadline - started)
+            started, waited = time.monotonic(), self.process.waited
+            left = self.deadline + waited - started
             try:
-                reply = self.process.next(seconds)
+                reply = self.process.next(min(CALL_SECONDS, spare[task], left))
             except EndedError as error:
-                return i, error.reply
-            spare[task] -= time.monotonic() - started
+                late = time.monotonic() > self.deadline + self.process.waited
+                return i, stopped(TOO_LONG) if late else error.reply
+            spare[task] -= time.monotonic() - started - (self.process.waited - waited)
             (self.first if position < len(self.left) else self.second)[i] = reply
         return None
 

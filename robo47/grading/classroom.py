@@ -91,11 +91,8 @@ class Classroom:
                 try:
                     package = collect(student, day)
                 except (OSError, GitError, MemoryError) as error:
-                    note(
-                        key,
-                        Package(day.number, ""),
-                        FaultError(visible(error) or type(error).__name__),
-                    )
+                    fault = FaultError(visible(error) or type(error).__name__)
+                    note(key, Package(day.number, ""), fault)
                     continue
                 runs[key] = compare[day.number](package)
                 known = self.journal.find(student.folder, package)

@@ -42,15 +42,19 @@ class Grader:
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
         self.folder = tempfile.mkdtemp(prefix=_FOLDER)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "robo47.grading.child", self.folder],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            cwd=self.folder,  # MuJoCo writes its warnings there
-            env={**os.environ, **temporary, **promised},
-            **resources.start_options(),  # type: ignore[call-overload]
-        )
+        try:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "robo47.grading.child", self.folder],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                cwd=self.folder,  # MuJoCo writes its warnings there
+                env={**os.environ, **temporary, **promised},
+                **resources.start_options(),  # type: ignore[call-overload]
+            )
+        except OSError:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
 
     def grade(self, package: Package, seconds: float = SECONDS) -> Result:
         """Return a package's result.

@@ -131,8 +131,6 @@ class Inspector:
         with self.server.atomic():
             self.scene.dress(meshes.shapes, ghost)
             self.hover.watch(model)
-            if ghost and self.seen is not None:
-                self.hear(self.seen)
             if ghost and self.opened.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
                 self.opened.page.draw.dress(meshes.shapes)

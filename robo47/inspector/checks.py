@@ -4,6 +4,8 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+LEAVE_SECONDS = 5.0  # a check takes one or two
+
 
 @dataclass(frozen=True)
 class TaskState:
@@ -69,6 +71,7 @@ class Checks:
         """
         self.check, self.deliver = check, deliver
         self.wanted = threading.Event()
+        self.ended = False
         self.thread: threading.Thread | None = None
 
     def again(self) -> None:
@@ -78,8 +81,15 @@ class Checks:
             self.thread = threading.Thread(target=self._run, daemon=True, name="checks")
             self.thread.start()
 
+    def close(self) -> None:
+        """End it once the check that runs is done: Python must not end before."""
+        self.ended = True
+        self.wanted.set()
+        if self.thread is not None:
+            self.thread.join(LEAVE_SECONDS)
+
     def _run(self) -> None:
-        while self.wanted.wait():
+        while self.wanted.wait() and not self.ended:
             self.wanted.clear()
             try:
                 found = standing(self.check())

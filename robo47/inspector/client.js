@@ -46,7 +46,7 @@
     if (going || sending || waiting.size) return;
     if (state.address !== location.search) {
       const now = Date.now();
-      const way = now - lastChange > 1500 ? "pushState" : "replaceState";
+      const way = lastChange && now - lastChange > 1500 ? "pushState" : "replaceState";
       history[way](null, "", base + state.address);
       lastChange = now;
     }
@@ -143,6 +143,7 @@
   function go() {
     send("address", location.search);
     [going, since] = [location.search, performance.now()];
+    lastChange = Date.now();
     setTimeout(later, 5100); // an address that nobody writes so never comes back
   }
   if (location.search.length > 1) go();

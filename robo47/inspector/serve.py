@@ -121,6 +121,7 @@ def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
     assert page.day.ghost is not None
     sandbox = ends.enter_context(Sandbox())
     checks = Checks(partial(behind.verdicts, show.day), page.on_loop(page.judge))
+    ends.callback(checks.close)
 
     def saved() -> None:
         if show.day.work.is_file():

@@ -25,7 +25,7 @@ POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
 
 
 class Asker(Protocol):
-    """A student's file, loaded: `checker.sandbox.Session`, or a test's fake."""
+    """A student's file, loaded: `checker.session.Session`, or a test's fake."""
 
     @property
     def alive(self) -> bool:
@@ -176,7 +176,10 @@ class Student(threading.Thread):
     def _one(self, question: Question) -> Reply:
         if self._asker is None:
             return Reply(kind="missing", error=self._problem)
-        (reply,) = self._asker.ask([question], seconds=ASK_SECONDS)
+        try:
+            (reply,) = self._asker.ask([question], seconds=ASK_SECONDS)
+        except Exception as error:  # ours, or the day's: the page goes on
+            return Reply(kind="unsendable", error=f"{type(error).__name__}: {error}")
         if not self._asker.alive:
             self._give_up(self.source.describe(question.function, reply))
         return reply

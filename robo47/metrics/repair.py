@@ -77,7 +77,7 @@ def repair(path: Path, lines: Iterator[Line] | None = None) -> Repaired:
     copy = _write_new(path, ".csv", rows)
     rest = _write_new(path, ".rest.txt", [x.text for x in unread]) if unread else None
     head = _wrong_head(path)
-    wrong = _header_mended(head) if head else ""
+    wrong = _header_repaired(head) if head else ""
     return Repaired(copy, rest, len(rows) - 1, repaired, unread, wrong)
 
 
@@ -135,7 +135,7 @@ def _wrong_head(path: Path) -> bytes:
     return b"" if head == header.BOM or header.line_end(head) else head
 
 
-def _header_mended(head: bytes) -> str:
+def _header_repaired(head: bytes) -> str:
     names = header.layout(head).names
     others = [name for name in names if name and name not in COLUMNS]
     moved = f"; {', '.join(others)} moved to the notes" if others else ""

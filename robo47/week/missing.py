@@ -16,7 +16,9 @@ from robo47.week.retro import no_numbers
 _ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
 _LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
 # A line of a template that nobody has replaced.
-_BLANK = re.compile(r"^\s*(?:\d+\.\s+)?\*\([^*\n]*\)\*\s*$", re.MULTILINE)
+_BLANK = re.compile(
+    r"^\s*(?:\d+\.\s+)?\*\(your (?:words|drawing|answer)\)\*\s*$", re.MULTILINE
+)
 
 
 def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:

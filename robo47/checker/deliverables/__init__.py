@@ -18,8 +18,9 @@ from robo47.checker.deliverables.handin import Handin, day_files, read_handin
 from robo47.checker.deliverables.item import Item
 from robo47.checker.deliverables.rows import check_rows
 from robo47.checker.deliverables.worksheet import check_worksheet
+from robo47.errors import FaultError
 from robo47.lesson.day import Day
-from robo47.paths import ROOT
+from robo47.paths import ROOT, shown
 
 __all__ = ["Item", "check_deliverables", "check_files", "item_names"]
 
@@ -46,8 +47,16 @@ def check_deliverables(
 
     Returns:
         One item per deliverable that the day has.
+
+    Raises:
+        FaultError: the machine does not let it be read now.
     """
-    handin = read_handin(day, root)
+    try:
+        handin = read_handin(day, root)
+    except OSError as error:
+        where = shown(Path(error.filename)) if error.filename else "your work"
+        why = f"{where} cannot be read: {error.strerror}"
+        raise FaultError(f"{why}. Nothing was judged: try again") from None
     try:
         history = read_history(root, wanted_names(day, handin), own=True)
         commit = check_commit(day, handin, history)

@@ -72,15 +72,16 @@ class View:
         self._model, self._kind = model, kind
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
-        if not name.startswith("_"):
-            model, prefix = self._model, KINDS[self._kind][0]
-            if prefix + name in model._arrays:
-                row = getattr(model, prefix + name)[self.id : self.id + 1]
-                return row.reshape(row.shape[1:] or (1,))
-            if self._kind == "joint" and f"dof_{name}" in model._arrays:
-                return getattr(model, f"dof_{name}")[self._joints("dof", _VELOCITIES)]
-            if self._kind == "joint" and name in ("qpos0", "qpos_spring"):
-                return getattr(model, name)[self._joints("qpos", _POSITIONS)]
+        if name.startswith("_"):  # also of a copy that is not complete yet
+            raise AttributeError(name)
+        model, prefix = self._model, KINDS[self._kind][0]
+        if prefix + name in model._arrays:
+            row = getattr(model, prefix + name)[self.id : self.id + 1]
+            return row.reshape(row.shape[1:] or (1,))
+        if self._kind == "joint" and f"dof_{name}" in model._arrays:
+            return getattr(model, f"dof_{name}")[self._joints("dof", _VELOCITIES)]
+        if self._kind == "joint" and name in ("qpos0", "qpos_spring"):
+            return getattr(model, name)[self._joints("qpos", _POSITIONS)]
         raise AttributeError(f"the checker's copy of a {self._kind} has no {name!r}")
 
     def _joints(self, among: str, sizes: dict[int, int]) -> slice:
