@@ -238,7 +238,7 @@ def check(student):
 
     def run(code, only=None):
         with Sandbox() as sandbox:
-            results = check_tasks(find_day(1), student(code), sandbox, only)
+            results = check_tasks(find_day(1), student(code), sandbox, only, seed=1)
         return {result.task.id: result.verdict for result in results}
 
     return run

@@ -1,5 +1,6 @@
 """A class on a Dask cluster of this machine: a scheduler, two workers, one killed."""
 
+import contextlib
 import importlib.util
 import json
 import os
@@ -23,30 +24,27 @@ DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
 def cluster(tmp_path):
     """Start a scheduler and two workers on loopback; return its address and them."""
     need(importlib.util.find_spec("distributed") is not None, "the extra grade: Dask")
-    log = (tmp_path / "dask.log").open("wb")
-    started = []
+    with contextlib.ExitStack() as ends:
+        log = ends.enter_context((tmp_path / "dask.log").open("wb"))
 
-    def start(what, *arguments):
-        command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
-        command += ["--host", "127.0.0.1", "--no-dashboard"]
-        process = subprocess.Popen(command, stdout=log, stderr=log, cwd=tmp_path)
-        started.append(process)
-        return process
+        def start(what, *arguments):
+            command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
+            command += ["--host", "127.0.0.1", "--no-dashboard"]
+            process = subprocess.Popen(command, stdout=log, stderr=log, cwd=tmp_path)
+            ends.enter_context(process)  # waits for it
+            ends.callback(process.kill)
+            return process
 
-    found = tmp_path / "scheduler.json"
-    start("scheduler", "--port", "0", "--scheduler-file", str(found))
-    wait_for(lambda: found.exists() and found.read_text().rstrip().endswith("}"))
-    address = json.loads(found.read_text())["address"]
-    workers = []
-    for i in range(2):
-        own = tmp_path / f"worker{i}"
-        arguments = ("--nthreads", "1", "--no-nanny", "--local-directory", str(own))
-        workers.append(start("worker", address, *arguments))
-    yield address, workers
-    for process in reversed(started):
-        process.kill()
-        process.wait()
-    log.close()
+        found = tmp_path / "scheduler.json"
+        start("scheduler", "--port", "0", "--scheduler-file", str(found))
+        wait_for(lambda: found.exists() and found.read_text().rstrip().endswith("}"))
+        address = json.loads(found.read_text())["address"]
+        workers = []
+        for i in range(2):
+            own = tmp_path / f"worker{i}"
+            arguments = ("--nthreads", "1", "--no-nanny", "--local-directory", str(own))
+            workers.append(start("worker", address, *arguments))
+        yield address, workers
 
 
 def wait_for(condition):

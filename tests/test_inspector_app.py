@@ -178,7 +178,8 @@ def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
     assert page.opened.kind.title == "Chain"
 
 
-def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say):
+def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
+    monkeypatch.setattr("robo47.inspector.history.SECONDS", 20.0)
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
         say((joint(page, 0), f"{x}"))

@@ -344,6 +344,7 @@ def ask_to_share(viser, port: int, path: str = "/") -> None:
         subprotocols=[f"viser-v{viser.__version__}"],
         compression=None,
         max_size=None,
+        close_timeout=0.5,
     ) as page:
         page.recv(timeout=30)
         page.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from robo47 import panda
-from robo47.checker.replies import LoadError, Question, Reply
+from robo47.checker.replies import LoadError, Model, Question, Reply
+from robo47.checker.sandbox import Sandbox
+from robo47.inspector import behind
 from robo47.inspector.ghost import Ghost
 from robo47.inspector.student import Source, Student
+from robo47.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -56,6 +59,11 @@ class Desk:
         self.fake = Fake(text)
         return self.fake
 
+    def save(self, text):
+        new = self.path.with_suffix(".new")
+        new.write_text(text)
+        new.replace(self.path)  # nobody sees half of it
+
     def hear(self, seen):
         with self.news:
             self.told.append(seen)
@@ -89,7 +97,7 @@ def test_without_a_file_the_page_is_told_that_there_is_none(desk):
 
 
 def test_a_file_that_appears_is_asked_and_one_that_goes_is_forgotten(desk):
-    desk.path.write_text("2")
+    desk.save("2")
     seen = desk.until(lambda seen: seen is not None)
     np.testing.assert_array_equal(seen.poses["ee"], 2 * np.eye(4))
     desk.path.unlink()
@@ -97,22 +105,22 @@ def test_a_file_that_appears_is_asked_and_one_that_goes_is_forgotten(desk):
 
 
 def test_a_save_is_seen_and_the_file_asked_anew(desk):
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None)
-    desk.path.write_text("3.5")
+    desk.save("3.5")
     desk.until(lambda seen: seen is not None and seen.poses["ee"][0, 0] == 3.5)
     assert len(desk.opened) >= 2
 
 
 def test_a_file_that_does_not_load_is_said_and_the_next_save_is_asked(desk):
-    desk.path.write_text("broken")
+    desk.save("broken")
     assert desk.until(lambda seen: seen is not None).problem == "day.py: invalid syntax"
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None and seen.poses)
 
 
 def test_an_endless_loop_is_asked_once_and_again_only_after_a_save(desk):
-    desk.path.write_text("loop")
+    desk.save("loop")
     seen = desk.until(lambda seen: seen is not None)
     assert "it runs on" in seen.problem
     assert "Save the file to have it asked again" in seen.problem
@@ -120,19 +128,19 @@ def test_an_endless_loop_is_asked_once_and_again_only_after_a_save(desk):
     desk.student.want(np.ones(7))
     desk.until(lambda seen: seen is not None and seen.q[0] == 1)
     assert len(desk.fake.asked) == asked
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None and seen.poses)
 
 
 def test_a_chain_that_takes_no_path_shows_its_end_alone(desk):
-    desk.path.write_text("no path")
+    desk.save("no path")
     seen = desk.until(lambda seen: seen is not None)
     assert set(seen.poses) == {"ee"}
     assert seen.problem == "Only ee is drawn: my_fk: TypeError no path."
 
 
 def test_a_question_that_fails_on_our_side_is_said_and_the_next_is_asked(desk):
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None)
     desk.fake.text = "no number"  # the fake itself fails over it
     desk.student.want(np.ones(7))
@@ -143,7 +151,7 @@ def test_a_question_that_fails_on_our_side_is_said_and_the_next_is_asked(desk):
 
 
 def test_of_many_configurations_the_last_one_is_answered(desk):
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None)
     for x in range(50):
         desk.student.want(np.full(7, x / 100))
@@ -151,7 +159,7 @@ def test_of_many_configurations_the_last_one_is_answered(desk):
 
 
 def test_a_tab_may_ask_any_function(desk):
-    desk.path.write_text("2")
+    desk.save("2")
     desk.until(lambda seen: seen is not None)
     got: list[Reply] = []
     done = threading.Event()
@@ -159,3 +167,14 @@ def test_a_tab_may_ask_any_function(desk):
     desk.student.request(question, lambda reply: (got.append(reply), done.set()))
     assert done.wait(SECONDS)
     np.testing.assert_array_equal(got[0].value, 2 * np.eye(4))
+
+
+def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp_path):
+    script = tmp_path / "day1_transforms.py"
+    load = "from robo47 import panda\nMODEL = panda.load()\n"
+    script.write_text(load + "def f(model): return model.nq + MODEL.nq")
+    question = Question("view", "f", (Model(0),))
+    with Sandbox() as sandbox:
+        source = behind.source_of(find_day(1), panda.load(), sandbox)
+        (reply,) = source.open(script).ask([question], SECONDS)
+    assert reply.value == 14, reply.error

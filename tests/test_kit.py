@@ -65,6 +65,12 @@ def test_what_tells_an_old_python_so_has_no_syntax_that_it_cannot_read(name):
             assert not any(isinstance(item, ast.Starred) for item in node.elts)
 
 
+def copy_scripts(folder):
+    """Copy the scripts, but for what Python compiled of them and is writing now."""
+    compiled = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "scripts", folder / "scripts", ignore=compiled)
+
+
 def test_make_helps_in_80_columns():
     need(shutil.which("make") is not None, "make")
     done = subprocess.run(
@@ -119,7 +125,7 @@ def test_a_mujoco_gl_that_mujoco_refuses_is_one_line_with_its_cure(run, clone, s
 
 
 def test_without_an_environment_it_says_what_to_run(bare, tmp_path):
-    shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
+    copy_scripts(tmp_path)
     done = bare(tmp_path / "scripts" / "check_day.py", "1")
     assert done.returncode == 1
     assert done.stderr.startswith("error: the kit is not set up. Run `make setup`")
@@ -127,7 +133,7 @@ def test_without_an_environment_it_says_what_to_run(bare, tmp_path):
 
 
 def test_a_broken_environment_does_not_go_in_circles(bare, tmp_path):
-    shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
+    copy_scripts(tmp_path)
     subprocess.run(
         [sys.executable, "-m", "venv", "--without-pip", str(tmp_path / ".venv")],
         check=True,

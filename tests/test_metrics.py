@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 from pathlib import Path
 
 import pytest
@@ -435,7 +436,8 @@ def refusal_for_a_plain_user(path: Path) -> str:
     if not hasattr(os, "geteuid") or os.geteuid() != 0:
         return refusal(path)
     said, tell = os.pipe()
-    child = os.fork()
+    with warnings.catch_warnings(action="ignore"):  # of pytest-xdist's threads
+        child = os.fork()
     if child == 0:
         os.setuid(65534)
         try:

@@ -184,7 +184,7 @@ def places(tmp_path_factory):
     """Fill in what the attacks aim at; none would do harm if it got through."""
     folder = tmp_path_factory.mktemp("places")
     (folder / "victim.txt").write_text("mine")
-    sleep = [sys.executable, "-c", "import time; time.sleep(300)"]
+    sleep = [sys.executable, "-c", "import time; time.sleep(3600)"]
     with contextlib.ExitStack() as stack:
         other = stack.enter_context(subprocess.Popen(sleep))
         stack.callback(other.kill)

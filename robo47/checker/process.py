@@ -68,8 +68,7 @@ class Process:
             for thread in self._threads:
                 thread.start()
         except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
-            if hasattr(self, "process"):
-                resources.end(self.process)
+            self._drop()
             raise _fault(f"starts no process for the checker ({error})") from None
 
     def load(self, request: dict[str, Any]) -> None:
@@ -123,6 +122,15 @@ class Process:
         for thread in self._threads:  # where something holds a pipe's other end, later
             thread.join(resources.END_SECONDS)
 
+    def _drop(self) -> None:
+        """End what began only in part."""
+        if not hasattr(self, "process"):
+            return
+        resources.end(self.process)
+        for stream in (self.process.stdin, self.process.stdout):
+            if stream:
+                stream.close()
+
     def _reply(self, message: dict[str, Any]) -> Reply:
         try:
             return replies.read(message)
@@ -143,7 +151,7 @@ class Process:
                     raise EndedError("it used more than 1 GB of memory") from None
                 now = time.monotonic()
                 deadline += self._others(now - looked)
-                if now > deadline:
+                if now > deadline and self._in.empty():  # it can be us who were late
                     raise EndedError(ENDLESS) from None
                 looked = now
         if line is None:
@@ -165,7 +173,7 @@ class Process:
 
     def _how_it_ended(self) -> str:
         try:
-            code = self.process.wait(timeout=1)
+            code = self.process.wait(timeout=resources.END_SECONDS)
         except subprocess.TimeoutExpired:
             return "it closed the checker's own channel"
         self.killed = resources.was_killed(self.process)
