@@ -27,6 +27,7 @@ from robo47.progress import watched
 from robo47.report import page
 from robo47.report.series import Report, collect
 from robo47.report.thresholds import load
+from robo47.week.labs import week_of
 
 NO_PILLOW = "no picture: Pillow is not installed (`make report` installs it)"
 
@@ -39,12 +40,14 @@ def main() -> int:
     report = collect(lines, load(), since, args.day, args.check)
     heading = describe(args, report)
     out = args.out or args.file.parent
-    write(out / "report.html", page.render(report, heading).encode())
+    whole = not (since or args.check or args.day is not None)
+    week = week_of(find_day(started_day())) if whole else None
+    write(out / "report.html", page.render(report, heading, week).encode())
     picture = render_picture(report, heading)
     if picture:
         write(out / "report.png", picture)
-    if not (since or args.check or args.day is not None):
-        write_week(report, heading, out)
+    if week is not None:
+        write_week(report, heading, out, week)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing, {report.count('none')} not run yet"
@@ -56,14 +59,13 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path) -> None:
-    """Write the page on the week of the last day begun, and its retrospective."""
+def write_week(report: Report, heading: str, out: Path, week: int) -> None:
+    """Write the page on a week, and its retrospective."""
     from robo47.week import page as week_page
     from robo47.week import retro
     from robo47.week.facts import facts_of
-    from robo47.week.labs import days_of, week_of
+    from robo47.week.labs import days_of
 
-    week = week_of(find_day(started_day()))
     series = {(one.day, one.check, one.metric): one for one in report.series}
     with cli.busy("looking at your tasks"):
         facts = [facts_of(day, series) for day in days_of(week)]

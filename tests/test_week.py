@@ -286,6 +286,8 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
     done = run_in(REPORT)
     assert done.returncode == 0, done.stderr
     assert "wrote metrics/report-week1.html" in done.stdout
+    log = (clone / "metrics" / "report.html").read_text("utf-8")
+    assert 'href="report-week1.html">Week 1</a>' in log
     text = (clone / "metrics" / "report-week1.html").read_text("utf-8")
     assert "8 of 8" in text
     assert "t not negated <span class=pass>✓ left behind" in text

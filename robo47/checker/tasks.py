@@ -9,7 +9,7 @@ from typing import Any
 
 from robo47.checker import model_copy
 from robo47.checker.library import library_of
-from robo47.checker.replies import LoadError, Model, Question
+from robo47.checker.replies import LoadError, Model, Question, Reply
 from robo47.checker.sandbox import Sandbox
 from robo47.checker.verdicts import not_utf8, verdict_of, why_not_loaded
 from robo47.diagnose.ask import Ask, Robot
@@ -92,17 +92,20 @@ def check_tasks(
         verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
     source = script.read_text("utf-8", errors="replace")
+    come = iter(replies)
     results: dict[str, TaskResult] = {}
     for task in asked:
-        own = replies[: len(questions[task.id])]
-        replies = replies[len(own) :]
-        verdict = verdict_of(task, rounds[task.id], own, source)
-        printed = next((reply.printed for reply in own if reply.printed), "")
-        refused = tuple(dict.fromkeys(what for r in own for what in r.refused))
-        results[task.id] = TaskResult(
-            task, _following(task, day, verdict, results), printed, refused
-        )
+        own = [next(come) for _ in questions[task.id]]
+        found = _result(task, verdict_of(task, rounds[task.id], own, source), own)
+        results[task.id] = _following(found, day, results)
     return [results[task.id] for task in wanted]
+
+
+def _result(task: Task, verdict: Verdict, replies: Sequence[Reply]) -> TaskResult:
+    """Return a verdict with what its task's functions printed and were refused."""
+    printed = next((reply.printed for reply in replies if reply.printed), "")
+    refused = tuple(dict.fromkeys(what for r in replies for what in r.refused))
+    return TaskResult(task, verdict, printed, refused)
 
 
 def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Round]]:
@@ -136,12 +139,13 @@ def _sent(question: Question, models: Sequence[Robot]) -> Question:
 
 
 def _following(
-    task: Task, day: Day, verdict: Verdict, results: dict[str, TaskResult]
-) -> Verdict:
-    """Return a verdict with the first task below it that has to be right first."""
+    found: TaskResult, day: Day, results: dict[str, TaskResult]
+) -> TaskResult:
+    """Return a result with the first task below it that has to be right first."""
+    verdict = found.verdict
     if verdict.status in ("passed", "todo") or verdict.mistake == "missing":
-        return verdict
-    for need in day.needs(task.id):
+        return found
+    for need in day.needs(found.task.id):
         if not results[need].passed:
-            return replace(verdict, follows=need)
-    return verdict
+            return replace(found, verdict=replace(verdict, follows=need))
+    return found

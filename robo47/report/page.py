@@ -20,13 +20,16 @@ STATUS = {
 }
 
 
-def render(report: Report, heading: str) -> str:
+def render(report: Report, heading: str, week: int | None = None) -> str:
     """Return the whole page.
 
     Args:
         report: what to show.
         heading: one line of plain text on where the rows come from.
+        week: whose own page stands beside this one.
     """
+    link = f' · <a href="report-week{week}.html">Week {week}</a>'
+    beside = "" if week is None else link
     days = groupby(report.series, key=lambda series: series.day)
     return "\n".join(
         [
@@ -36,7 +39,7 @@ def render(report: Report, heading: str) -> str:
             " style-src 'unsafe-inline'\">",
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             f"<title>robo47 metrics</title><style>{STYLE}</style></head><body>",
-            f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}</p>',
+            f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}{beside}</p>',
             _tiles(report),
             *([] if report.rows else [_nothing()]),
             _jumps(report),
