@@ -20,6 +20,8 @@ from robo47.inspector.skin import Skin
 from robo47.inspector.triad import Triad, place
 
 ROOT = "/tab"
+# The browser remembers the pose of a node that is gone: a name is never given again.
+_NUMBERS = count()
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
 COLOURS = {
     "x": (222, 70, 20),
@@ -46,7 +48,7 @@ class Sketch:
             server: where to draw.
             coarse: the arm's simple meshes, for ghosts.
         """
-        self.server, self.coarse, self._number = server, list(coarse), count()
+        self.server, self.coarse = server, list(coarse)
         self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
         self.root = server.scene.add_frame(ROOT, show_axes=False)
 
@@ -56,7 +58,7 @@ class Sketch:
 
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
-        return f"{ROOT}/{next(self._number)}"
+        return f"{ROOT}/{next(_NUMBERS)}"
 
     def arrow(
         self,
