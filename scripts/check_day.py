@@ -12,6 +12,7 @@ Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
 
 import argparse
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -118,4 +119,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
     cli.run(main)
