@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import errno
 import functools
-import gc
 import os
 import shutil
 import sys
@@ -137,5 +136,4 @@ def run(main: Callable[[], int]) -> None:
     except KeyboardInterrupt:
         print("\nstopped", file=sys.stderr)
         code = 130
-    gc.freeze()  # else Python looks through all of MuJoCo and NumPy before it ends
     sys.exit(code)

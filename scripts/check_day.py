@@ -11,6 +11,8 @@ Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
 """
 
 import argparse
+import atexit
+import gc
 import json
 import os
 import sys
@@ -120,4 +122,5 @@ def main() -> int:
 
 if __name__ == "__main__":
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
+    atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
     cli.run(main)
