@@ -64,6 +64,16 @@ def real_panda() -> Path:
 
 
 @pytest.fixture
+def chromium() -> str:
+    """Return a browser's program."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    found = next(filter(None, map(shutil.which, names)), None)
+    need(found is not None, "Chromium (Debian, Ubuntu: sudo apt install chromium)")
+    assert found is not None
+    return found
+
+
+@pytest.fixture
 def twin(monkeypatch: pytest.MonkeyPatch) -> None:
     """Hide the Menagerie, so that `panda.load` falls back to the twin."""
     monkeypatch.setattr(menagerie, "panda_folder", lambda: None)

@@ -71,6 +71,9 @@ def main() -> int:
     parser = cli.parser(__doc__)
     parser.add_argument("week", type=int, nargs="?", default=1, help="default: 1")
     parser.add_argument("--kit", action="store_true", help="the kit's labs alone")
+    parser.add_argument(
+        "--no-log", action="store_true", help="as the labs have it; a week never logs"
+    )
     options = parser.parse_args()
     days = days_of(options.week)
     quiet = not sys.stderr.isatty()

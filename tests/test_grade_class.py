@@ -6,7 +6,6 @@ import io
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -514,19 +513,16 @@ def test_a_class_of_200_gives_the_same_bytes_however_it_is_graded(tmp_path, run)
 
 @pytest.mark.browser
 @pytest.mark.parametrize("width", [390, 1280])
-def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, width):
+def test_the_page_fits_and_runs_nothing_in_a_real_browser(
+    graded, tmp_path, width, chromium
+):
     import html
 
     from test_report import MEASURE, dom
 
-    from conftest import need
-
-    names = ("chromium", "chromium-browser", "google-chrome")
-    browser = next(filter(None, map(shutil.which, names)), None)
-    need(browser is not None, "Chromium")
     page = (graded[1] / "class.html").read_text("utf-8")
     harness = MEASURE.format(width=width, page=html.escape(page))
-    found = re.search(r"<title>(.*?)</title>", dom(browser, tmp_path, harness))
+    found = re.search(r"<title>(.*?)</title>", dom(chromium, tmp_path, harness))
     assert found is not None
     *title, scroll_width, too_wide, _, _, made = found[1].split()
     assert " ".join(title) == f"Day 1: {DAY.title}"

@@ -3,7 +3,6 @@
 import html
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -290,16 +289,6 @@ def test_a_hundred_thousand_rows_make_a_small_page(log):
 
 
 # In a real browser.
-
-
-@pytest.fixture
-def chromium() -> str:
-    for name in ("chromium", "chromium-browser", "google-chrome"):
-        if found := shutil.which(name):
-            return found
-    if os.environ.get("ROBO47_CI"):
-        pytest.fail("CI must have Chromium: see .ci/run")
-    pytest.skip("no Chromium here (Debian, Ubuntu: sudo apt install chromium)")
 
 
 def dom(chromium: str, folder: Path, text: str) -> str:

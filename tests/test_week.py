@@ -4,14 +4,12 @@ import html
 import json
 import os
 import re
-import shutil
 import subprocess
 from dataclasses import replace
 
 import pytest
 from test_report import MEASURE, dom
 
-from conftest import need
 from robo47.checker.deliverables.rows import file_mark
 from robo47.checker.journal import Met
 from robo47.errors import Robo47Error
@@ -208,10 +206,9 @@ def test_no_text_of_a_journal_becomes_a_script(day):
 
 @pytest.mark.browser
 @pytest.mark.parametrize("width", [390, 1280])
-def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(day, tmp_path, width):
-    names = ("chromium", "chromium-browser", "google-chrome")
-    browser = next(filter(None, map(shutil.which, names)), None)
-    need(browser is not None, "Chromium")
+def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
+    day, tmp_path, width, chromium
+):
     week = [
         facts(d, numbers=[Number(m, 1.234e-15, 0.5, 2e-15, 3) for m in d.metrics])
         for d in days_of(1)
@@ -222,7 +219,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(day, tmp_path, width
     seen += f"e => e.{box}.left + 30 < e.closest('.card').{box}.right)"
     harness = MEASURE.replace("d.documentElement.scrollWidth", seen)
     harness = harness.format(width=width, page=html.escape(text))
-    found = re.search(r"<title>(.*?)</title>", dom(browser, tmp_path, harness))
+    found = re.search(r"<title>(.*?)</title>", dom(chromium, tmp_path, harness))
     assert found is not None
     *title, shown, too_wide, _, _, made = found[1].split()
     assert " ".join(title) == "Week 1: foundations"
