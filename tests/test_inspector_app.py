@@ -94,7 +94,7 @@ def page(server):
     arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
     day = DayTabs(GHOST, [Noisy, Broken])
     made = on_loop(server, lambda: Inspector(server, arm, "a robot", day))
-    server.door.receive = made.controls.receive
+    server.door.receive = made.receive
     yield made
     on_loop(server, made.opened.leave)
 
@@ -107,7 +107,7 @@ def say(page):
     def send(*messages):
         def receive():
             for name, value in messages:
-                page.controls.receive(name, value)
+                page.receive(name, value)
 
         on_loop(page.server, receive)
         settle(page)

@@ -335,6 +335,28 @@ def test_the_arrow_keys_drive_the_arm(page, model):
     page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
 
 
+# What a slow page does: what it was told before the key arrives after it.
+TOLD_LATE = """async (old) => {
+  document.querySelector("[data-r47-state]").dataset.r47State = old;
+  document.body.append(document.createElement("i"));
+  await new Promise((done) => setTimeout(done, 200));
+}"""
+
+
+def test_what_arrives_late_takes_no_key_back(page, model):
+    told = page.tab.locator("[data-r47-state]")
+    old = told.get_attribute("data-r47-state")
+    page.slider(2).focus()
+    page.tab.keyboard.press("ArrowRight")
+    page.until(lambda: told.get_attribute("data-r47-state") != old)
+    page.tab.evaluate(TOLD_LATE, old)
+    assert page.angle(2) == pytest.approx(-0.775)
+    page.tab.keyboard.press("ArrowRight")
+    q = panda.READY_Q.copy()
+    q[1] += 0.02
+    page.until(lambda: close(page.matrix("mujoco"), truth(model, q)))
+
+
 def test_the_address_follows_the_arm_and_back_goes_back(page, model):
     page.until(lambda: "q=0,-0.785," in page.tab.url)
     page.later()  # a move that follows at once is no step of its own in the history

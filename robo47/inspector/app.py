@@ -182,6 +182,20 @@ class Inspector:
 
     # What the browsers and the student's file say
 
+    def receive(self, name: str, value: str) -> int:
+        """Hear a browser's word; a state that knows of it follows, whatever it was.
+
+        Args:
+            name: of a control.
+            value: what it says; believed by nobody.
+
+        Returns:
+            The number of this word.
+        """
+        number = self.controls.receive(name, value)
+        self.schedule()
+        return number
+
     def choose_frame(self, name: str) -> None:
         """Show another frame's matrices."""
         if name in self.arm.names:

@@ -1,10 +1,10 @@
 /* The inspector's own controls: says to the server what a person did, and shows what
-   the server says. The server's word is the JSON in [data-r47-state]. */
+   the server says. The server's word is the JSON in [data-r47-state]. Ours are numbered:
+   what was said here last is not taken back by a state that does not know of it yet. */
 (() => {
   const base = location.pathname.replace(/\/?$/, "/");
   const waiting = new Map(); // control -> value: the newest of each is sent
-  let sending = "", held = null, lastChange = 0, scheduled = false;
-  let going = null, since = 0; // an address that the server was asked to go to, and when
+  let sending = "", said = 0, held = null, lastChange = 0, scheduled = false;
 
   async function pump() {
     if (sending) return;
@@ -14,14 +14,15 @@
       sending = control;
       const query = new URLSearchParams({ control, value });
       try {
-        await fetch(`${base}do?${query}`, { cache: "no-store" });
+        const answer = await fetch(`${base}do?${query}`, { cache: "no-store" });
+        const number = Number(await answer.text());
+        if (control !== "hover") said = number;
       } catch { /* the server is gone; viser's own sign says so */ }
     }
     sending = "";
-    settle();
+    later();
   }
   function send(control, value) {
-    if (control !== "hover") going = null;
     waiting.delete(control);
     waiting.set(control, String(value));
     pump();
@@ -35,28 +36,27 @@
     scheduled = false;
     const state = read();
     if (!state) return;
+    const late = state.heard < said;
     for (const field of document.querySelectorAll("[data-r47]")) {
       const name = field.dataset.r47, shown = state.values[name];
-      const busy = field === held || name === sending || waiting.has(name);
-      if (shown === undefined || busy || "typing" in field.dataset) continue;
+      const busy = field === held || name === sending || waiting.has(name) ||
+        "typing" in field.dataset || (late && field.type !== "text");
+      if (shown === undefined || busy) continue;
       if (field.type === "checkbox") field.checked = shown === "true";
       else if (field.value !== shown) field.value = field.type === "range" ? Number(shown) : shown;
     }
-    if (state.address === going || performance.now() - since > 5000) going = null;
-    if (going || sending || waiting.size) return;
+    if (late || sending || waiting.size) return;
+    const now = Date.now();
     if (state.address !== location.search) {
-      const now = Date.now();
       const way = lastChange && now - lastChange > 1500 ? "pushState" : "replaceState";
       history[way](null, "", base + state.address);
       lastChange = now;
     }
+    lastChange ||= now;
   }
   function later() {
     if (!scheduled) { scheduled = true; setTimeout(show, 10); }
   }
-
-  // The server's answer is on its way; if there is none, what it said before holds.
-  const settle = () => setTimeout(later, 300);
 
   const dialOf = (event) => event.target.closest?.("[data-r47]");
   const decimals = (field) => Number(field.dataset.decimals || 4);
@@ -83,7 +83,7 @@
     const field = dialOf(event);
     if (field?.type === "range") held = field;
   }, true);
-  addEventListener("pointerup", () => { held = null; settle(); }, true);
+  addEventListener("pointerup", () => { held = null; later(); }, true);
 
   // Keys: 0.01, with Shift ten times as much, with Alt a tenth.
   const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
@@ -142,9 +142,7 @@
 
   function go() {
     send("address", location.search);
-    [going, since] = [location.search, performance.now()];
-    lastChange = Date.now();
-    setTimeout(later, 5100); // an address that nobody writes so never comes back
+    lastChange = 0; // the same address as the server writes it is no step of its own
   }
   if (location.search.length > 1) go();
   // viser's own word for a dark page; it is read once, when the page starts.

@@ -3,7 +3,8 @@
 A control has a name; what a person does to it arrives here as (name, text), whatever
 browser it comes from, and is given to the one function that listens. What a control
 shows is `values[name]`, sent to every browser with the rest of the state: a control
-never shows what the server refused.
+never shows what the server refused. Every word from a browser has a number, and the
+state says which one it knows of: a browser leaves out a state older than its own word.
 """
 
 import json
@@ -22,16 +23,22 @@ class Controls:
         """Start with none."""
         self.listeners: dict[str, Listener] = {}
         self.values: dict[str, str] = {}
+        self.heard = 0
 
-    def receive(self, name: str, value: str) -> None:
+    def receive(self, name: str, value: str) -> int:
         """Give what a control sent to its listener; unknown names are nothing.
 
         Args:
             name: of the control.
             value: what it says; believed by nobody.
+
+        Returns:
+            The number of this word.
         """
+        self.heard += 1
         if listener := self.listeners.get(name):
             listener(value)
+        return self.heard
 
     def listen(self, name: str, listener: Listener, value: str | None = None) -> None:
         """Add a control.
@@ -57,7 +64,9 @@ class Controls:
         Args:
             address: the query behind the page's address, "?q=...".
         """
-        state = json.dumps({"values": self.values, "address": address})
+        state = json.dumps(
+            {"values": self.values, "address": address, "heard": self.heard}
+        )
         return f'<div hidden data-r47-state="{escape(state)}"></div>'
 
 

@@ -42,7 +42,7 @@ from robo47.inspector.client import with_client
 LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
-Receive = Callable[[str, str], None]  # what a control of the page sends: name, value
+Receive = Callable[[str, str], int]  # a control's name, what it says; its number
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
     "X-Frame-Options": "DENY",
@@ -99,7 +99,7 @@ class Door:
     def __init__(self) -> None:
         """Make a new secret."""
         self.secret = secrets.token_urlsafe(12)
-        self.receive: Receive = lambda name, value: None
+        self.receive: Receive = lambda name, value: 0
 
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass.
@@ -134,8 +134,7 @@ class Door:
         path, _, query = request.path.partition("?")
         path = path.strip("/").removeprefix(self.secret)
         if path == "/do":
-            self._do(query)
-            return connection.respond(http.HTTPStatus.NO_CONTENT, "")
+            return connection.respond(http.HTTPStatus.OK, str(self._do(query)))
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
@@ -144,10 +143,10 @@ class Door:
         )
         return response and _protected(response, page=not path)
 
-    def _do(self, query: str) -> None:
+    def _do(self, query: str) -> int:
         found = urllib.parse.parse_qs(query, keep_blank_values=True)
         name, value = (found.get(key, [""])[0] for key in ("control", "value"))
-        self.receive(name, value)
+        return self.receive(name, value)
 
 
 def foreign(headers: Headers) -> str | None:

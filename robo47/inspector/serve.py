@@ -85,7 +85,7 @@ def serve(show: Show, port: int) -> int:
             page = on_loop(
                 server, lambda: Inspector(server, show.arm, show.about, tabs)
             )
-            server.door.receive = page.controls.receive
+            server.door.receive = page.receive
             print("\n".join(where_to_look(port, server)), flush=True)
             if page.day.ghost is not None:
                 student = watch(page, show, ends)
