@@ -16,6 +16,7 @@ from urllib.parse import unquote
 import pytest
 from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
 
+from robo47.checker import wall as walls
 from robo47.checker.wall import Wall
 from robo47.errors import Robo47Error
 from robo47.grading.journal import Journal
@@ -418,7 +419,8 @@ class TestWhoMayGrade:
         def ask(wall, *, root=False, container=False, words=()):
             stands = Wall(wall, f"it is {wall}")
             monkeypatch.setattr(grade_class, "wall", lambda: stands)
-            monkeypatch.setattr(grade_class, "in_container", lambda: container)
+            monkeypatch.setattr(walls, "wall", lambda: stands)
+            monkeypatch.setattr(walls, "in_container", lambda: container)
             monkeypatch.setattr(
                 os, "geteuid", lambda: 0 if root else 1000, raising=False
             )
@@ -436,7 +438,7 @@ class TestWhoMayGrade:
         asked(wall, root=True, words=["--i-know-them"])
 
     def test_without_a_wall_one_is_asked(self, asked):
-        with pytest.raises(Robo47Error, match="with your rights: use a container"):
+        with pytest.raises(Robo47Error, match="with your rights, use a container"):
             asked("none")
         asked("none", words=["--i-know-them"])
         asked("none", container=True)

@@ -57,7 +57,8 @@ def wait_for(condition):
 
 def grade_and_kill_one(clones, out, address, worker, number):
     """Grade on the cluster and kill a worker once so many are graded."""
-    command = [sys.executable, str(ROOT / SCRIPT), str(clones), *DEADLINE]
+    fixed = (*DEADLINE, "--i-know-them")  # CI may be root
+    command = [sys.executable, str(ROOT / SCRIPT), str(clones), *fixed]
     process = subprocess.Popen(
         [*command, "--dask", address, "--out", str(out / "grades.csv")],
         stdout=subprocess.PIPE,

@@ -39,8 +39,9 @@ from robo47.grading import (
     people,
     similar,
 )
+from robo47.grading import grader as graders
 from robo47.grading.child import _tidy
-from robo47.grading.grader import Grader, grade_package, sweep
+from robo47.grading.grader import Grader, grade_behind_wall, grade_package, sweep
 from robo47.grading.journal import Journal
 from robo47.grading.package import Package, collect, fingerprint, unpack
 from robo47.grading.pull import OURS, pull_all
@@ -257,6 +258,14 @@ class TestTheGrader:
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):
             grade_package(Package(1, "another"))
+
+    def test_refuses_on_a_worker_that_nothing_protects(self, monkeypatch):
+        package = Package(1, fingerprint(1), problem="nobody")
+        monkeypatch.setattr(graders, "refusal", lambda: "you are root")
+        with pytest.raises(Robo47Error, match=r"a worker on .* refuses: you are root"):
+            grade_behind_wall(package)
+        monkeypatch.setattr(graders, "refusal", lambda: "")
+        assert grade_behind_wall(package).error == "nobody"
 
     def test_ends_when_whoever_started_it_is_gone(self, tmp_path):
         command = [sys.executable, "-m", "robo47.grading.child", str(tmp_path / "own")]

@@ -67,6 +67,28 @@ def wall() -> Wall:
     raise FaultError(f"ROBO47_WALL asks for {wanted}, which does not work here")
 
 
+def in_container() -> bool:
+    """Return whether this is a container, which is a wall of its own."""
+    marks = ("/.dockerenv", "/run/.containerenv")
+    told = ("container", "KUBERNETES_SERVICE_HOST")  # systemd's and podman's; a pod's
+    return any(map(os.environ.get, told)) or any(Path(mark).exists() for mark in marks)
+
+
+def refusal() -> str:
+    """Return why other people's code should not run here; "" where it may.
+
+    Raises:
+        Robo47Error: ROBO47_WALL asks for a wall that this machine does not have.
+    """
+    if in_container():
+        return ""
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        return "you are root, and this is no container: be an ordinary user"
+    if wall().name == "none":
+        return "these submissions would run with your rights"
+    return ""
+
+
 def command(chosen: Wall) -> list[str]:
     """Return the command that starts the sandbox's interpreter behind a wall.
 

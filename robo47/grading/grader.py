@@ -1,6 +1,7 @@
 """A process for the checker, from outside: one package after the other, with a limit.
 
-`grade_package` is what runs on this machine's threads and on Dask's workers alike.
+`grade_package` is what runs on this machine's threads and on Dask's workers alike;
+`grade_behind_wall` on workers that nobody spoke for.
 """
 
 import atexit
@@ -10,6 +11,7 @@ import os
 import pickle
 import queue
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -18,7 +20,7 @@ import time
 from pathlib import Path
 
 from robo47.checker import resources
-from robo47.checker.wall import wall
+from robo47.checker.wall import refusal, wall
 from robo47.errors import FaultError, Robo47Error
 from robo47.grading.package import Package, fingerprint
 from robo47.grading.result import Result, from_json
@@ -139,6 +141,24 @@ def grade_package(package: Package) -> Result:
     finally:
         if grader and grader.alive:
             _idle.put(grader)
+
+
+def grade_behind_wall(package: Package) -> Result:
+    """Return a package's result, where this machine keeps such code from itself.
+
+    Args:
+        package: one submission.
+
+    Raises:
+        Robo47Error: it does not, or has another kit.
+        FaultError: the machine failed; the package is as good as new.
+    """
+    if why := refusal():
+        raise Robo47Error(
+            f"a worker on {socket.gethostname()} refuses: {why}, run workers in a "
+            "container (docs/cluster.md), or add --i-know-them"
+        )
+    return grade_package(package)
 
 
 @atexit.register
