@@ -1,8 +1,19 @@
-"""First slips that show in the text of a student's function, not in its answers."""
+"""What the text of a student's function shows, not its answers: names, first slips."""
 
 import ast
 
 from robo47.lesson.starter import function_lines
+
+
+def arguments(source: str, function: str) -> tuple[str, ...]:
+    """Return the names of a function's arguments; () where they cannot be read.
+
+    Args:
+        source: the student's file.
+        function: its name.
+    """
+    _, definition = _definition(source, function)
+    return tuple(arg.arg for arg in definition.args.args) if definition else ()
 
 
 def unfinished(source: str, function: str) -> str:
@@ -12,14 +23,8 @@ def unfinished(source: str, function: str) -> str:
         source: the student's file.
         function: its name.
     """
-    start, _, lines = function_lines(source, function)
-    try:
-        definition = ast.parse("\n".join(lines)).body[0]
-    except (SyntaxError, IndexError, ValueError):
-        return ""
-    if not isinstance(definition, ast.FunctionDef):
-        return ""
-    body = definition.body
+    start, definition = _definition(source, function)
+    body = definition.body if definition else []
     if (
         body
         and isinstance(body[0], ast.Expr)
@@ -37,6 +42,16 @@ def unfinished(source: str, function: str) -> str:
     if body and all(isinstance(node, ast.Pass) for node in body):
         return "Its body is `pass`, which does nothing: write what it should return."
     return ""
+
+
+def _definition(source: str, function: str) -> tuple[int, ast.FunctionDef | None]:
+    """Return the index of a function's first line, and the function."""
+    start, _, lines = function_lines(source, function)
+    try:
+        found = ast.parse("\n".join(lines)).body[0]
+    except (SyntaxError, IndexError, ValueError):
+        return start, None
+    return start, found if isinstance(found, ast.FunctionDef) else None
 
 
 def _is_gap(node: ast.stmt) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from robo47.checker.replies import Reply
-from robo47.checker.slips import unfinished
+from robo47.checker.slips import arguments, unfinished
 from robo47.diagnose.judging import judge
 from robo47.diagnose.mistake import Verdict
 from robo47.diagnose.rounds import Round
@@ -88,7 +88,7 @@ def _of_function(
     for reply in replies[: len(asked.main) + len(asked.fresh)]:
         if early := _early(task, asked.function, reply, source):
             return early
-    verdict = judge(asked, replies, source)
+    verdict = judge(asked, replies, source, arguments(source, asked.function))
     if verdict.mistake == "nothing-returned":
         verdict = _nothing_returned(asked.function, replies, source, verdict)
     if verdict.status != "passed":
@@ -165,6 +165,10 @@ def _changed_arguments(
     if not changed or verdict.status == "todo":
         return verdict
     name = changed[0]
+    if verdict.mistake == "shares-its-argument":  # a copy at the end would not help
+        says = f"{function} works in its argument {name} itself and returns it, so its "
+        says += f"caller's numbers change. Begin with a copy: {name} = {name}.copy()"
+        return replace(verdict, message=f"{says}.")
     says = f"{function} changed its argument {name}, which its caller still needs"
     says += f"; work on a copy: {name} = {name}.copy()" if name.isidentifier() else ""
     if verdict.status != "passed":

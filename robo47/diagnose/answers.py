@@ -12,6 +12,7 @@ from robo47.diagnose.ask import Ask
 from robo47.diagnose.kinds import Kind
 from robo47.diagnose.mistake import Finding
 
+ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
 
@@ -98,7 +99,8 @@ def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Findi
         where += f", called from {', from '.join(callers)}"
     where += ")" if where else ""
     often = f"in {len(broken)} of {asked} calls"
-    return Finding("raises", f"It stops with {_tidy(text)}{where}, {often}.")
+    why = ONLY_NUMPY if first.kind == "ModuleNotFoundError" else ""
+    return Finding("raises", f"It stops with {_tidy(text)}{where}, {often}.{why}")
 
 
 def _tidy(text: str) -> str:
@@ -157,8 +159,9 @@ def _array(value: object, kind: Kind) -> Array | Finding:
         says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
         return Finding("not-numbers", f"{says} numbers.")
     if array.shape != kind.shape:
-        text = f"It returns shape {array.shape}; expected is {kind.expected}, shape"
+        text = f"It returns shape {array.shape}; expected is {kind.expected}"
+        if str(kind.shape) not in text.partition(";")[2]:
+            text += f", shape {kind.shape}"
         reason = kind.why_shape(array.shape)
-        why = f": {reason}" if reason else ""
-        return Finding("shape", f"{text} {kind.shape}{why}.")
+        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
     return array

@@ -22,13 +22,19 @@ from robo47.diagnose.rounds import (
 Parts = tuple[Array, ...]
 
 
-def judge(asked: Round, replies: Sequence[Reply], source: str = "") -> Verdict:
+def judge(
+    asked: Round,
+    replies: Sequence[Reply],
+    source: str = "",
+    names: Sequence[str] = (),
+) -> Verdict:
     """Return what the replies to a function's questions show.
 
     Args:
         asked: the questions.
         replies: one per question, in order.
         source: the student's file, for slips that show in it.
+        names: of the function's arguments, for sentences.
 
     Raises:
         ValueError: not one reply per question.
@@ -43,14 +49,16 @@ def judge(asked: Round, replies: Sequence[Reply], source: str = "") -> Verdict:
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
         if asked.ask.accept:
-            return _judge_accepted(asked, replies, S)
-        return _judge_values(asked, replies, S)
+            return _judge_accepted(asked, replies, S, names)
+        return _judge_values(asked, replies, S, names)
 
 
-def _judge_values(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict:
+def _judge_values(
+    asked: Round, replies: Sequence[Reply], S: Parts, names: Sequence[str]
+) -> Verdict:
     ask, count = asked.ask, len(asked.main)
     T = right_answers(ask, asked.main)
-    case = _case(asked, replies, S, T)
+    case = _case(asked, replies, S, T, names)
     measured = _measured(case, S, T)
     off = off_by(ask, S, T)
     if off > ask.near:
@@ -86,7 +94,8 @@ def _second_look(
         if off > ask.near:
             says = (
                 "Right for the inputs that are always asked, but off by "
-                f"{off:.3g} for fresh ones: the answers are not computed from it."
+                f"{off:.3g} for fresh ones: some inputs take another way through your "
+                "function, or the answers are not computed from them."
             )
             return Verdict("wrong", "looked-up", says, measured)
     at += len(asked.fresh)
@@ -109,7 +118,9 @@ def _found(held: HeldOut, ask: Ask, questions: Any, replies: Sequence[Reply]) ->
     return off <= ask.near if held.mistaken else off > ask.near
 
 
-def _judge_accepted(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict:
+def _judge_accepted(
+    asked: Round, replies: Sequence[Reply], S: Parts, names: Sequence[str]
+) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
     assert ask.accept is not None
@@ -133,13 +144,15 @@ def _judge_accepted(asked: Round, replies: Sequence[Reply], S: Parts) -> Verdict
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     i, found = wrong[0]
-    given = in_words(questions[i])
+    given = in_words(questions[i], names)
     where = f" (For {len(wrong)} of {len(questions)} inputs"
     where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
     return Verdict("wrong", found.slug, found.message + where)
 
 
-def _case(asked: Round, replies: Sequence[Reply], S: Parts, T: Parts) -> Case:
+def _case(
+    asked: Round, replies: Sequence[Reply], S: Parts, T: Parts, names: Sequence[str]
+) -> Case:
     def plain(some: Parts) -> Any:
         return some[0] if len(some) == 1 else some
 
@@ -148,7 +161,7 @@ def _case(asked: Round, replies: Sequence[Reply], S: Parts, T: Parts) -> Case:
         (question.args, None if reply.kind else reply.value)
         for question, reply in zip(asked.probes, probed, strict=True)
     ]
-    given = [in_words(question) for question in asked.main]
+    given = [in_words(question, names) for question in asked.main]
     return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
 
 

@@ -19,7 +19,7 @@ from robo47.diagnose.compare import (
     say_mm,
     say_value,
 )
-from robo47.diagnose.mistake import Finding, Mistake
+from robo47.diagnose.mistake import Finding, Mistake, capitalised
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
 
@@ -162,10 +162,12 @@ class _Halves(Kind):
             return found
         if first <= NEAR:
             says = f"{self.halves[0]} is right; {self.halves[1]} is not: off by up to"
-            return Finding("second-half-off", f"{says} {self.apart(S, T)}.")
+            says = f"{capitalised(says)} {self.apart(S, T)}."
+            return Finding("second-half-off", says)
         if second <= NEAR:
             says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
-            return Finding("first-half-off", f"{says} {self.apart(S, T)}.")
+            says = f"{capitalised(says)} {self.apart(S, T)}."
+            return Finding("first-half-off", says)
         return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
 
 

@@ -8,6 +8,11 @@ import numpy as np
 
 from robo47.checks import Array
 
+# What is no symbol of a formula, though as short as one, and what is, though longer.
+SHORT_WORDS = {"a", "all", "an", "any", "at", "for", "if", "in", "it", "its", "no",
+               "of", "on", "one", "the", "to", "two"}  # fmt: skip
+GREEK = {"alpha", "beta", "omega", "theta", "zeta"}
+
 
 class Finding(NamedTuple):
     """What was found: its name, and what to say."""
@@ -55,6 +60,15 @@ class Mistake:
     says: str
     redo: Callable[..., Any]
     redone: str = "the answer with this mistake"
+
+
+def capitalised(clause: str) -> str:
+    """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
+    first = clause.partition(" ")[0].rstrip(",")
+    short = len(first) < 4 and first not in SHORT_WORDS
+    if short or first in GREEK or not first.isalpha():
+        return clause
+    return clause[0].upper() + clause[1:]
 
 
 def each(function: Callable[..., Any]) -> Callable[..., Any]:

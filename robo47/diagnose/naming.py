@@ -9,7 +9,7 @@ from robo47.checks import Array
 from robo47.diagnose import near_miss
 from robo47.diagnose.ask import Ask, Case
 from robo47.diagnose.compare import difference, matches
-from robo47.diagnose.mistake import Finding, Mistake
+from robo47.diagnose.mistake import Finding, Mistake, capitalised
 from robo47.diagnose.rounds import parts
 
 Parts = tuple[Array, ...]
@@ -53,7 +53,7 @@ def named_mistake(
             continue
         pairs = list(zip(S, again, ask.kinds, strict=False))
         if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in pairs):
-            says = f"{_capitalised(mistake.says)}."
+            says = f"{capitalised(mistake.says)}."
             if T is not None:
                 i = worst_part(ask, S, T)
                 says += f" (Off by up to {ask.kinds[i].apart(S[i], T[i])}; "
@@ -106,21 +106,13 @@ def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
     return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
 
 
-def _capitalised(clause: str) -> str:
-    """Return a clause as a sentence starts; a symbol, q say, stays what it is."""
-    first = clause.partition(" ")[0]
-    if len(first) == 1 and first != "a":
-        return clause
-    return clause[0].upper() + clause[1:]
-
-
 def _nothing_there(S: Parts) -> Finding | None:
     if any(part.any() for part in S):
         return None
     return Finding(
         "all-zeros",
-        "Every entry is 0: the array was made, but never filled (MuJoCo's own results "
-        "look so before mj_forward).",
+        "Every entry is 0, whatever the input: was the array made, but never filled? "
+        "(MuJoCo's own results look so before mj_forward.)",
     )
 
 

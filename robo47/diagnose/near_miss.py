@@ -23,7 +23,8 @@ def explain(S: Array, T: Array) -> Finding:
     why = (
         "as float32, a difference quotient or a loop that stops too early leaves it."
         if off < SINGLE_INSIDE
-        else "so a number is rounded: is one typed by hand, such as 3.14 or 0.707?"
+        else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
+        "derivative is a difference quotient, or what is small counts as 0."
     )
     return Finding(
         "rounded-somewhere",
@@ -42,8 +43,8 @@ def rounded(S: Array, T: Array) -> Finding | None:
         if difference(S, np.round(T, decimals)).max() < 1e-12:
             return Finding(
                 "rounded",
-                f"Your answer is rounded to {decimals} decimals, which puts it "
-                f"{difference(S, T).max():.0e} off. Round what you print, not what you "
-                "return.",
+                f"Your answer is rounded to {decimals} decimal{'s' * (decimals > 1)}, "
+                f"so it is {difference(S, T).max():.0e} off. Round what you print, not "
+                "what you return.",
             )
     return None

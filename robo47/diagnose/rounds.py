@@ -116,15 +116,24 @@ def parts(answers: Any) -> tuple[Array, ...]:
     return tuple(np.asarray(part, dtype=np.float64) for part in some)
 
 
-def in_words(question: Question) -> str:
-    """Return a question's input as a student can type it: numbers and short vectors."""
+def in_words(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a question's input as a student can type it: numbers and short vectors.
+
+    Args:
+        question: whose arguments.
+        names: theirs, where they are known.
+    """
+    named = len(names) == len(question.args) > 1
     words = []
-    for arg in question.args:
+    for i, arg in enumerate(question.args):
         if isinstance(arg, (int, float)):
-            words.append(number(float(arg)))
+            says = number(float(arg))
         elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            words.append("(" + ", ".join(number(float(x)) for x in arg) + ")")
-    return " and ".join(words)
+            says = "(" + ", ".join(number(float(x)) for x in arg) + ")"
+        else:
+            continue
+        words.append(f"{names[i]} = {says}" if named else says)
+    return (", " if named else " and ").join(words)
 
 
 def number(x: float) -> str:
