@@ -12,10 +12,12 @@ import numpy as np
 from robo47 import panda, task_space
 from robo47.diagnose import Ask, Scalar, Symmetric, Twist, Vector, Wrench, draw
 
-from .mistakes.inertias import SITE_BIAS, TASK_INERTIA
+from .mistakes.accelerations import SITE_BIAS
+from .mistakes.impedance import IMPEDANCE_TORQUE
+from .mistakes.inertias import TASK_INERTIA
 from .mistakes.pushes import HYBRID_WRENCH, SET_POINT
 from .mistakes.springs import CRITICAL_DAMPING, SPRING_WRENCH
-from .mistakes.torques import IMPEDANCE_TORQUE, NULL_TORQUE, OSC_TORQUE
+from .mistakes.torques import NULL_TORQUE, OSC_TORQUE
 
 NEAR = 1e-5  # further off is wrong, not only rounded
 SIGMA = 0.1  # least singular value of J: nearer to a singularity digits are lost
@@ -79,7 +81,12 @@ def _osc_torque(rng):
     for now in _states(rng):
         J, _, Lambda = _model(now)
         drawn.append((J, Lambda, _some(rng, 20, 7), _some(rng, 2, 6), _some(rng, 3, 6)))
-    return [case, *drawn]
+    J, Lambda, bias, drift, acc = drawn[0]
+    asked = [
+        (J, Lambda, bias, drift, np.zeros(6)),
+        (J, Lambda, bias, drift, 30.0 * acc),  # more than the motors have
+    ]
+    return [case, *asked, *drawn]
 
 
 def _null_torque(rng):
@@ -97,12 +104,16 @@ def _springs(rng):
         e = np.append(_some(rng, 0.5, 3), _some(rng, 0.05, 3))
         stiffness = np.diag(draw.numbers(rng, 10, 500, 6))
         drawn.append((e, _some(rng, 0.5, 6), stiffness, D))
-    return [case, *drawn]
+    e, V_err, K, D = drawn[0]
+    near, far = (0.001 * e, 0.001 * V_err, K, D), (10.0 * e, V_err, K, D)
+    return [case, near, far, *drawn]
 
 
 def _damping(rng):
     drawn = [(draw.numbers(rng, 10, 500, 6), _model(now)[2]) for now in _states(rng)]
-    return [(np.full(6, 4.0), np.eye(6)), *drawn]
+    K, Lambda = drawn[0]
+    light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
+    return [(np.full(6, 4.0), np.eye(6)), light, stiff, *drawn]
 
 
 def _impedance(rng):
@@ -119,7 +130,13 @@ def _impedance(rng):
         )
         for now in _states(rng)
     ]
-    return [case, *drawn]
+    J, F, bias, damping, qd, idle = drawn[0]
+    parts = [
+        (J, np.zeros(6), bias, damping, qd, idle),
+        (J, F, bias, damping, rest, idle),
+        (J, F, bias, damping, qd, rest),
+    ]
+    return [case, *parts, *drawn]
 
 
 def _set_point(rng):
@@ -129,15 +146,19 @@ def _set_point(rng):
         draw.numbers(rng, 0.1, 0.8, COUNT),
         strict=True,
     )
-    return [(20.0, 400.0, 0.42), *(tuple(map(float, one)) for one in drawn)]
+    # A deep one, and a hand that hangs from a ceiling and pulls it down.
+    asked = [(20.0, 400.0, 0.42), (60.0, 50.0, 0.3), (-8.0, 300.0, -0.2)]
+    return [*asked, *(tuple(map(float, one)) for one in drawn)]
 
 
 def _hybrid(rng):
     _, _, K, D = _springs(rng)[0]
     case = (np.zeros(6), np.zeros(6), K, D, 10.0)
     forces = draw.numbers(rng, 5, 40, COUNT)
-    drawn = zip(_springs(rng)[1:], forces, strict=True)
-    return [case, *((*spring, float(force)) for spring, force in drawn)]
+    springs = _springs(rng)[-COUNT:]
+    asked = [(*springs[0], 0.0), (*springs[1], -12.0)]
+    drawn = zip(springs, forces, strict=True)
+    return [case, *asked, *((*spring, float(force)) for spring, force in drawn)]
 
 
 def _plain(inputs, kind, truth, mistakes) -> Ask:

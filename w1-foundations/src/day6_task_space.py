@@ -53,7 +53,8 @@ def task_inertia(J: np.ndarray, M: np.ndarray) -> np.ndarray:
 def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Return the acceleration, (6,), of the hand's site at p while qdd is 0.
 
-    A point at (1, 0, 0) that spins about z at 1 rad/s has (0, 0, 0, -1, 0, 0).
+    J_space has the screws about the world's origin; p, (3,), is in world axes. A point
+    at (1, 0, 0) that spins about z at 1 rad/s has (0, 0, 0, -1, 0, 0).
     """
     # region 6.2
     parts = (J_space * qd).T  # what each joint adds to the twists after it
@@ -87,8 +88,8 @@ def null_torque(
 ) -> np.ndarray:
     """Return the part of tau, (7,), that does not accelerate the hand.
 
-    If J only takes the first six of seven joints, and M and Lambda are the identity,
-    of seven ones the last is left.
+    What is taken away from tau is a push at the hand. If J only takes the first six of
+    seven joints, and M and Lambda are the identity, of seven ones the last is left.
     """
     # region 6.4
     return tau - J.T @ Lambda @ J @ np.linalg.solve(M, tau)
@@ -100,7 +101,8 @@ def spring_wrench(
 ) -> np.ndarray:
     """Return the wrench, (6,), of a spring and a damper between hand and target.
 
-    25 mm away from a spring of 400 N/m it is 10 N.
+    e and V_err, (6,), are the target's minus the hand's; K and D are (6, 6). 25 mm away
+    from a spring of 400 N/m it is 10 N.
     """
     # region 6.5
     return K @ e + D @ V_err
@@ -110,7 +112,8 @@ def spring_wrench(
 def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     """Return D, (6, 6), with which a spring K, (6,), does not ring.
 
-    With every K = 4 and Lambda the identity it is 4 I.
+    It is made of the square roots of Lambda and of K, two matrices. With every K = 4
+    and Lambda the identity it is 4 I.
     """
     # region 6.6
     values, vectors = np.linalg.eigh(Lambda)
@@ -152,6 +155,7 @@ def hybrid_wrench(
 ) -> np.ndarray:
     """Return a wrench, (6,): a spring but along z, where it pushes down with a force.
 
+    e, V_err, K and D are those of `spring_wrench`.
     With e and V_err 0 it is (0, 0, 0, 0, 0, -force). The damper stays in all six.
     """
     # region 6.9
@@ -271,6 +275,8 @@ def main() -> int:
     lab.step("1. What the hand weighs: push it, and see how it accelerates")
     ready, Lambda, _ = hand_of(arm, READY_Q, np.zeros(7))
     lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
+    lab.show("and of a hand that nobody holds: what it weighs along x, y, z",
+             1 / np.diag(np.linalg.inv(Lambda))[3:], 3)  # fmt: skip
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
     lab.record("task_inertia", found["mass"], label="|Lambda a - F| / |F|, worst push",
                config="random", seed=SEED)  # fmt: skip

@@ -60,6 +60,31 @@ SET_POINT = [
         lambda f, k, s: s,
         "surface",
     ),
+    named(
+        "whole-metres",
+        "// leaves whole numbers only, here whole metres of depth; / divides",
+        lambda f, k, s: s - f // k,
+        "surface - force // k",
+    ),
+    named(
+        "docstrings-numbers",
+        "k is 400, as in the docstring, whatever it is given",
+        lambda f, k, s: s - f / 400.0,
+        "surface - force / 400",
+    ),
+    named(
+        "docstrings-numbers",
+        "the surface is at 0.42, as in the docstring, whatever it is given",
+        lambda f, k, s: 0.42 - f / k,
+        "0.42 - force / k",
+    ),
+    named(
+        "half-a-depth",
+        "half of the depth is missing: force is k times depth, its half belongs to "
+        "energy",
+        lambda f, k, s: s - 0.5 * f / k,
+        "surface - force / (2 k)",
+    ),
 ]
 
 HYBRID_WRENCH = [
@@ -81,6 +106,19 @@ HYBRID_WRENCH = [
         "along z the damper is gone with the spring; it stays",
         lambda e, V, K, D, f: _at(K @ e + D @ V, Z, -f),
         "the right one without it",
+    ),
+    named(
+        "damper-left-out",
+        "the damper is gone in all six directions; it stays",
+        lambda e, V, K, D, f: _at(K @ e, Z, -f),
+        "the right one without any damper",
+    ),
+    named(
+        "damper-sign",
+        "the damper drives the hand on: V_err is the target's twist minus the hand's, "
+        "so it is added",
+        lambda e, V, K, D, f: _at(K @ e - D @ V, Z, -D[Z] @ V - f),
+        "the right one with -D V_err",
     ),
     named(
         "moment-in-place-of-force",

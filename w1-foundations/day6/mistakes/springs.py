@@ -49,6 +49,12 @@ SPRING_WRENCH = [
         "the right one with its halves swapped",
     ),
     named(
+        "millimetres",
+        "the error is put into millimetres; here everything is in metres",
+        lambda e, V, K, D: K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V,
+        "the right one with e in mm",
+    ),
+    named(
         "half-a-spring",
         "the spring has a factor 1/2: that is its energy's, not its force's",
         lambda e, V, K, D: 0.5 * K @ e + D @ V,
@@ -58,10 +64,33 @@ SPRING_WRENCH = [
 
 CRITICAL_DAMPING = [
     named(
+        "Lambda-ignored",
+        "Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring",
+        lambda K, L: np.diag(2.0 * np.sqrt(K)),
+        "diag(2 sqrt(K))",
+    ),
+    named(
+        "another-design",
+        "this does not ring either: you take Lambda and K to axes in which both are "
+        "diagonal. Here the damping is the sum of two products of the roots of Lambda "
+        "and K",
+        lambda K, L: _by_modes(K, L),
+        "that other design",
+    ),
+    named(
         "entries-square-rooted",
         "np.sqrt takes the root of every entry of Lambda; the root of a matrix is the "
         "one that, times itself, is the matrix",
         lambda K, L: _sum(np.sqrt(L), np.sqrt(K)),
+        "the right one with np.sqrt(Lambda)",
+    ),
+    named(
+        "entries-square-rooted",
+        "np.sqrt takes the root of every entry of Lambda, NaN where it is negative; "
+        "the root of a matrix is the one that, times itself, is the matrix",
+        lambda K, L: (
+            np.sqrt(L) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(L)
+        ),
         "the right one with np.sqrt(Lambda)",
     ),
     named(
@@ -158,6 +187,15 @@ CRITICAL_DAMPING = [
 
 def _sum(root_L, root_k):
     return root_L * root_k + root_k[:, None] * root_L
+
+
+def _by_modes(K, L):
+    """Critical in every mode: another D that does not ring."""
+    low = np.linalg.cholesky(L)
+    back = np.linalg.inv(low)
+    k, W = np.linalg.eigh(back @ np.diag(K) @ back.T)
+    Q = low @ W
+    return 2.0 * Q @ np.diag(np.sqrt(k)) @ Q.T
 
 
 def _turned(L):

@@ -1,11 +1,19 @@
-"""Mistakes in tasks 6.3 `osc_torque`, 6.4 `null_torque` and 6.7 `impedance_torque`."""
+"""Mistakes in tasks 6.3 `osc_torque` and 6.4 `null_torque`."""
 
 import numpy as np
+
+from robo47.checks import Array
 
 from . import named
 from .inertias import SWAP
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
+
+
+def _elbow(J: Array) -> Array:
+    """Return the joint speeds, of length 1, that leave the hand at rest."""
+    return np.linalg.svd(J)[2][-1]
+
 
 OSC_TORQUE = [
     named(
@@ -59,6 +67,13 @@ OSC_TORQUE = [
         "the right one with pinv(J)",
     ),
     named(
+        "site-bias-not-weighed",
+        "site_bias is taken away after Lambda: it is an acceleration, so it has to be "
+        "taken from acc first",
+        lambda J, L, b, s, a: J.T @ (L @ a - s) + b,
+        "J^T (Lambda acc - site_bias) + bias",
+    ),
+    named(
         "acc-sign",
         "the wanted acceleration is taken away from site_bias: the hand is pushed the "
         "other way, further and further from where it should be",
@@ -87,6 +102,20 @@ OSC_TORQUE = [
 ]
 
 NULL_TORQUE = [
+    named(
+        "another-projector",
+        "it does not accelerate the hand either, but what you took away is no push at "
+        "the hand: that would be J^T times a wrench, whose size Lambda knows",
+        lambda J, M, L, t: M @ _elbow(J) * (_elbow(J) @ solve(M, t)),
+        "M n n^T M^-1 tau",
+    ),
+    named(
+        "acceleration",
+        "this is an acceleration of the joints that the hand does not feel; M makes a "
+        "torque of it",
+        lambda J, M, L, t: solve(M, t - J.T @ L @ J @ solve(M, t)),
+        "M^-1 times the right one",
+    ),
     named(
         "not-projected",
         "tau is returned as it is: all of it reaches the hand",
@@ -170,76 +199,5 @@ NULL_TORQUE = [
         "I - J^T pinv(J^T) keeps speeds from the hand, not torques",
         lambda J, M, L, t: t - J.T @ pinv(J.T) @ t,
         "tau - J^T pinv(J^T) tau",
-    ),
-]
-
-IMPEDANCE_TORQUE = [
-    named(
-        "bias-forgotten",
-        "bias is missing: the arm sags under its weight, decimetres at a soft hand",
-        lambda J, F, b, d, qd, n: J.T @ F + d * qd + n,
-        "the right one without bias",
-    ),
-    named(
-        "bias-sign",
-        "bias is taken away; your torques have to hold it, so it is added",
-        lambda J, F, b, d, qd, n: J.T @ F - b + d * qd + n,
-        "the right one with -bias",
-    ),
-    named(
-        "damping-forgotten",
-        "the joints' damping is not made up for",
-        lambda J, F, b, d, qd, n: J.T @ F + b + n,
-        "the right one without damping qd",
-    ),
-    named(
-        "damping-sign",
-        "the joints' damping is taken away: the joints rub already, so your torques "
-        "have to make up for it",
-        lambda J, F, b, d, qd, n: J.T @ F + b - d * qd + n,
-        "the right one with -damping qd",
-    ),
-    named(
-        "damping-without-qd",
-        "damping is added as it is; it is a torque only once it is times qd",
-        lambda J, F, b, d, qd, n: J.T @ F + b + d + n,
-        "the right one with damping for damping qd",
-    ),
-    named(
-        "wrench-sign",
-        "the wrench has the wrong sign: the hand pulls where it should push",
-        lambda J, F, b, d, qd, n: -J.T @ F + b + d * qd + n,
-        "the right one with -J^T F",
-    ),
-    named(
-        "wrench-forgotten",
-        "the wrench is missing: the hand floats",
-        lambda J, F, b, d, qd, n: b + d * qd + n,
-        "the right one without J^T F",
-    ),
-    named(
-        "pinv-for-transpose",
-        "pinv(J) takes the wrench to the joints; pushes go to torques with J^T, and "
-        "the pseudo-inverse is for speeds",
-        lambda J, F, b, d, qd, n: pinv(J) @ F + b + d * qd + n,
-        "the right one with pinv(J)",
-    ),
-    named(
-        "null-forgotten",
-        "tau_null is missing: nothing holds the elbow back",
-        lambda J, F, b, d, qd, n: J.T @ F + b + d * qd,
-        "the right one without tau_null",
-    ),
-    named(
-        "null-sign",
-        "tau_null is taken away; it is a torque to add",
-        lambda J, F, b, d, qd, n: J.T @ F + b + d * qd - n,
-        "the right one with -tau_null",
-    ),
-    named(
-        "halves-swapped",
-        "the wrench is read as (force; moment); the moment comes first",
-        lambda J, F, b, d, qd, n: J.T @ F[SWAP] + b + d * qd + n,
-        "the right one with its halves swapped",
     ),
 ]

@@ -1,4 +1,4 @@
-# task 6.6: not-finite
+# task 6.6: entries-square-rooted
 # np.sqrt of a matrix: NaN where an entry is negative.
 import numpy as np
 

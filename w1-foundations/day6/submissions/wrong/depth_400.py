@@ -1,4 +1,4 @@
-# task 6.8: off
+# task 6.8: docstrings-numbers
 # The stiffness of the lab typed in.
 
 

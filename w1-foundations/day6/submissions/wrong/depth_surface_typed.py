@@ -1,0 +1,6 @@
+# task 6.8: docstrings-numbers
+# The docstring's surface.
+
+
+def set_point_for_force(force, k, surface):
+    return 0.42 - force / k
