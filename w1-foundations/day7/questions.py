@@ -140,7 +140,7 @@ def _bodies(rng):
 def _grips(rng):
     drawn = draw.numbers(rng, 0.1, 1.0, 9, 3) * [8.0, 1.5, 4.0]
     down = [(6.0, 1.4, -2.5), (3.0, 0.5, -6.0)]
-    return _floats([(0.9173, 1.0, 0.0), *down, *draw.rounded(drawn)])
+    return _floats([(0.9247, 1.0, 0.0), *down, *draw.rounded(drawn)])
 
 
 QUESTIONS = {
