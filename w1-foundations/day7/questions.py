@@ -10,14 +10,16 @@ from robo47 import se3, trajectory
 from robo47.diagnose import Ask, Matrix, Pose, Scalar, Slip, Vector, draw
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
-from .mistakes.durations import DURATION
+from .mistakes.cubes import CUBE
+from .mistakes.durations import DURATION, NO_WAY, never_less
 from .mistakes.grasps import GRASP
 from .mistakes.lines import STRAIGHT
-from .mistakes.loads import CARRY, CUBE
+from .mistakes.loads import CARRY
 from .mistakes.moves import JOINT_MOVE
 from .mistakes.ramps import TRAPEZOID
-from .mistakes.scalings import SCALING
-from .mistakes.splines import COEFFICIENTS
+from .mistakes.scalings import SCALING, by_quotients
+from .mistakes.splines import COEFFICIENTS, which_condition
+from .mistakes.turns import TURNS
 
 NEAR = 1e-5
 NO_LIMIT = 1e9  # rad/s2, in the docstring's case
@@ -60,25 +62,30 @@ def _ways(rng):
         draw.numbers(rng, 2, 20, 6, 7),
         strict=True,
     )
-    return [first, *panda, short, *drawn]
+    tiny = (1e-5 * panda[0][0], SPEED_LIMITS, ACC_LIMITS)
+    return [first, *panda, short, tiny, *drawn]
 
 
 def _moves(rng):
     times = _times(rng, 6)
     n = len(times)
     q0, q1 = draw.configurations(rng, n), draw.configurations(rng, n)
-    return [(a, b, t, T) for a, b, (t, T) in zip(q0, q1, times, strict=True)]
+    rows = [(a, b, t, T) for a, b, (t, T) in zip(q0, q1, times, strict=True)]
+    # Past pi, where only joint6 goes: a joint's angle is no direction.
+    far = np.array([0.1, -0.4, 0.2, -1.8, 0.3, 3.7, 0.7])
+    return [*rows[:6], (q0[0], far, 1.8, 2.0), (far, q1[0], 0.3, 2.0), *rows[6:]]
 
 
 def _profiles(rng):
     """Return all pieces of a long move and of a short one, then drawn ones.
 
-    Never at the moment when a piece ends: what the acceleration is there is a matter
-    of taste.
+    Between them, two moves just too short and just long enough to reach v. Never at
+    the moment when a piece ends: what the acceleration is there is a matter of taste.
     """
     long, short = (1.0, 0.5, 1.0), (0.1, 1.0, 2.0)
     fixed = [(t, *long) for t in (1.0, 0.3, 2.2, 3.0, -0.2)]
     fixed += [(t, *short) for t in (0.1, 0.3, 0.6)]
+    fixed += [(0.6, L, 1.0, 2.0) for L in (0.48, 0.51)]  # v^2 / a is 0.5
     sizes = draw.numbers(rng, 0.3, 2.0, 6, 3)
     t = draw.numbers(rng, 0.1, 2.0, 6)
     return _floats([*fixed, *((x, *row) for x, row in zip(t, sizes, strict=True))])
@@ -89,7 +96,8 @@ def _states(rng):
     first = [(zero, one, 1.0), (zero, one, 2.0)]
     start, end = draw.numbers(rng, -1, 1, 2, 8, 3)
     T = map(float, draw.numbers(rng, 0.5, 2.5, 8))
-    return [*first, *zip(start, end, T, strict=True)]
+    quick = (np.array([0.02, -0.1, 0.3]), np.array([0.05, 0.1, -0.4]), 0.25)
+    return [*first, quick, *zip(start, end, T, strict=True)]
 
 
 def _ends(rng):
@@ -102,13 +110,19 @@ def _ends(rng):
 
 
 def _cubes(rng):
-    """Return cubes at many yaws, none half way between two quarter turns."""
+    """Return cubes at many yaws, none half way between two quarter turns.
+
+    The first ones are typed: among them hardly any yaw, and no height at all.
+    """
     quarters = np.arange(-2, 3)[rng.permutation(5)]
     yaw = quarters * np.pi / 2 + rng.uniform(-0.7, 0.7, 5)
     yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *draw.rounded(yaw)]
     place = draw.numbers(rng, 0.1, 0.7, len(yaw), 3)
     above = map(float, draw.numbers(rng, 0.02, 0.3, len(yaw)))
-    return list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
+    rows = list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
+    p = np.array([0.55, -0.15, 0.22])
+    low = [(np.radians(0.5), 0.0), (np.radians(-91.0), 0.005)]
+    return [*rows[:4], *((se3.make_T(se3.Rz(a), p), h) for a, h in low), *rows[4:]]
 
 
 def _bodies(rng):
@@ -125,7 +139,8 @@ def _bodies(rng):
 
 def _grips(rng):
     drawn = draw.numbers(rng, 0.1, 1.0, 9, 3) * [8.0, 1.5, 4.0]
-    return _floats([(0.9173, 1.0, 0.0), *draw.rounded(drawn)])
+    down = [(6.0, 1.4, -2.5), (3.0, 0.5, -6.0)]
+    return _floats([(0.9247, 1.0, 0.0), *down, *draw.rounded(drawn)])
 
 
 QUESTIONS = {
@@ -134,6 +149,7 @@ QUESTIONS = {
         Vector((3,), names=SCALED),
         truth=trajectory.quintic_scaling,
         mistakes=SCALING,
+        near_miss=by_quotients,
         near=NEAR,
     ),
     "quintic_duration": Ask(
@@ -141,6 +157,8 @@ QUESTIONS = {
         Scalar(unit="s"),
         truth=trajectory.quintic_duration,
         mistakes=DURATION,
+        unnamed=never_less,
+        held_out=[NO_WAY],
         near=NEAR,
     ),
     "joint_move": Ask(
@@ -163,10 +181,16 @@ QUESTIONS = {
         truth=trajectory.quintic_coefficients,
         mistakes=COEFFICIENTS,
         slips=[SINGULAR],
+        unnamed=which_condition,
         near=NEAR,
     ),
     "straight_pose": Ask(
-        _ends, Pose(), truth=trajectory.straight_pose, mistakes=STRAIGHT, near=NEAR
+        _ends,
+        Pose(),
+        truth=trajectory.straight_pose,
+        mistakes=STRAIGHT,
+        held_out=TURNS,
+        near=NEAR,
     ),
     "grasp_pose": Ask(
         _cubes, Pose(), truth=trajectory.grasp_pose, mistakes=GRASP, near=NEAR

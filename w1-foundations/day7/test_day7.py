@@ -78,7 +78,7 @@ def test_the_cases_of_the_docstrings():
     none, far = np.zeros((3, 3)), np.array([2.0, 0, 0])
     both = lab.carry(1.0, np.zeros(3), none, 1.0, far, none)
     assert_same(both, [2, 1, 0, 0, 0, 2, 2, 0, 0, 0])
-    assert lab.heaviest_cube(0.9173, 1.0, 0.0) == pytest.approx(0.187, abs=5e-4)
+    assert lab.heaviest_cube(0.9247, 1.0, 0.0) == pytest.approx(0.189, abs=5e-4)
 
 
 def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
@@ -108,6 +108,7 @@ def test_step_1s_two_mistakes():
     assert lab.quintic_scaling(0.6, 2.0)[1] * 2 == pytest.approx(1.323, abs=1e-9)
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
+    assert says("with 6 and 10 swapped s still ends at 1, but at a speed of 8 / T")
     assert says("sd is 1.3230 in place of 0.6615. Without the clip s is 1.2207")
     assert says("by 22 % of the way")
 
@@ -150,6 +151,12 @@ def test_step_7s_sentences():
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
     assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s3")
     assert 0.78 < ways["trapezoid"][1] / T < 0.82  # "a fifth faster"
+    top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
+    alone = DQ / top + top / lab.A_MAX
+    assert (lab.V_MAX / DQ).argmin() == 6
+    assert (lab.A_MAX / DQ).argmin() == alone.argmax() == 1
+    assert says("joint7 sets its speed and joint2 its acceleration")
+    assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
 
 
 def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate(monkeypatch):
@@ -188,9 +195,12 @@ def test_what_the_grip_lifts_is_as_predicted(mass, slips):
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
     assert says(f"speeds up with {up:.2f} m/s2")
-    assert says(f"{lab.heaviest_cube(0.917, 1.0, 0.0):.3f} kg at rest")
-    assert says(f"and {lab.heaviest_cube(0.917, 1.0, up):.3f} kg while")
-    assert says(f"bound is {lab.heaviest_cube(0.917, 0.3, up):.3f} kg")
+    assert says(f"{lab.heaviest_cube(0.9247, 1.0, 0.0):.3f} kg at rest")
+    assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
+    assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")
+    inner = scenes.PAD_POS[1] - scenes.PAD_HALF[1]  # a pad's face, from its finger
+    assert says(f"each pad stands {1000 * inner:.1f} mm before its finger")
+    assert scenes.CUBE_HALF - inner == pytest.approx(0.0185)
 
 
 @pytest.mark.kit

@@ -59,6 +59,7 @@ def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> fl
     """Return the shortest T of a quintic over dq within every joint's limits.
 
     All are (7,); dq has either sign. 1 rad at 1.875 rad/s and any acceleration: 1 s.
+    Where no joint moves: 0.
     """
     # region 7.2
     by_speed = 15 / 8 * np.abs(dq) / v_max
@@ -70,7 +71,7 @@ def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> fl
 def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, T: float) -> np.ndarray:
     """Return q, qd and qdd at time t on the way from q0 to q1, three rows, (3, 7).
 
-    At T / 2 it is half way, at 1.875 (q1 - q0) / T.
+    At T / 2 it is half way, at 1.875 (q1 - q0) / T. Angles past pi stay as they are.
     """
     # region 7.3
     s, sd, sdd = quintic_scaling(t, T)
@@ -82,7 +83,8 @@ def trapezoid(t: float, L: float, v: float, a: float) -> np.ndarray:
     """Return position, speed and acceleration of ramp, cruise, ramp over L, (3,).
 
     L 1, v 0.5, a 1 takes 2.5 s; at 1 s: 0.375, 0.5, 0. Where L is too short to reach v
-    there is no cruise: L 0.1, v 1, a 2 takes 0.4472 s.
+    there is no cruise: L 0.1, v 1, a 2 takes 0.4472 s. Before 0 it stands at 0, after
+    the end at L, without speed or acceleration. L, v and a are above 0.
     """
     # region 7.4
     top = min(v, np.sqrt(L * a))
@@ -121,7 +123,8 @@ def quintic_coefficients(start: np.ndarray, end: np.ndarray, T: float) -> np.nda
 def straight_pose(T0: np.ndarray, T1: np.ndarray, s: float) -> np.ndarray:
     """Return the pose at s between two poses: a straight line, a turn at one rate.
 
-    At s = 0 it is T0, at 1 it is T1, and half way the origin is in the middle.
+    At s = 0 it is T0, at 1 it is T1, and half way the origin is in the middle. A turn
+    of pi may go either way round, and no turn is too small.
     """
     # region 7.6
     R0, p0 = T0[:3, :3], T0[:3, 3]
@@ -154,7 +157,8 @@ def carry(
     """Return the one body that two are when the first holds the second, (10,).
 
     Given mass, centre of mass and inertia (3, 3) about it; returned mass, centre, and
-    inertia about the common centre as xx, yy, zz, xy, xz, yz. Two points of 1 kg, 2 m
+    inertia about the common centre as xx, yy, zz, xy, xz, yz: entries of the matrix, so
+    xy has the other sign than a textbook's product of inertia. Two points of 1 kg, 2 m
     apart along x: 2; (1, 0, 0); 0, 2, 2, 0, 0, 0.
     """
     # region 7.8
@@ -172,7 +176,8 @@ def carry(
 def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
     """Return the mass in kg that two fingers lift by friction alone.
 
-    Each presses with `grip` newtons. 0.9173 N, mu 1, no acceleration: 0.187 kg.
+    Each presses with `grip` newtons; the acceleration is positive upwards. 0.9247 N,
+    mu 1, no acceleration: 0.189 kg.
     """
     # region 7.9
     return 2 * mu * grip / (acceleration - GRAVITY[2])

@@ -3,5 +3,6 @@
 scalings  quintic_scaling          durations  quintic_duration
 moves     joint_move               splines    quintic_coefficients
 lines     straight_pose            grasps     grasp_pose
-loads     carry and heaviest_cube  ramps      trapezoid
+loads     carry                    ramps      trapezoid
+cubes     heaviest_cube            turns      straight_pose, half turns and small ones
 """

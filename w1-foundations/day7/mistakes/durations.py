@@ -5,7 +5,9 @@ from collections.abc import Callable
 import numpy as np
 
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
+from robo47.diagnose.ask import Case, HeldOut
+from robo47.diagnose.mistake import Finding, Mistake
+from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
 
 def _by(
@@ -52,6 +54,40 @@ def _roots_of_signed(dq: Array, v: Array, a: Array) -> Array:
     return np.where(whole, np.maximum(by_speed, root), by_speed)
 
 
+def _shorter(dq: Array, v: Array, a: Array) -> Array:
+    by_speed, by_acceleration = _by()(dq, v, a)
+    return np.minimum(by_speed.max(axis=1), by_acceleration.max(axis=1))
+
+
+def _fastest_by_each(dq: Array, v: Array, a: Array) -> Array:
+    by_speed, by_acceleration = _by()(dq, v, a)
+    return np.maximum(by_speed.min(axis=1), by_acceleration.min(axis=1))
+
+
+def _one_length(dq: Array, v: Array, a: Array) -> Array:
+    length = np.linalg.norm(dq, axis=1)[:, None]
+    return _worst()(length, v.min(axis=1)[:, None], a.min(axis=1)[:, None])
+
+
+def never_less(case: Case) -> Finding | None:
+    """Return that only short durations are wrong, and all of them the same."""
+    off = ~np.isclose(case.S, case.T, rtol=0.0, atol=1e-8)
+    least = float(case.S[off].min())
+    if off.all() or np.ptp(case.S[off]) > 1e-12:
+        return None
+    if case.T[off].max() > min(least, case.T[~off].min()):
+        return None
+    says = f"It is never less than {least:g} s; a short way takes less."
+    return Finding("never-less", says)
+
+
+NO_WAY = HeldOut(
+    "no-way",
+    "Right, but not where no joint moves: that takes 0 s, as the docstring says.",
+    lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
+)
+
+
 def _of_all(choose: Callable[[Array], Array]) -> Callable[..., Array]:
     return lambda dq, v, a: _worst()(dq, choose(v)[:, None], choose(a)[:, None])
 
@@ -71,9 +107,30 @@ DURATION = [
         "the cubic's duration",
     ),
     Mistake(
+        "peak-of-the-cubic",
+        "6 is the cubic's peak acceleration; the quintic's is where the derivative of "
+        "its acceleration is 0",
+        _worst(acceleration=6.0),
+        "the duration with 6",
+    ),
+    Mistake(
+        "peak-at-a-quarter",
+        "5.625 is the acceleration at a quarter of the time; its peak is a little "
+        "earlier, where its derivative is 0",
+        _worst(acceleration=5.625),
+        "the duration with 5.625",
+    ),
+    Mistake(
+        "shorter-of-two",
+        "it takes the shorter of the two durations, which breaks one of the limits; "
+        "the longer one keeps both",
+        _shorter,
+        "the smaller of the two",
+    ),
+    Mistake(
         "average-speed",
-        "dq / v would do for a move that is always at its top speed; this one starts "
-        "and stops softly",
+        "the time dq / v would do for a move that is always at its top speed; this one "
+        "starts and stops softly",
         _worst(speed=1.0),
         "the duration with dq / v",
     ),
@@ -94,6 +151,20 @@ DURATION = [
         "it takes the joint that needs least; all the others break their limits",
         lambda dq, v, a: np.maximum(*_by()(dq, v, a)).min(axis=1),
         "the smallest of the joints' durations",
+    ),
+    Mistake(
+        "fastest-joint",
+        "it takes the joint that needs least, for the speed and for the acceleration; "
+        "all the others break their limits",
+        _fastest_by_each,
+        "the larger of the two minima",
+    ),
+    Mistake(
+        "one-length",
+        "the ways of all joints are put together as one length, |dq|; each joint has "
+        "its own way and its own limits",
+        _one_length,
+        "the duration of |dq| with the lowest limits",
     ),
     Mistake(
         "summed",

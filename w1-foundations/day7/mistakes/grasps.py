@@ -69,8 +69,8 @@ GRASP = [
     ),
     Mistake(
         "turned-the-wrong-way",
-        "the tool turns the other way than the cube: look at the order of the turn and "
-        "the tool that looks down",
+        "the tool turns the other way than the cube: look at the yaw (its sign, and "
+        "which entries atan2 takes), then at the order of the turn and diag(1, -1, -1)",
         _grasp(fold=lambda yaw: -_folded(yaw)),
         "the pose with -yaw",
     ),

@@ -160,7 +160,7 @@ STRAIGHT = [
     ),
     Mistake(
         "goal-for-way",
-        "p1 stands where the way from p0 to p1 belongs",
+        "the goal p1 stands where the way from p0 to p1 belongs",
         _moved(lambda T0, T1, s: T0[:, :3, 3] + s * T1[:, :3, 3]),
         "p0 + s p1",
     ),

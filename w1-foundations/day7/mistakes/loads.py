@@ -1,4 +1,4 @@
-"""Mistakes in tasks 7.8 `carry` and 7.9 `heaviest_cube`."""
+"""Mistakes in task 7.8 `carry(m1, c1, I1, m2, c2, I2)`."""
 
 from collections.abc import Callable
 
@@ -18,6 +18,8 @@ def _moved(
         c2 - c,
     ),
     steiner: Callable[[Array], Array] = lambda d: d @ d * np.eye(3) - np.outer(d, d),
+    heavy: Callable[[float, float], tuple[float, float]] = lambda m1, m2: (m1, m2),
+    own: Callable[[Array, Array], Array] = np.add,
     rows: tuple[int, ...] = (0, 1, 2, 0, 0, 1),
     columns: tuple[int, ...] = (0, 1, 2, 1, 2, 2),
     signs: tuple[float, ...] = (1.0,) * 6,
@@ -25,7 +27,8 @@ def _moved(
     def one(m1: float, c1: Array, I1: Array, m2: float, c2: Array, I2: Array) -> Array:
         c = centre(m1, c1, m2, c2)
         d1, d2 = far(c1, c2, c)
-        both = I1 + m1 * steiner(d1) + I2 + m2 * steiner(d2)
+        w1, w2 = heavy(m1, m2)
+        both = own(I1, I2) + w1 * steiner(d1) + w2 * steiner(d2)
         six = both[list(rows), list(columns)] * signs
         return np.concatenate([[mass(m1, m2)], c, six])
 
@@ -80,8 +83,8 @@ CARRY = [
     ),
     Mistake(
         "along-the-way-too",
-        "d.d I alone resists a turn about the line between the centres too; d d^T has "
-        "to come off",
+        "the term d.d I alone resists a turn about the line between the centres too; "
+        "d d^T has to come off",
         _moved(steiner=lambda d: d @ d * np.eye(3)),
         "the answer without d d^T",
     ),
@@ -102,6 +105,36 @@ CARRY = [
         "the theorem takes the distance squared",
         _moved(steiner=lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d)),
         "the answer with |d|",
+    ),
+    Mistake(
+        "mass-not-in-the-theorem",
+        "the theorem is m (d.d I - d d^T); here the mass is missing",
+        _moved(heavy=lambda m1, m2: (1.0, 1.0)),
+        "the answer without the masses there",
+    ),
+    Mistake(
+        "total-mass-for-each",
+        "in the theorem, both bodies have the mass of the whole; each has its own",
+        _moved(heavy=lambda m1, m2: (m1 + m2, m1 + m2)),
+        "the answer with m1 + m2 there",
+    ),
+    Mistake(
+        "masses-exchanged",
+        "in the theorem, each body has the mass of the other",
+        _moved(heavy=lambda m1, m2: (m2, m1)),
+        "the answer with m1 and m2 exchanged there",
+    ),
+    Mistake(
+        "inertia-of-one",
+        "the second body's own inertia I2 is missing",
+        _moved(own=lambda I1, I2: I1),
+        "the answer without I2",
+    ),
+    Mistake(
+        "inertia-of-one",
+        "the first body's own inertia I1 is missing",
+        _moved(own=lambda I1, I2: I2),
+        "the answer without I1",
     ),
     Mistake(
         "plain-mean",
@@ -131,76 +164,24 @@ CARRY = [
         "by-rows",
         "the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes first",
         _moved(rows=(0, 0, 0, 1, 1, 2), columns=(0, 1, 2, 1, 2, 2)),
-        "the six by rows",
+        "the answer with the six by rows",
     ),
     Mistake(
         "xy-last",
         "the last three are in the order yz, xz, xy; xy comes first",
         _moved(rows=(0, 1, 2, 1, 0, 0), columns=(0, 1, 2, 2, 2, 1)),
-        "the six with yz, xz, xy",
+        "the answer with yz, xz, xy",
     ),
     Mistake(
         "products-negated",
         "the last three have the other sign: here they are entries of the matrix",
         _moved(signs=(1.0, 1.0, 1.0, -1.0, -1.0, -1.0)),
-        "the six with the products' signs turned",
+        "the answer with the signs of xy, xz, yz turned",
     ),
     Mistake(
         "mass-of-the-first",
         "the mass is that of the first body alone",
         _moved(mass=lambda m1, m2: m1),
         "the answer with the first mass",
-    ),
-]
-
-G = 9.81
-CUBE = [
-    Mistake(
-        "one-finger",
-        "one finger's friction is missing: two faces hold the cube",
-        lambda grip, mu, a: mu * grip / (G + a),
-        "half of it",
-    ),
-    Mistake(
-        "acceleration-forgotten",
-        "the cube's acceleration does not count; while it speeds up it needs more",
-        lambda grip, mu, a: 2 * mu * grip / G,
-        "the mass at rest",
-    ),
-    Mistake(
-        "acceleration-sign",
-        "the acceleration is taken off gravity; upwards it comes on top",
-        lambda grip, mu, a: 2 * mu * grip / (G - a),
-        "the mass with g - a",
-    ),
-    Mistake(
-        "gravity-forgotten",
-        "gravity is missing: at rest nothing would have to be lifted",
-        lambda grip, mu, a: 2 * mu * grip / a,
-        "the mass without gravity",
-    ),
-    Mistake(
-        "weight-for-mass",
-        "this is the force in newtons; the mass is that force over g + a",
-        lambda grip, mu, a: 2 * mu * grip,
-        "the friction's force",
-    ),
-    Mistake(
-        "friction-forgotten",
-        "mu does not count; without friction nothing is lifted",
-        lambda grip, mu, a: 2 * grip / (G + a) + 0.0 * mu,
-        "the mass with mu = 1",
-    ),
-    Mistake(
-        "divided-by-friction",
-        "mu stands below the line; more friction lifts more",
-        lambda grip, mu, a: 2 * grip / (mu * (G + a)),
-        "the mass with 1 / mu",
-    ),
-    Mistake(
-        "gravity-negative",
-        "gravity has the wrong sign here: its z is -9.81, and it pulls down",
-        lambda grip, mu, a: 2 * mu * grip / (a - G),
-        "the mass with -9.81",
     ),
 ]

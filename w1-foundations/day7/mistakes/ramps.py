@@ -80,6 +80,19 @@ TRAPEZOID = [
         "the triangle with sqrt(L a / 2)",
     ),
     Mistake(
+        "triangle-not-a-root",
+        "the triangle's height is the root of L a; L a itself is the square of a speed",
+        Ramps(top=lambda L, v, a: min(v, L * a)),
+        "the triangle with L a",
+    ),
+    Mistake(
+        "triangle-too-late",
+        "it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; "
+        "there are two ramps",
+        Ramps(top=lambda L, v, a: np.sqrt(L * a) if v**2 / (2 * a) > L else v),
+        "the triangle below v^2 / (2 a)",
+    ),
+    Mistake(
         "ramps-take-no-time",
         "the duration is L / v, as if it were at v from the first moment; the ramps "
         "cost one ramp more",
@@ -88,7 +101,8 @@ TRAPEZOID = [
     ),
     Mistake(
         "both-ramps-added",
-        "the duration has two ramps too many: half of each ramp's way is L's already",
+        "the duration is one ramp's time, v / a, too long: compared with full speed, "
+        "each ramp costs only half of its own time",
         Ramps(duration=lambda L, top, ramp: L / top + 2 * ramp),
         "the profile with T = L / v + 2 v / a",
     ),
@@ -153,6 +167,6 @@ TRAPEZOID = [
         "order",
         "the order is position, speed, acceleration; here it runs backwards",
         lambda *columns: Ramps()(*columns)[:, ::-1],
-        "acceleration, speed, position",
+        "the order acceleration, speed, position",
     ),
 ]

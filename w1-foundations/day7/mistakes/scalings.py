@@ -1,11 +1,14 @@
 """Mistakes in task 7.1 `quintic_scaling(t, T)`, from (n,) to (n, 3)."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
+from robo47.diagnose.ask import Case
+from robo47.diagnose.compare import difference
+from robo47.diagnose.mistake import Finding, Mistake
 
 QUINTIC = (0.0, 0.0, 0.0, 10.0, -15.0, 6.0)
 Time = Callable[[Array, Array], Array]
@@ -49,12 +52,35 @@ def _only_s_clipped(t: Array, T: Array) -> Array:
     return np.concatenate([polynomial()(t, T)[:, :1], free[:, 1:]], axis=1)
 
 
+def _at_rest(scaling: Callable[[Array, Array], Array]) -> Callable[..., Array]:
+    """Return a scaling with speed and acceleration 0 at its ends and beyond."""
+
+    def redo(t: Array, T: Array) -> Array:
+        rows = scaling(t, T)
+        rows[(t <= 0) | (t >= T), 1:] = 0.0
+        return rows
+
+    return redo
+
+
+def by_quotients(case: Case) -> Finding | None:
+    """Return that sd and sdd are close where s is exact: a quotient leaves that."""
+    if difference(case.S[:, 0], case.T[:, 0]).max() > 1e-14:
+        return None
+    off = difference(case.S, case.T).max()
+    return Finding(
+        "difference-quotient",
+        f"s is exact, but sd or sdd is off by {off:.1e}, as a difference quotient "
+        "leaves it. The derivative of a polynomial is a polynomial: write it down.",
+    )
+
+
 _NOT_DIVIDED = (
     "{} is the derivative with respect to x = t / T; with respect to t, each "
     "derivative divides by T once more"
 )
 
-SCALING = [
+_JUMPS = [
     Mistake(
         "cubic",
         "this is the cubic, 3 x^2 - 2 x^3; its acceleration jumps at both ends",
@@ -68,17 +94,22 @@ SCALING = [
         "s = x",
     ),
     Mistake(
+        "cosine",
+        "this is the raised cosine; its acceleration jumps at both ends",
+        _cosine,
+        "the raised cosine",
+    ),
+]
+
+SCALING = [
+    *_JUMPS,
+    *(replace(m, redo=_at_rest(m.redo)) for m in _JUMPS),
+    Mistake(
         "septic",
         "this is the polynomial of degree 7, which has no jerk at the ends either; the "
         "task is the quintic",
         polynomial((0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0)),
         "the polynomial of degree 7",
-    ),
-    Mistake(
-        "cosine",
-        "this is the raised cosine; its acceleration jumps at both ends",
-        _cosine,
-        "the raised cosine",
     ),
     Mistake(
         "6-and-10-swapped",
@@ -96,23 +127,23 @@ SCALING = [
         "sd-and-sdd-not-divided",
         _NOT_DIVIDED.format("each of sd and sdd"),
         polynomial(powers=(0, 0, 0)),
-        "the derivatives with respect to x",
+        "the answer with derivatives with respect to x",
     ),
     Mistake(
         "sd-not-divided",
-        _NOT_DIVIDED.format("sd"),
+        _NOT_DIVIDED.format("the entry sd"),
         polynomial(powers=(0, 0, 2)),
         "sd without 1/T",
     ),
     Mistake(
         "sdd-not-divided",
-        _NOT_DIVIDED.format("sdd"),
+        _NOT_DIVIDED.format("the entry sdd"),
         polynomial(powers=(0, 1, 0)),
         "sdd without 1/T^2",
     ),
     Mistake(
         "sdd-divided-once",
-        "sdd is divided by T once; it is a second derivative",
+        "the entry sdd is divided by T once; it is a second derivative",
         polynomial(powers=(0, 1, 1)),
         "sdd with 1/T",
     ),
@@ -120,7 +151,7 @@ SCALING = [
         "multiplied-by-T",
         "the derivatives are multiplied by T, where the chain rule divides",
         polynomial(powers=(0, -1, -2)),
-        "sd and sdd times T and T^2",
+        "the answer with T and T^2 as factors",
     ),
     Mistake(
         "t-for-x",
@@ -163,7 +194,7 @@ SCALING = [
         "only-s-clipped",
         "s stops at the end, but sd and sdd go on: it says that it moves and stands",
         _only_s_clipped,
-        "sd and sdd without their ends",
+        "the answer without the ends of sd and sdd",
     ),
     Mistake(
         "backwards",
@@ -175,12 +206,12 @@ SCALING = [
         "order",
         "the order is s, sd, sdd; here the derivatives are swapped",
         lambda t, T: polynomial()(t, T)[:, [0, 2, 1]],
-        "s, sdd, sd",
+        "the order s, sdd, sd",
     ),
     Mistake(
         "order",
         "the order is s, sd, sdd; here it runs backwards",
         lambda t, T: polynomial()(t, T)[:, ::-1],
-        "sdd, sd, s",
+        "the order sdd, sd, s",
     ),
 ]

@@ -6,9 +6,15 @@ import numpy as np
 
 from robo47 import trajectory
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, each
+from robo47.diagnose.ask import Case
+from robo47.diagnose.mistake import Finding, Mistake, each
 
 POWERS = np.arange(6)
+CONDITIONS = tuple(
+    f"the {what} at the {where}"
+    for where in ("start", "end")
+    for what in ("position", "speed", "acceleration")
+)
 
 
 def _conditions(T: float) -> Array:
@@ -44,31 +50,47 @@ def _interleaved(start: Array, end: Array, T: Array) -> Array:
     return trajectory.quintic_coefficients(six[:, :3], six[:, 3:], T)
 
 
+def which_condition(case: Case) -> Finding | None:
+    """Return which one of the six conditions an answer does not keep, if it is one."""
+    start, end, T = case.arguments
+    rows = np.array([_conditions(float(x)) for x in T])
+    kept = (rows @ case.S[..., None])[..., 0]
+    off = np.abs(kept - np.concatenate([start, end], axis=1)).max(axis=0) > 1e-6
+    if off.sum() != 1:
+        return None
+    which = CONDITIONS[int(np.argmax(off))]
+    return Finding(
+        "one-condition-not-kept",
+        f"Five of the six conditions are kept; {which} is not. What stands in front of "
+        "each coefficient there, and what on the right side?",
+    )
+
+
 right = trajectory.quintic_coefficients
 COEFFICIENTS = [
     Mistake(
         "descending",
         "the highest power comes first; the constant has to",
         lambda start, end, T: right(start, end, T)[:, ::-1],
-        "the coefficients in descending order",
+        "the answer with the coefficients in descending order",
     ),
     Mistake(
         "ends-swapped",
         "it goes from the end to the start",
         lambda start, end, T: right(end, start, T),
-        "the coefficients with the ends swapped",
+        "the answer with the ends swapped",
     ),
     Mistake(
         "in-powers-of-x",
         "these are the coefficients of powers of t / T, not of t",
         lambda start, end, T: right(start, end, T) * T[:, None] ** POWERS,
-        "the coefficients of t / T",
+        "the answer with the coefficients of t / T",
     ),
     Mistake(
         "T-is-1",
         "T does not count: the end's conditions are those at t = 1",
         lambda start, end, T: right(start, end, np.ones_like(T)),
-        "the coefficients for T = 1",
+        "the answer with the coefficients for T = 1",
     ),
     Mistake(
         "cubic",
@@ -80,24 +102,24 @@ COEFFICIENTS = [
         "accelerations-zero",
         "the accelerations at the ends are taken as 0; they are given",
         lambda start, end, T: right(start * [1, 1, 0], end * [1, 1, 0], T),
-        "the coefficients without accelerations",
+        "the answer without accelerations",
     ),
     Mistake(
         "rest-to-rest",
         "speeds and accelerations at the ends are taken as 0; they are given",
         lambda start, end, T: right(start * [1, 0, 0], end * [1, 0, 0], T),
-        "the coefficients from rest to rest",
+        "the answer with the coefficients from rest to rest",
     ),
     Mistake(
         "two-forgotten",
         "the second derivative of t^2 is 2, not 1: the start's acceleration is doubled",
         _solved(_two_forgotten),
-        "the coefficients with a 1 there",
+        "the answer with a 1 there",
     ),
     Mistake(
         "conditions-mixed-up",
         "the right side alternates start and end, but the rows do not",
         _interleaved,
-        "the coefficients with the right side mixed",
+        "the answer with the right side mixed",
     ),
 ]

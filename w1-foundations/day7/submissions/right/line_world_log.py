@@ -8,6 +8,9 @@ def log(R):
     if angle < 1e-12:
         return np.zeros(3)
     w = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    if np.pi - angle < 1e-6:  # w is 0 here; R + I is twice the axis's dyad
+        column = (R + np.eye(3))[:, np.argmax(np.diag(R))]
+        return angle * column / np.linalg.norm(column)
     return angle * w / np.linalg.norm(w)
 
 

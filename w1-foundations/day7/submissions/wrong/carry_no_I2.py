@@ -1,0 +1,14 @@
+# task 7.8: inertia-of-one
+# I2 forgotten.
+import numpy as np
+
+
+def carry(m1, c1, I1, m2, c2, I2):
+    m = m1 + m2
+    c = (m1 * c1 + m2 * c2) / m
+
+    def steiner(mass, d):
+        return mass * (d @ d * np.eye(3) - np.outer(d, d))
+
+    i = I1 + steiner(m1, c1 - c) + steiner(m2, c2 - c)
+    return np.array([m, *c, i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])

@@ -1,0 +1,10 @@
+# task 7.2: shorter-of-two
+# min for the outer max.
+import numpy as np
+
+
+def quintic_duration(dq, v_max, a_max):
+    dq = np.abs(dq)
+    by_speed = 15 / 8 * dq / v_max
+    by_acceleration = np.sqrt(10 / np.sqrt(3) * dq / a_max)
+    return min(by_speed.max(), by_acceleration.max())

@@ -1,0 +1,10 @@
+# task 7.2: peak-at-a-quarter
+# The acceleration at T / 4 taken for its peak.
+import numpy as np
+
+
+def quintic_duration(dq, v_max, a_max):
+    dq = np.abs(dq)
+    by_speed = 15 / 8 * dq / v_max
+    by_acceleration = np.sqrt(5.625 * dq / a_max)
+    return max(by_speed.max(), by_acceleration.max())
