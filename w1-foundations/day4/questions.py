@@ -119,19 +119,23 @@ def _speeds(rng):
 def _pushed(rng):
     """Return the Panda held up, let go; then in motion, with any torque.
 
-    No motor gives more than 87 N m; half of the torques are larger.
+    In half of the motions a load pulls as hard as the motors can, or harder: the bias
+    holds it, and tau, so that no acceleration gets out of hand.
     """
     case, *states = _states(rng, 11)
     zero = np.zeros(7)
     still = (case.M, case.gravity_torque, np.ones(7), zero)
     qd = draw.numbers(rng, -2, 2, 10, 7)
-    tau = [*draw.numbers(rng, -10, 10, 5, 7), *draw.numbers(rng, -150, 150, 5, 7)]
+    tau = draw.numbers(rng, -10, 10, 10, 7)
+    limits = np.array([87.0] * 4 + [12.0] * 3)
+    load = draw.rounded(1.5 * limits * rng.uniform(-1, 1, (10, 7)))
+    load[:5] = 0.0
     damping = [np.ones(7)] * 5 + list(draw.numbers(rng, 0.1, 3, 5, 7))
-    parts = zip(states, damping, qd, tau, strict=True)
+    parts = zip(states, damping, qd, tau, load, strict=True)
     return [
         (*still, case.gravity_torque),
         (*still, zero),
-        *((now.M, now.bias(v), D, v, t) for now, D, v, t in parts),
+        *((now.M, now.bias(v) + w, D, v, t + w) for now, D, v, t, w in parts),
     ]
 
 

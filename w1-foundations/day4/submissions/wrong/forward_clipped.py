@@ -1,5 +1,5 @@
 # task 4.8: torque-clipped (not in a run: the lab's torques are within the limits)
-# The motors' limits, from the data sheet.
+# The limits of the motors, from the data sheet.
 import numpy as np
 
 
