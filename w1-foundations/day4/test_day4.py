@@ -101,7 +101,10 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     off = np.abs(M - truth).max()
     assert f"wrong by {off:.3f} kg m2" in SENTENCES
     assert f"its least eigenvalue is {least:.3f}" in SENTENCES
-    assert 5.0 < off / truth.max() < 6.0  # "five times the largest entry"
+    assert f"over five times the largest entry of all 100 M ({truth.max():.3f})" in (
+        SENTENCES
+    )
+    assert 5.0 < off / truth.max() < 6.0
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
     assert caught == ["m [c] [c]^T forgotten"]
@@ -114,6 +117,23 @@ def test_the_mirrored_inertia_is_that_of_turned_over_v():
     flip = np.diag([1.0, 1, 1, -1, -1, -1])
     other = lab.spatial_inertia(2.0, -np.array([0.1, 0.2, 0.3]), np.eye(3))
     assert_same(flip @ G @ flip, other, 1e-15)
+
+
+def test_at_q_zero_a_mass_matrix_does_not_see_which_way_I_was_turned(arm, model):
+    def off(q, turned_back):
+        now, G = arm.at(q), []
+        for T, m, c, I in zip(now.T_links, *panda.inertias(model), strict=True):  # noqa: E741
+            R = T[:3, :3]
+            c = (R.T if "c" in turned_back else R) @ c + T[:3, 3]
+            I = R.T @ I @ R if "I" in turned_back else R @ I @ R.T  # noqa: E741
+            G.append(lab.spatial_inertia(m, c, I))
+        M = lab.mass_matrix(now.J_space, np.array(G), arm.armature)
+        return np.abs(M - now.M).max()
+
+    assert "at q = 0 M does not see which way the inertia I was turned" in SENTENCES
+    assert off(np.zeros(7), "I") < 1e-12
+    assert off(panda.READY_Q, "I") > 1e-3
+    assert off(np.zeros(7), "cI") > 0.1  # c turned the wrong way does show
 
 
 def test_gravity_at_ready_and_what_the_arm_weighs(arm):
@@ -130,7 +150,8 @@ def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
         path = lab.let_go(model, arm, share, (seconds, calm))
         return np.linalg.norm(path[-1] - path[0])
 
-    assert f"the hand is {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
+    after = "after half a second the hand is"
+    assert f"{after} {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
     assert f"99 % of gravity, {1000 * moved(0.99, 2.0):.0f} mm in two" in SENTENCES
     assert moved(1.0, 5.0) < 1e-12  # "less than a picometre"
 
