@@ -148,8 +148,8 @@ SHARED = plain([
     ),
     (
         "moment-only",
-        "each motor feels the moments about the world's origin alone; its axis passes "
-        "by it, so the force counts, too: all six numbers of S",
+        "each motor feels the moments about the world's origin alone; where its axis "
+        "does not go through that point, the force counts, too: all six numbers of S",
         torque(felt=np.repeat([1.0, 0.0], 3)),
     ),
     (

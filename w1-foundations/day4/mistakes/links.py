@@ -180,8 +180,8 @@ LINK_INERTIAS = [
     *(
         Mistake(
             "pose-of-the-link-before",
-            "every link is taken to be where the link before it is: T_links begins "
-            "with link1, so its index is the link's own",
+            "every link is taken to be where the link before it is: T_links[0] is "
+            "link1's, as masses[0] is",
             _pose_before(first),
             f"the answer with {called} for link1, its pose for link2 and so on",
         )
