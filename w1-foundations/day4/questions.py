@@ -14,13 +14,15 @@ from robo47.diagnose import Ask, Matrix, Symmetric, Vector, draw
 from robo47.diagnose.kinds import Kind
 from robo47.diagnose.mistake import each
 
+from .mistakes.bias import BIAS_TORQUE
 from .mistakes.bodies import SPATIAL_INERTIA
 from .mistakes.brackets import AD
-from .mistakes.forces import BIAS_TORQUE, INVERSE_DYNAMICS
+from .mistakes.energy import ENERGY
+from .mistakes.forces import INVERSE_DYNAMICS
+from .mistakes.forward import FORWARD_DYNAMICS
 from .mistakes.gravity import GRAVITY_TORQUE
 from .mistakes.links import LINK_INERTIAS
 from .mistakes.mass import MASS_MATRIX
-from .mistakes.small import ENERGY, FORWARD_DYNAMICS
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
@@ -98,9 +100,8 @@ def _weights(rng):
 
 
 def _twists(rng):
-    return [
-        (V,) for V in (np.eye(6)[2] + np.eye(6)[3], *draw.numbers(rng, -2, 2, 9, 6))
-    ]
+    case, shift = np.eye(6)[2] + np.eye(6)[3], np.array([0, 0, 0, 0.3, -0.2, 0.5])
+    return [(V,) for V in (case, shift, *draw.numbers(rng, -2, 2, 9, 6))]
 
 
 def _motions(rng):
@@ -116,13 +117,26 @@ def _speeds(rng):
 
 
 def _pushed(rng):
-    """Return the Panda at rest, held up; then in motion, with any torque."""
+    """Return the Panda held up, let go; then in motion, with any torque.
+
+    In half of the motions a load pulls as hard as the motors can, or harder: the bias
+    holds it, and tau, so that no acceleration gets out of hand.
+    """
     case, *states = _states(rng, 11)
-    still = (case.M, case.gravity_torque, np.ones(7), np.zeros(7), case.gravity_torque)
-    qd, tau = draw.numbers(rng, -2, 2, 10, 7), draw.numbers(rng, -10, 10, 10, 7)
+    zero = np.zeros(7)
+    still = (case.M, case.gravity_torque, np.ones(7), zero)
+    qd = draw.numbers(rng, -2, 2, 10, 7)
+    tau = draw.numbers(rng, -10, 10, 10, 7)
+    limits = np.array([87.0] * 4 + [12.0] * 3)
+    load = draw.rounded(1.5 * limits * rng.uniform(-1, 1, (10, 7)))
+    load[:5] = 0.0
     damping = [np.ones(7)] * 5 + list(draw.numbers(rng, 0.1, 3, 5, 7))
-    parts = zip(states, damping, qd, tau, strict=True)
-    return [still, *((now.M, now.bias(v), D, v, t) for now, D, v, t in parts)]
+    parts = zip(states, damping, qd, tau, load, strict=True)
+    return [
+        (*still, case.gravity_torque),
+        (*still, zero),
+        *((now.M, now.bias(v) + w, D, v, t + w) for now, D, v, t, w in parts),
+    ]
 
 
 def _energies(rng):
@@ -130,7 +144,10 @@ def _energies(rng):
     case = (M, qd, np.zeros(7), np.zeros((7, 3)), DOWN)
     parts = zip(_states(rng), draw.numbers(rng, -2, 2, 10, 7), _pulls(rng), strict=True)
     arm = _arm()
-    return [case, *((now.M, v, arm.masses, now.coms_world, g) for now, v, g in parts)]
+    ready = arm.at(draw.READY)
+    still = (ready.M, np.zeros(7), arm.masses, ready.coms_world, DOWN)
+    moving = ((now.M, v, arm.masses, now.coms_world, g) for now, v, g in parts)
+    return [case, still, *moving]
 
 
 def _ask(inputs, kind, truth, mistakes) -> Ask:

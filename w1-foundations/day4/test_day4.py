@@ -101,7 +101,8 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     off = np.abs(M - truth).max()
     assert f"wrong by {off:.3f} kg m2" in SENTENCES
     assert f"its least eigenvalue is {least:.3f}" in SENTENCES
-    assert 5.0 < off / truth.max() < 6.0  # "five times the largest entry"
+    assert f"entry of all 100 M ({truth.max():.3f})" in SENTENCES
+    assert 5.0 < off / truth.max() < 6.0  # "over five times"
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
     assert caught == ["m [c] [c]^T forgotten"]
@@ -114,6 +115,20 @@ def test_the_mirrored_inertia_is_that_of_turned_over_v():
     flip = np.diag([1.0, 1, 1, -1, -1, -1])
     other = lab.spatial_inertia(2.0, -np.array([0.1, 0.2, 0.3]), np.eye(3))
     assert_same(flip @ G @ flip, other, 1e-15)
+
+
+def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
+    def off(q, com, own):
+        now, (m, c, I) = arm.at(q), (arm.masses, arm.coms, arm.inertias)  # noqa: E741
+        R, p = now.T_links[:, :3, :3], now.T_links[:, :3, 3]
+        c = np.einsum(com, R, c) + p
+        G = dynamics.spatial_inertia(m, c, np.einsum(own, R, I, R))
+        return np.abs(lab.mass_matrix(now.J_space, G, arm.armature) - now.M).max()
+
+    assert "q = 0 M does not see which way the inertia I was turned" in SENTENCES
+    assert off(np.zeros(7), "nij,nj->ni", "nji,njk,nkl->nil") < 1e-12
+    assert off(panda.READY_Q, "nij,nj->ni", "nji,njk,nkl->nil") > 1e-3
+    assert off(np.zeros(7), "nji,nj->ni", "nji,njk,nkl->nil") > 0.4  # c shows
 
 
 def test_gravity_at_ready_and_what_the_arm_weighs(arm):
@@ -130,7 +145,8 @@ def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
         path = lab.let_go(model, arm, share, (seconds, calm))
         return np.linalg.norm(path[-1] - path[0])
 
-    assert f"the hand is {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
+    after = "after half a second the hand is"
+    assert f"{after} {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
     assert f"99 % of gravity, {1000 * moved(0.99, 2.0):.0f} mm in two" in SENTENCES
     assert moved(1.0, 5.0) < 1e-12  # "less than a picometre"
 

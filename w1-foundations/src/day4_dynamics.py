@@ -85,9 +85,9 @@ def gravity_torque(
 
 
 def ad(V: np.ndarray) -> np.ndarray:
-    """Return ad(V), (6, 6): how a twist changes when its frame moves with V, (6,).
+    """Return ad(V), (6, 6): how a twist changes that is carried along by V, (6,).
 
-    ad(V) @ V = 0: nothing moves when seen from itself.
+    ad(V) @ V = 0: carried along by itself, a twist stays the same.
     """
     # region 4.5
     W, zero = skew(V[:3]), np.zeros((3, 3))

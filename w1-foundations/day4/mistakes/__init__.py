@@ -2,6 +2,7 @@
 
 bodies   spatial_inertia          links     link_inertias
 mass     mass_matrix              gravity   gravity_torque
-brackets ad                       forces    inverse_dynamics and bias_torque
-small    forward_dynamics, energy passes    the algorithm whose parts forces replaces
+brackets ad                       forces    inverse_dynamics
+bias     bias_torque              forward   forward_dynamics
+energy   energy                   passes    the algorithm whose parts forces replaces
 """

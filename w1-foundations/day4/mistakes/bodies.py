@@ -34,6 +34,11 @@ def _squared(C: Array) -> Array:
     return 0.5 * np.trace(CC, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - CC
 
 
+def _other_signs(I: Array) -> Array:  # noqa: E741
+    """Return I with its products of inertia, off the diagonal, negated."""
+    return (2.0 * np.eye(3) - 1.0) * I
+
+
 RIGHT = _blocks()
 CORNERS_SWAPPED = _blocks(
     right=lambda m, C: m * transposed(C), left=lambda m, C: m * C
@@ -41,6 +46,13 @@ CORNERS_SWAPPED = _blocks(
 HALVES_SWAPPED = "the blocks are in the order (v; omega); omega comes first, as in J"
 
 SPATIAL_INERTIA = [
+    Mistake(
+        "about-the-centre-of-mass",
+        "c is not used: all of it is about the centre of mass. About the origin three "
+        "of the four blocks hold c",
+        _blocks(lambda m, C, own: own + 0 * C, lambda m, C: 0 * C, lambda m, C: 0 * C),
+        "the matrix with I and m on its diagonal and nothing else",
+    ),
     Mistake(
         "parallel-axis-forgotten",
         "the top left block is about the centre of mass still: what the distance to "
@@ -70,6 +82,20 @@ SPATIAL_INERTIA = [
         "the matrix with I + m |c|^2",
     ),
     Mistake(
+        "distance-counts-twice",
+        "the top left block adds m [c] [c]^T twice; the 1/2 of the energy does not "
+        "stand in the matrix, so it needs no 2",
+        _blocks(top=lambda m, C, own: own + 2 * m * C @ transposed(C)),
+        "the matrix with I + 2 m [c] [c]^T",
+    ),
+    Mistake(
+        "entry-by-entry",
+        "the top left block multiplies [c] and [c]^T entry by entry, with *; the "
+        "product of two matrices is @",
+        _blocks(top=lambda m, C, own: own + m * C * transposed(C)),
+        "the matrix with * there",
+    ),
+    Mistake(
         "mass-forgotten-in-the-parallel-axis",
         "the top left block adds [c] [c]^T without the mass",
         _blocks(top=lambda m, C, own: own + C @ transposed(C)),
@@ -80,6 +106,20 @@ SPATIAL_INERTIA = [
         "the body's own inertia I is missing: this is a point mass",
         _blocks(top=lambda m, C, own: m * C @ transposed(C)),
         "that of a point mass",
+    ),
+    Mistake(
+        "products-of-inertia-sign",
+        "the entries of I off its diagonal have the wrong sign; I is the matrix that "
+        "it has to be, and is added as it is",
+        _blocks(top=lambda m, C, own: _other_signs(own) + m * C @ transposed(C)),
+        "the matrix with those signs",
+    ),
+    Mistake(
+        "diagonal-of-I",
+        "only the diagonal of I is used; the other entries are 0 along a body's own "
+        "axes, and these are the world's",
+        _blocks(top=lambda m, C, own: own * np.eye(3) + m * C @ transposed(C)),
+        "the matrix with the rest of I as 0",
     ),
     Mistake(
         "corners-alike",
@@ -107,6 +147,20 @@ SPATIAL_INERTIA = [
         "the two corners are empty: they tie the turning to the moving, and vanish "
         "only about the centre of mass",
         _blocks(right=lambda m, C: 0 * C, left=lambda m, C: 0 * C),
+        "the matrix with 0 there",
+    ),
+    Mistake(
+        "one-corner-empty",
+        "the lower left corner is empty; the matrix is symmetric, so what stands in "
+        "the upper right one says what belongs there",
+        _blocks(left=lambda m, C: 0 * C),
+        "the matrix with 0 there",
+    ),
+    Mistake(
+        "one-corner-empty",
+        "the upper right corner is empty; the matrix is symmetric, so what stands in "
+        "the lower left one says what belongs there",
+        _blocks(right=lambda m, C: 0 * C),
         "the matrix with 0 there",
     ),
     Mistake(

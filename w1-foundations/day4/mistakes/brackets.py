@@ -38,6 +38,10 @@ def _ad(
     return redo
 
 
+def _with_identity(V: Array) -> Array:
+    return np.eye(6) + _ad()(V)
+
+
 AD = [
     Mistake(
         "v-on-top",
@@ -81,6 +85,20 @@ AD = [
         "the lower right block is [v]; both on the diagonal are [omega]",
         _ad(left=_nothing, last=_v),
         "the matrix with [omega] and [v] on the diagonal",
+    ),
+    Mistake(
+        "identity-added",
+        "the identity is added; ad(V) is what changes in a second, and for V = 0 "
+        "nothing does",
+        _with_identity,
+        "the matrix plus the identity",
+    ),
+    Mistake(
+        "product-for-v",
+        "the lower left block is [v] [omega]; a product like this, [p] R, stands in "
+        "the adjoint of a pose. Here it is one of the two alone",
+        _ad(left=lambda W, U: U @ W),
+        "the matrix with [v] [omega] there",
     ),
     Mistake(
         "omega-everywhere",

@@ -1,50 +1,39 @@
-"""Mistakes in tasks 4.6 `inverse_dynamics` and 4.7 `bias_torque`."""
+"""Mistakes in task 4.6 `inverse_dynamics`, most of them of 4.7 `bias_torque`, too."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
 from robo47.diagnose.mistake import Mistake, lifted
-from robo47.screws import ad
 
 from .brackets import AD
 from .gravity import OTHER_GRAVITY
-from .mass import LINKS
 from .passes import (
     RIGHT,
     beyond,
-    inwards,
+    everything,
+    gravity_at_base_and_links,
     itself,
     outwards,
     times,
     torque,
+    velocity_before,
     velocity_product,
 )
 
 
-def _velocity_before(J: Array, G: Array, qd: Array, qdd: Array, g: Array) -> Array:
-    """Return the torque where F takes V of the link before."""
-    S = transposed(J) * qd[..., None]
-    before = outwards(S) - S
-    F = velocity_product(ad(before), times(G, before)) - velocity_product(
-        ad(outwards(S)), times(G, outwards(S))
-    )
-    return RIGHT(J, G, qd, qdd, g) + np.sum(transposed(J) * inwards(F), axis=-1)
-
-
-def _plain(parts: list[tuple[str, str, Callable[..., Array]]]) -> list[Mistake]:
+def plain(parts: list[tuple[str, str, Callable[..., Array]]]) -> list[Mistake]:
+    """Return mistakes from (slug, says, redo)."""
     return [Mistake(slug, says, redo, "the torque so") for slug, says, redo in parts]
 
 
 # Wrong whatever qdd is: mistakes of bias_torque, too.
-_SHARED = _plain([
+SHARED = plain([
     (
         "base-acceleration-sign",
         "the base accelerates the wrong way: to stand still on the ground feels like a "
-        "lift going up, against g",
+        "lift that starts upwards, against g",
         torque(base=lambda g: np.hstack([0 * g, g])),
     ),
     (
@@ -63,6 +52,18 @@ _SHARED = _plain([
         torque(every_link=True),
     ),
     (
+        "gravity-at-every-link",
+        "gravity is added at the base and again at every link; the sum carries it from "
+        "the base to all",
+        gravity_at_base_and_links,
+    ),
+    (
+        "gravity-twice",
+        "gravity counts twice: it is in A from the base on, so the wrench needs no "
+        "weight",
+        lambda J, G, qd, qdd, g: RIGHT(J, G, qd, qdd, 2 * g),
+    ),
+    (
         "bracket-forgotten",
         "the acceleration lacks ad(V) S qd: a joint that is carried round changes its "
         "direction",
@@ -72,6 +73,29 @@ _SHARED = _plain([
         "bracket-sign",
         "in the acceleration ad(V) S qd has the wrong sign",
         torque(turned=-1.0),
+    ),
+    (
+        "bracket-twice",
+        "in the acceleration ad(V) S qd stands twice; it needs no 2, since the force "
+        "brings the other half of Coriolis",
+        torque(turned=2.0),
+    ),
+    (
+        "bracket-without-speed",
+        "the acceleration has ad(V) S without qd: a joint at rest would change it, "
+        "too",
+        torque(joint=lambda S, qd: S),
+    ),
+    (
+        "speed-squared",
+        "the acceleration has ad(V) S qd^2; one of the two speeds is in V already",
+        torque(joint=lambda S, qd: S * qd[..., None] ** 2),
+    ),
+    (
+        "speed-sign-lost",
+        "the speeds qd are taken without their signs: which way a joint turns counts "
+        "when another one turns as well",
+        lambda J, G, qd, qdd, g: RIGHT(J, G, np.abs(qd), qdd, g),
     ),
     (
         "bracket-not-transposed",
@@ -91,6 +115,12 @@ _SHARED = _plain([
         torque(swing=lambda ad_V, h: -velocity_product(ad_V, h)),
     ),
     (
+        "acceleration-in-the-velocity-product",
+        "the velocity product has G A; what the motion of the link changes is its "
+        "momentum, G V",
+        torque(moving=lambda V, A: A),
+    ),
+    (
         "velocity-product-forgotten",
         "the force is G A alone: that the inertia itself moves is missing",
         torque(swing=lambda ad_V, h: 0 * h),
@@ -98,7 +128,7 @@ _SHARED = _plain([
     (
         "velocity-of-the-link-before",
         "the force uses V before the link's own joint has been added",
-        _velocity_before,
+        velocity_before,
     ),
     (
         "not-summed-back",
@@ -110,6 +140,17 @@ _SHARED = _plain([
         "the forces are summed from the base to the tip; a motor feels what is beyond "
         "it, so the sum starts at the tip",
         torque(wrenches=outwards),
+    ),
+    (
+        "every-link-for-all",
+        "each motor feels all seven links; it carries its own and those beyond it only",
+        torque(wrenches=everything),
+    ),
+    (
+        "moment-only",
+        "each motor feels the moments about the world's origin alone; where its axis "
+        "does not go through that point, the force counts, too: all six numbers of S",
+        torque(felt=np.repeat([1.0, 0.0], 3)),
     ),
     (
         "own-link-left-out",
@@ -129,6 +170,12 @@ _SHARED = _plain([
         torque(rates=itself),
     ),
     (
+        "accelerations-not-added",
+        "A is set anew at every link, so what the joints before gave, and gravity, are "
+        "lost; it adds up, as V does",
+        torque(rates=itself, base=lambda g: np.hstack([0 * g, 0 * g])),
+    ),
+    (
         "nothing-added-outwards",
         "V and A start anew at every link; along the arm they add up",
         torque(speeds=itself, rates=itself),
@@ -139,8 +186,10 @@ _SHARED = _plain([
         lambda *given: -RIGHT(*given),
     ),
 ])  # fmt: skip
-_SHARED += lifted(AD, "in ad, ", lambda bracket: torque(bracket=bracket))
-_SHARED += [
+# In ad an identity cancels: what it adds to G A, it takes from the velocity product.
+_IN_AD = [mistake for mistake in AD if mistake.slug != "identity-added"]
+SHARED += lifted(_IN_AD, "in ad, ", lambda bracket: torque(bracket=bracket))
+SHARED += [
     Mistake(
         slug,
         says,
@@ -151,8 +200,8 @@ _SHARED += [
 ]
 
 INVERSE_DYNAMICS = [
-    *_SHARED,
-    *_plain([
+    *SHARED,
+    *plain([
         (
             "speed-and-acceleration-swapped",
             "qd and qdd have changed places",
@@ -188,63 +237,6 @@ INVERSE_DYNAMICS = [
             "armature and damping are in it, 0.1 qdd and 1.0 qd; the task is about the "
             "links alone",
             lambda J, G, qd, qdd, g: RIGHT(J, G, qd, qdd, g) + 0.1 * qdd + qd,
-        ),
-    ]),
-]  # fmt: skip
-
-
-def _rate_of_M(J: Array, G: Array, qd: Array) -> Array:
-    """Return what M changes by per second times qd, from G's and J's own rates."""
-    S = transposed(J)
-    V = outwards(S * qd[..., None])
-    ad_V = ad(V)
-    J_rate = transposed(times(ad_V, S))
-    G_rate = -transposed(ad_V) @ G - G @ ad_V
-    up, down = LINKS(J + J_rate, G), LINKS(J - J_rate, G)
-    return times(0.5 * (up - down) + LINKS(J, G_rate), qd)
-
-
-def _at_rest(mistake: Mistake) -> Mistake:
-    """Return a mistake of inverse_dynamics as one of bias_torque."""
-    redo = mistake.redo
-    return replace(
-        mistake, redo=lambda J, G, qd, g: redo(J, G, qd, np.zeros_like(qd), g)
-    )
-
-
-BIAS_TORQUE = [
-    *map(_at_rest, _SHARED),
-    *_plain([
-        (
-            "gravity-only",
-            "qd is not used: Coriolis and centrifugal forces are missing",
-            lambda J, G, qd, g: RIGHT(J, G, 0 * qd, 0 * qd, g),
-        ),
-        (
-            "speed-for-acceleration",
-            "qd is given as the acceleration, too; that has to be 0",
-            lambda J, G, qd, g: RIGHT(J, G, qd, qd, g),
-        ),
-        (
-            "speed-in-place-of-acceleration",
-            "qd is given as the acceleration, and 0 as the speed",
-            lambda J, G, qd, g: RIGHT(J, G, 0 * qd, qd, g),
-        ),
-        (
-            "acceleration-of-one",
-            "the acceleration is 1 for every joint; it has to be 0",
-            lambda J, G, qd, g: RIGHT(J, G, qd, np.ones_like(qd), g),
-        ),
-        (
-            "rate-of-the-mass-matrix",
-            "the rate of M times qd is not the Coriolis torque: half of what it holds "
-            "belongs there",
-            lambda J, G, qd, g: RIGHT(J, G, 0 * qd, 0 * qd, g) + _rate_of_M(J, G, qd),
-        ),
-        (
-            "damping-added",
-            "the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8",
-            lambda J, G, qd, g: RIGHT(J, G, qd, 0 * qd, g) + qd,
         ),
     ]),
 ]  # fmt: skip

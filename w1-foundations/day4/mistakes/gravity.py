@@ -33,6 +33,18 @@ def _torque(
     return redo
 
 
+def _at_the_mean(J: Array, masses: Array, coms: Array, g: Array) -> Array:
+    """Return the torque of all mass beyond each joint at the mean of its centres."""
+    beyond = cut(lambda joint, link: link >= joint)[:, 0]  # (link, joint)
+    c = np.einsum("lj,nla->nja", beyond, coms) / beyond.sum(0)[:, None]
+    moves = np.swapaxes(J[:, 3:], 1, 2) + np.cross(np.swapaxes(J[:, :3], 1, 2), c)
+    return -(masses @ beyond) * np.einsum("nja,na->nj", moves, g)
+
+
+def _at_the_tip(J: Array, masses: Array, coms: Array, g: Array) -> Array:
+    return _torque()(J, masses, np.broadcast_to(coms[:, -1:], coms.shape), g)
+
+
 def constant(z: float) -> Callable[[Array], Array]:
     """Return a gravity that does not look at what it is given."""
     return lambda g: np.broadcast_to([0.0, 0.0, z], g.shape)
@@ -150,6 +162,25 @@ GRAVITY_TORQUE = [
         "the upper half of J is used as the velocity; that is omega",
         _torque(velocity=lambda J, C: J[:, None, :3] + 0 * C @ J[:, None, 3:]),
         "the torque with omega for v",
+    ),
+    Mistake(
+        "centre-not-weighted",
+        "the mass beyond each joint sits at the plain mean of the links' centres; a "
+        "heavy link counts for more",
+        _at_the_mean,
+        "the torque with the mean of the centres",
+    ),
+    Mistake(
+        "all-mass-at-the-last-centre",
+        "all mass sits at the last link's centre; each link has one of its own",
+        _at_the_tip,
+        "the torque with that centre for all",
+    ),
+    Mistake(
+        "signs-lost",
+        "no torque is negative here: a motor has to pull the other way as well",
+        lambda *given: np.abs(_torque()(*given)),
+        "the right torque without its signs",
     ),
     Mistake(
         "mass-forgotten",

@@ -7,6 +7,7 @@ import numpy as np
 from robo47.checks import Array
 from robo47.diagnose.matrices import transposed
 from robo47.diagnose.mistake import Mistake, lifted
+from robo47.screws import skew
 
 from .bodies import RIGHT, SPATIAL_INERTIA
 
@@ -31,6 +32,37 @@ def _carried(
 
 def _first_pose(T: Array, *body: Array) -> Array:
     return _carried()(np.repeat(T[:, :1], T.shape[1], axis=1), *body)
+
+
+def _pose_before(first: Callable[[Array], Array]) -> Callable[..., Array]:
+    """Return link_inertias with T of the link before; the first gets `first` of T."""
+
+    def redo(T: Array, *body: Array) -> Array:
+        return _carried()(np.concatenate([first(T), T[:, :-1]], axis=1), *body)
+
+    return redo
+
+
+def _chained(T: Array, *body: Array) -> Array:
+    """Return link_inertias where each T is taken as one seen from the link before."""
+    so_far = [T[:, 0]]
+    for i in range(1, T.shape[1]):
+        so_far.append(so_far[-1] @ T[:, i])
+    return _carried()(np.stack(so_far, axis=1), *body)
+
+
+def _adjoint_outside(T: Array, *body: Array) -> Array:
+    """Return Ad(T) G Ad(T)^T of each link."""
+    R, p = T[..., :3, :3], T[..., :3, 3]
+    Ad = np.zeros((*T.shape[:-2], 6, 6))
+    Ad[..., :3, :3] = Ad[..., 3:, 3:] = R
+    Ad[..., 3:, :3] = skew(p) @ R
+    return Ad @ RIGHT(*body) @ transposed(Ad)
+
+
+def _last_of_all(T: Array, *body: Array) -> Array:
+    G = _carried()(T, *body)
+    return np.repeat(G[:, -1:], G.shape[1], axis=1)
 
 
 def _still(R: Array, I: Array) -> Array:  # noqa: E741
@@ -79,6 +111,34 @@ LINK_INERTIAS = [
         "the answer with R^T (c - p)",
     ),
     Mistake(
+        "pose-inverted",
+        "T is used the wrong way round, for the centre and for the inertia: it maps "
+        "the link to the world. With adjoints: what stands on the right of G has to "
+        "take a twist from the world to the link",
+        _carried(
+            lambda R, p, c: _times(transposed(R), c - p),
+            lambda R, own: transposed(R) @ own @ R,
+        ),
+        "the answer with the inverse of T, which is Ad(T)^T G Ad(T),",
+    ),
+    Mistake(
+        "adjoint-not-inverted",
+        "this is Ad(T) G Ad(T)^T; G takes a twist to a momentum, so what stands on its "
+        "right has to take a twist from the world to the link",
+        _adjoint_outside,
+        "Ad(T) G Ad(T)^T",
+    ),
+    Mistake(
+        "R-transposed",
+        "R is transposed, for the centre and for the inertia: this turns both the "
+        "wrong way, from the world to the link",
+        _carried(
+            lambda R, p, c: _times(transposed(R), c) + p,
+            lambda R, own: transposed(R) @ own @ R,
+        ),
+        "the answer with R^T for R",
+    ),
+    Mistake(
         "origin-for-com",
         "the mass sits at the link's origin; it sits at its centre of mass",
         _carried(lambda R, p, c: p),
@@ -105,10 +165,44 @@ LINK_INERTIAS = [
         "the answer with R I",
     ),
     Mistake(
+        "second-R-not-transposed",
+        "the inertia is R I R; what takes a vector from the world to the link first "
+        "is not R",
+        _carried(about=lambda R, own: R @ own @ R),
+        "the answer with R I R",
+    ),
+    Mistake(
         "first-pose-for-all",
         "every link is taken to be where the first one is",
         _first_pose,
         "the answer with the first pose seven times",
+    ),
+    *(
+        Mistake(
+            "pose-of-the-link-before",
+            "every link is taken to be where the link before it is: T_links[0] is "
+            "link1's, as masses[0] is",
+            _pose_before(first),
+            f"the answer with {called} for link1, its pose for link2 and so on",
+        )
+        for called, first in (
+            ("the identity", lambda T: np.broadcast_to(np.eye(4), T[:, :1].shape)),
+            ("link7's pose", lambda T: T[:, -1:]),
+        )
+    ),
+    Mistake(
+        "poses-multiplied",
+        "the poses are multiplied along the arm; each T of T_links is seen from the "
+        "world already",
+        _chained,
+        "the answer with the product of the poses up to each link",
+    ),
+    Mistake(
+        "last-link-for-all",
+        "all seven are link7's: is one array filled again for every link, and put "
+        "into the list each time? Make a new one",
+        _last_of_all,
+        "link7's matrix seven times",
     ),
     Mistake(
         "already-summed",

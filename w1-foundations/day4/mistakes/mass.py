@@ -49,6 +49,7 @@ def _no_corners(G: Array) -> Array:
     return G * block
 
 
+_CORNER = np.kron(np.diag([1.0, 0.0]), np.ones((3, 3)))
 _FLIP = np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
 LINKS = _summed()
 
@@ -110,6 +111,11 @@ MASS_MATRIX: list[Mistake] = [
                 cut(lambda joint, link: joint == 0),
             ),
             (
+                "last-link-left-out",
+                "the last link is left out: range(n - 1) ends one too early",
+                cut(lambda joint, link: joint <= link < 6),
+            ),
+            (
                 "last-link-only",
                 "only the last link has a mass here",
                 cut(lambda joint, link: link == 6),
@@ -135,6 +141,20 @@ MASS_MATRIX: list[Mistake] = [
         "is missing",
         _with(_summed(body=_no_corners)),
         "M without the corners of G",
+    ),
+    Mistake(
+        "angular-half-only",
+        "only the turning counts: the lower half of J, how fast the links move, is "
+        "not used",
+        _with(_summed(body=lambda G: G * _CORNER)),
+        "M from the upper half of J and the top left block of G",
+    ),
+    Mistake(
+        "linear-half-only",
+        "only the lower half of J counts, and of G the mass; a link that turns has "
+        "energy, too",
+        _with(_summed(body=lambda G: G * _CORNER[::-1, ::-1])),
+        "M from the lower half of J and the lower right block of G",
     ),
     Mistake(
         "not-mirrored",

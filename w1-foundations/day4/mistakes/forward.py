@@ -1,4 +1,4 @@
-"""Mistakes in tasks 4.8 `forward_dynamics` and 4.9 `energy`."""
+"""Mistakes in task 4.8 `forward_dynamics`."""
 
 from collections.abc import Callable
 
@@ -6,8 +6,6 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake
-
-from .gravity import OTHER_GRAVITY
 
 
 def _solved(M: Array, net: Array) -> Array:
@@ -36,6 +34,9 @@ def _diagonal(M: Array, net: Array) -> Array:
 def _product(M: Array, net: Array) -> Array:
     return (M @ net[..., None])[..., 0]
 
+
+FORWARD = _accelerated(_net)
+_MOST = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])  # N m, of the motors
 
 FORWARD_DYNAMICS = [
     Mistake(slug, says, _accelerated(net), "the acceleration with that torque")
@@ -71,6 +72,24 @@ FORWARD_DYNAMICS = [
             lambda bias, friction, tau: tau,
         ),
         (
+            "damping-sign-lost",
+            "the speed counts without its sign: on a joint that turns backwards the "
+            "damping pulls backwards, too; it has to brake it",
+            lambda bias, friction, tau: tau - bias - np.abs(friction),
+        ),
+        (
+            "torque-clipped",
+            "the torque tau is cut to what the motors can give; here it counts as it "
+            "is given",
+            lambda bias, friction, tau: np.clip(tau, -_MOST, _MOST) - bias - friction,
+        ),
+        (
+            "torque-clipped",
+            "the torque tau is cut to 87 N m, what joint1's motor can give; here it "
+            "counts as it is given",
+            lambda bias, friction, tau: np.clip(tau, -87.0, 87.0) - bias - friction,
+        ),
+        (
             "torque-forgotten",
             "the motors' torque is missing: this is how the arm falls",
             lambda bias, friction, tau: -bias - friction,
@@ -83,6 +102,39 @@ FORWARD_DYNAMICS = [
         "by qd",
         lambda M, bias, damping, qd, tau: _solved(M, tau - bias - damping),
         "the acceleration with that torque",
+    ),
+    Mistake(
+        "damping-as-one-number",
+        "the product damping @ qd is one number, the sum over all joints; each joint "
+        "has its own friction, damping * qd",
+        lambda M, bias, damping, qd, tau: _solved(
+            M, tau - bias - np.sum(damping * qd, axis=-1, keepdims=True)
+        ),
+        "the acceleration with that torque",
+    ),
+    Mistake(
+        "armature-twice",
+        "the armature is added to M, where it is already since task 4.3",
+        lambda M, *given: FORWARD(M + 0.1 * np.eye(7), *given),
+        "the acceleration with M + 0.1 on the diagonal",
+    ),
+    Mistake(
+        "mass-of-the-step",
+        "M + h damping is how the simulator takes a step of h = 2 ms; the acceleration "
+        "now needs M alone",
+        lambda M, bias, damping, *given: FORWARD(
+            M + 0.002 * damping[..., None] * np.eye(7), bias, damping, *given
+        ),
+        "the acceleration with M + h damping",
+    ),
+    Mistake(
+        "velocity-returned",
+        "this is the velocity after a step of 2 ms, qd + h qdd; the acceleration qdd "
+        "was asked for",
+        lambda M, bias, damping, qd, tau: (
+            qd + 0.002 * FORWARD(M, bias, damping, qd, tau)
+        ),
+        "qd + 0.002 qdd",
     ),
     Mistake(
         "multiplied-by-M",
@@ -110,92 +162,15 @@ FORWARD_DYNAMICS = [
         "the product with 1 / M",
     ),
     Mistake(
+        "damping-not-divided",
+        "the damping is taken off after M has been divided by; it is a torque, too",
+        lambda M, bias, damping, qd, tau: _solved(M, tau - bias) - damping * qd,
+        "the difference of the two",
+    ),
+    Mistake(
         "only-torque-divided",
         "only the motors' torque is divided by M; bias and damping are torques, too",
         lambda M, bias, damping, qd, tau: _solved(M, tau) - bias - damping * qd,
         "the difference of the two",
-    ),
-]
-
-
-def _moving(M: Array, qd: Array) -> Array:
-    return 0.5 * np.sum(qd * _product(M, qd), axis=-1)
-
-
-def _lifted(masses: Array, coms: Array, g: Array) -> Array:
-    return -np.einsum("nl,nla,na->n", masses, coms, g)
-
-
-def _both(
-    kinetic: Callable[..., Array] = _moving, potential: Callable[..., Array] = _lifted
-) -> Callable[..., Array]:
-    def redo(M: Array, qd: Array, masses: Array, coms: Array, g: Array) -> Array:
-        return np.stack([kinetic(M, qd), potential(masses, coms, g)], axis=-1)
-
-    return redo
-
-
-def _total_mass(m: Array, coms: Array, g: Array) -> Array:
-    return -m.sum(-1) * np.einsum("nla,na->n", coms, g)
-
-
-ENERGY = [
-    Mistake(
-        "half-forgotten",
-        "the kinetic energy has no 1/2",
-        _both(lambda M, qd: 2 * _moving(M, qd)),
-        "the answer with twice as much",
-    ),
-    Mistake(
-        "potential-sign",
-        "the potential energy has the wrong sign: g points down, and what is lifted "
-        "gains",
-        _both(potential=lambda *given: -_lifted(*given)),
-        "the answer with that sign",
-    ),
-    Mistake(
-        "diagonal-only",
-        "the kinetic energy takes only the diagonal of M; the joints share their links",
-        _both(lambda M, qd: _moving(M * np.eye(M.shape[-1]), qd)),
-        "the answer with the diagonal",
-    ),
-    Mistake(
-        "speed-squared-too-early",
-        "qd is squared before M is applied; qd stands on both sides of M",
-        _both(lambda M, qd: 0.5 * _product(M, qd**2).sum(-1)),
-        "the answer with M qd^2",
-    ),
-    Mistake(
-        "mass-matrix-forgotten",
-        "the kinetic energy takes no mass: M is missing",
-        _both(lambda M, qd: 0.5 * (qd**2).sum(-1)),
-        "the answer with qd.qd / 2",
-    ),
-    Mistake(
-        "masses-forgotten",
-        "the potential energy takes no masses",
-        _both(potential=lambda m, c, g: _lifted(np.ones_like(m), c, g)),
-        "the answer with 1 kg each",
-    ),
-    Mistake(
-        "every-mass-everywhere",
-        "every link's centre is multiplied by the whole arm's mass",
-        _both(potential=_total_mass),
-        "the answer with the total mass",
-    ),
-    Mistake(
-        "order-swapped",
-        "potential energy comes first; kinetic was asked for first",
-        lambda *given: _both()(*given)[:, ::-1],
-        "the two swapped",
-    ),
-    *(
-        Mistake(
-            slug,
-            says,
-            _both(potential=lambda m, c, g, pull=pull: _lifted(m, c, pull(g))),
-            "the answer with that gravity",
-        )
-        for slug, says, pull in OTHER_GRAVITY
     ),
 ]
