@@ -58,11 +58,10 @@ def _turns(rng):
 
     Some angles are small and one is beyond pi: the formula needs no case of its own.
     """
-    drawn = list(zip(draw.units(rng, 6), draw.numbers(rng, -3, 3, 6), strict=True))
-    axes = [Z, *np.eye(3), Z, OBLIQUE, OBLIQUE]
-    angles = [np.pi / 2, 0.5, -1.2, 2.5, 4.0, 1e-4, -5e-3]
-    fixed = [*zip(axes, angles, strict=True), (drawn[0][0], 0.0)]
-    return fixed + [(axis, float(theta)) for axis, theta in drawn[1:]]
+    axes = [Z, *np.eye(3), Z, OBLIQUE, OBLIQUE, *draw.units(rng, 6)]
+    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.0]
+    angles += map(float, draw.numbers(rng, -3, 3, 5))
+    return list(zip(axes, angles, strict=True))
 
 
 def _hinges(rng):

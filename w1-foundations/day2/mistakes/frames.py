@@ -169,6 +169,12 @@ BODY_SCREWS = [
         "the table that went in",
     ),
     Mistake(
+        "last-joint-first",
+        "the screws are right, but in the reverse order: joint1's comes first",
+        lambda S, M: _carried(S, adjoint(rigid_inverse(M)))[:, ::-1],
+        "the right answer in reverse",
+    ),
+    Mistake(
         "transposed-for-inverse",
         "Ad(M) is transposed, but its inverse is not its transpose (the same comes out "
         "where [p] R stands top right in the adjoint)",

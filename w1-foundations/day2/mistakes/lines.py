@@ -75,8 +75,8 @@ SCREW_AXIS = [
     ),
     Mistake(
         "divided-by-its-length",
-        "all six numbers are divided by the length of the six; only omega is of length "
-        "1, and it comes so",
+        "all six numbers are divided by their length; omega alone is of length 1, and "
+        "it comes so",
         lambda axis, point: _divided(screw(axis, point)),
         "the right one so divided",
     ),

@@ -37,6 +37,14 @@ def _summed(S: Array, q: Array) -> Array:
     return motion(V / size[:, None], size)
 
 
+def _by_entries(
+    S: Array, M: Array, q: Array, before: bool, start: Array | float = 1.0
+) -> Array:
+    """Return the product by entries, and M before or after it."""
+    X = reduce(np.multiply, factors(motion, S, q), start)
+    return M @ X if before else X @ M
+
+
 def _with_M_each(S: Array, M: Array, q: Array, before: bool) -> Array:
     """Return the product with M before or after each exponential."""
     steps = [M @ X if before else X @ M for X in factors(motion, S, q)]
@@ -116,12 +124,14 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
         Mistake(
             "multiplied-by-entries",
             "the exponentials are multiplied entry by entry, not as matrices",
-            lambda S, M, q: (
-                reduce(np.multiply, factors(motion, S, q)) @ M
-                if fk is space
-                else M @ reduce(np.multiply, factors(motion, S, q))
-            ),
+            lambda S, M, q: _by_entries(S, M, q, fk is body),
             "the product by entries",
+        ),
+        Mistake(
+            "multiplied-by-entries",
+            "the exponentials are multiplied entry by entry, not as matrices",
+            lambda S, M, q: _by_entries(S, M, q, fk is body, np.eye(4)),
+            "the product by entries, from the identity on",
         ),
         Mistake(
             "last-joint-missing",
@@ -137,7 +147,7 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
         ),
         Mistake(
             "first-joint-only",
-            "only the first joint counts: does return stand inside the loop?",
+            "only the first joint counts (does return stand inside the loop?)",
             lambda S, M, q: fk(S[:, :1], M, q[:, :1]),
             "the product with joint1 alone",
         ),
@@ -198,8 +208,8 @@ FK_SPACE = [
 FK_BODY = [
     Mistake(
         "M-last",
-        "M stands on the right of the exponentials, or the screws, which are the hand's "
-        "already, are converted once more; motions told in the hand's frame follow M",
+        "M stands on the right of the exponentials (or the screws are converted, and "
+        "they are the hand's already); motions told in the hand's frame follow M",
         space,
         "the product with M last",
     ),

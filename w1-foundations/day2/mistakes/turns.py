@@ -108,6 +108,30 @@ EXP_ROTATION = [
         "the formula with that term",
     ),
     Mistake(
+        "dyad-without-factor",
+        "before axis axis^T the factor 1 - cos is missing: at theta = 0 it turns "
+        "already",
+        lambda axis, theta: (
+            rotation(axis, theta) + np.cos(theta)[..., None, None] * outer(axis)
+        ),
+        "cos I + sin K + axis axis^T",
+    ),
+    Mistake(
+        "cosine-before-identity",
+        "before the identity stands the cosine; that goes with axis axis^T, and I "
+        "itself with K K",
+        lambda axis, theta: (
+            rotation(axis, theta) - versine(theta)[..., None, None] * np.eye(3)
+        ),
+        "the formula with cos I",
+    ),
+    Mistake(
+        "theta-for-sine",
+        "before K stands theta; it has to be its sine",
+        lambda axis, theta: rotation(axis, theta, first=np.positive),
+        "the formula with theta K",
+    ),
+    Mistake(
         "always-about-z",
         "it turns about z, whatever the axis is",
         lambda axis, theta: se3.Rz(theta),
