@@ -5,6 +5,7 @@ import json
 import re
 from unittest.mock import MagicMock
 
+import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
@@ -178,6 +179,25 @@ def test_the_pose_at_ready_taken_for_M_is_off_by_the_same_at_every_q(arm):
     assert f"{mm[0]:.1f} mm and {deg[0]:.1f} degrees off at *every* q" in GUIDE
 
 
+def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body name='a'><freejoint/><geom size='0.1'/></body>"
+        "</worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    v, omega = [1, 2, 3], [4, 5, 6]
+    data.qvel = [*v, *omega]
+    mujoco.mj_forward(model, data)
+    of_the_object, body = np.empty(6), mujoco.mjtObj.mjOBJ_BODY
+    mujoco.mj_objectVelocity(model, data, body, model.body("a").id, of_the_object, 0)
+    jacp, jacr = np.zeros((2, 3, 6))
+    mujoco.mj_jacBody(model, data, jacp, jacr, model.body("a").id)
+    assert_same(data.cvel[1], [*omega, *v], 1e-15)
+    assert_same(of_the_object, [*omega, *v], 1e-15)
+    assert_same(jacp @ data.qvel, v, 1e-15)
+    assert_same(jacr @ data.qvel, omega, 1e-15)
+
+
 def test_how_many_named_mistakes_are_exact_at_zero(arm):
     importlib.import_module("lesson_day2.roulette")
     products = importlib.import_module("lesson_day2.mistakes.products")
@@ -197,8 +217,10 @@ def test_the_wrong_adjoint_hides_in_the_symmetric_M(arm):
     S, M, q = arm
     assert_same(M[:3, :3], M[:3, :3].T, 1e-15)
     B = S @ screws.adjoint(M).T
-    mm, _ = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
-    assert f"{np.median(mm[2:]):.0f} mm at random configurations" in GUIDE
+    assert_same(B[:, :3], screws.body_screws(S, M)[:, :3], 1e-15)
+    mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
+    assert f"{np.median(mm[2:]):.0f} mm, the median of 20 random" in GUIDE
+    assert deg.max() < 1e-5
 
 
 def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda):

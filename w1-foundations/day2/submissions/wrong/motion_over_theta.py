@@ -17,7 +17,12 @@ def exp_screw(S, theta):
     w, v = S[:3], S[3:]
     K = skew(w)
     T = np.eye(4)
-    if abs(theta) < 1e-12: return T
+    if abs(theta) < 1e-12:
+        return T
     T[:3, :3] = exp_rotation(w, theta)
-    T[:3, 3] = (np.eye(3) + (1 - np.cos(theta)) / theta * K + (theta - np.sin(theta)) / theta * K @ K) @ v
+    T[:3, 3] = (
+        np.eye(3)
+        + (1 - np.cos(theta)) / theta * K
+        + (theta - np.sin(theta)) / theta * K @ K
+    ) @ v
     return T

@@ -11,6 +11,10 @@ def skew(w):
 def exp_rotation(axis, theta):
     w = np.cos(theta)
     x, y, z = np.sin(theta) * np.asarray(axis)
-    return np.array([[1-2*(y*y+z*z), 2*(x*y-w*z), 2*(x*z+w*y)],
-                     [2*(x*y+w*z), 1-2*(x*x+z*z), 2*(y*z-w*x)],
-                     [2*(x*z-w*y), 2*(y*z+w*x), 1-2*(x*x+y*y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )

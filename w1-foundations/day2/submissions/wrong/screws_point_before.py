@@ -8,4 +8,9 @@ def screw_axis(axis, point):
 
 
 def joint_screws(T_zero):
-    return np.array([screw_axis(T_zero[i][:3, 2], T_zero[max(i-1, 0)][:3, 3]) for i in range(len(T_zero))])
+    return np.array(
+        [
+            screw_axis(T_zero[i][:3, 2], T_zero[max(i - 1, 0)][:3, 3])
+            for i in range(len(T_zero))
+        ]
+    )

@@ -8,4 +8,9 @@ def screw_axis(axis, point):
 
 
 def joint_screws(T_zero):
-    return np.array([np.hstack([T[:3, 2], T[:3, :3].T @ -np.cross(T[:3, 2], T[:3, 3])]) for T in T_zero])
+    return np.array(
+        [
+            np.hstack([T[:3, 2], T[:3, :3].T @ -np.cross(T[:3, 2], T[:3, 3])])
+            for T in T_zero
+        ]
+    )

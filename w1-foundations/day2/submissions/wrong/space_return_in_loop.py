@@ -18,7 +18,9 @@ def exp_screw(S, theta):
     K = skew(w)
     T = np.eye(4)
     T[:3, :3] = exp_rotation(w, theta)
-    T[:3, 3] = (theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K) @ v
+    T[:3, 3] = (
+        theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    ) @ v
     return T
 
 
