@@ -5,6 +5,7 @@ import json
 import re
 from unittest.mock import MagicMock
 
+import inprocess
 import mujoco
 import numpy as np
 import pytest
@@ -249,6 +250,41 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
     assert np.linalg.matrix_rank(S) == 5
     assert_same(S[:, 0], np.zeros(7), 0.0)
     assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
+
+
+# --- where in the product it is wrong ---
+
+TWO_JOINTS = """
+import numpy as np
+def skew(w):
+    return np.cross(np.eye(3), w)
+def exp_screw(S, theta):
+    K, T = skew(S[:3]), np.eye(4)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    G = theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    T[:3, 3] = G @ S[3:]
+    return T
+def fk_space(screws, M, q):
+    q, order = q.copy(), list(range(7))
+    {slip}
+    T = np.eye(4)
+    for i in order:
+        T = T @ exp_screw(screws[i], q[i])
+    return T @ M
+"""
+ONE_BY_ONE = {
+    "q[[1, 3]] = np.abs(q[[1, 3]])": "wrong for negative angles of joint2 and joint4.",
+    "q[[1, 3, 5]] *= 2": "it is wrong for joint2, joint4 and joint6.",
+    "order[1:3] = 2, 1": "so look at how the exponentials are put together: their order",
+}
+
+
+@pytest.mark.parametrize("slip", ONE_BY_ONE)
+def test_joints_are_asked_for_one_at_a_time_both_ways(slip, tmp_path):
+    file = tmp_path / "day2_screws.py"
+    file.write_text(TWO_JOINTS.format(slip=slip), encoding="utf-8")
+    verdict = inprocess.verdicts(DAY, file, "2.6")["2.6"]
+    assert ONE_BY_ONE[slip] in verdict.message
 
 
 # --- what each mistake costs: the median of 20 random q, and ready ---

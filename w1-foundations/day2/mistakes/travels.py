@@ -189,8 +189,8 @@ TRAVEL = [
     ),
     Mistake(
         "hinge-at-the-origin-forgotten",
-        "right unless v is 0; with v = 0 it does not move at all, but it turns about a "
-        "line through the origin",
+        "right unless v is 0; with v = 0 it does not move at all, but such a screw "
+        "turns about a line through the origin",
         lambda S, theta: motion(S, theta * S[..., 3:].any(axis=-1)),
         "the right one with I where v is 0",
     ),
