@@ -275,7 +275,7 @@ def fk_space(screws, M, q):
 ONE_BY_ONE = {
     "q[[1, 3]] = np.abs(q[[1, 3]])": "wrong for negative angles of joint2 and joint4.",
     "q[[1, 3, 5]] *= 2": "it is wrong for joint2, joint4 and joint6.",
-    "order[1:3] = 2, 1": "so look at how the exponentials are put together: their order",
+    "order[1:3] = 2, 1": "look at how the exponentials are put together: their order",
 }
 
 
