@@ -11,31 +11,33 @@ import numpy as np
 from robo47 import kinematics, panda, screws, se3
 from robo47.diagnose import Ask, Matrix, Pose, Probe, Rotation, Twist, draw
 
-from .mistakes import places
+from .mistakes import halves, places
+from .mistakes.brackets import SKEW
 from .mistakes.frames import ADJOINT, BODY_SCREWS
 from .mistakes.lines import JOINT_SCREWS, SCREW_AXIS
 from .mistakes.links import DH_LINK
 from .mistakes.motions import EXP_SCREW
 from .mistakes.products import FK_BODY, FK_SPACE
-from .mistakes.tables import DH_FK
-from .mistakes.turns import EXP_ROTATION, SKEW
+from .mistakes.tables import DH_FK, FRANKA
+from .mistakes.turns import EXP_ROTATION
 
 JOINTS = tuple(f"the screw of joint{i}" for i in range(1, 8))
 TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
 Z = np.array([0.0, 0.0, 1.0])
 POINT = np.array([1.0, 0.0, 0.0])
+OBLIQUE = np.array([0.0, 0.6, 0.8])
+MOTIONS = (
+    ((0, 0, 1, 0, -1, 0), np.pi / 2),
+    ((0, 0, 1, 0, 0, 0), 1.1),
+    ((0, 1, 0, -0.333, 0, 0), -0.8),
+    ((1, 0, 0, 0, 0, 0.2), 2.3),
+    ((0, 0, 0, 0.6, 0, 0.8), 4.0),
+    ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 4.0),
+    ((0, 0.6, -0.8, 0.1, 0.5, 0.4), 1e-4),
+    ((0.6, 0, 0.8, -0.2, 0.4, 0.7), -5e-3),
+)
+FAR = np.array([0.3, -0.4, 0.5, -1.2, 0.6, 3.5, -0.7])  # joint6 goes to 3.75
 LINKS = [f"body:link{i}" for i in range(1, 8)]
-# Franka's published table: alpha, a, d.
-FRANKA = np.array([
-    [0.0, 0.0, 0.333],
-    [-np.pi / 2, 0.0, 0.0],
-    [np.pi / 2, 0.0, 0.316],
-    [np.pi / 2, 0.0825, 0.0],
-    [-np.pi / 2, -0.0825, 0.384],
-    [np.pi / 2, 0.0, 0.0],
-    [np.pi / 2, 0.088, 0.0],
-    [0.0, 0.0, 0.107],
-])  # fmt: skip
 
 
 @cache
@@ -52,9 +54,14 @@ def _vectors(rng):
 
 
 def _turns(rng):
-    """Return axes of length 1 and angles: the coordinate axes, then drawn ones."""
-    axes = [Z, *np.eye(3), *draw.units(rng, 6)]
-    angles = [np.pi / 2, 0.5, -1.2, 2.5, 0.0, *map(float, draw.numbers(rng, -3, 3, 5))]
+    """Return axes of length 1 and angles: the coordinate axes, then drawn ones.
+
+    Some angles are small and one is beyond pi: the formula needs no case of its own.
+    One angle comes with two axes, so that no cache can take it for the whole question.
+    """
+    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 3, *draw.units(rng, 6)]
+    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.5, 0.0]
+    angles += map(float, draw.numbers(rng, -3, 3, 5))
     return list(zip(axes, angles, strict=True))
 
 
@@ -65,11 +72,16 @@ def _hinges(rng):
 
 
 def _motions(rng):
-    """Return a hinge, slides, and screws that turn and move along, with angles."""
+    """Return hinges, slides, and screws that turn and move along, with angles.
+
+    Hinges through the origin and about x, y and z; angles beyond pi, and small ones.
+    """
     drawn = np.hstack([draw.units(rng, 8), draw.numbers(rng, -1, 1, 8, 3)])
     drawn[[0, 3], :3] = 0.0
-    angles = [np.pi / 2, *map(float, draw.numbers(rng, -3, 3, 8))]
-    return list(zip([np.array([0, 0, 1, 0, -1.0, 0]), *drawn], angles, strict=True))
+    angles = draw.numbers(rng, -3, 3, 8)
+    return [(np.array(S, dtype=float), theta) for S, theta in MOTIONS] + [
+        (S, float(theta)) for S, theta in zip(drawn, angles, strict=True)
+    ]
 
 
 def _links(rng):
@@ -79,7 +91,7 @@ def _links(rng):
 def _arms(rng):
     """Return the Panda at q = 0 and elsewhere, then arms nobody has seen."""
     S, M, _ = _panda()
-    own = [(S, M, q) for q in (draw.ZERO, *draw.configurations(rng, 4))]
+    own = [(S, M, q) for q in (draw.ZERO, FAR, *draw.configurations(rng, 4))]
     q = draw.numbers(rng, -2, 2, 5, 7)
     return own + [(*arm, x) for arm, x in zip(_others(rng, 5), q, strict=True)]
 
@@ -116,7 +128,7 @@ def _rows(rng):
 
 def _tables(rng):
     """Return Franka's table at q = 0 and elsewhere, then other robots' tables."""
-    own = [(FRANKA, q) for q in (draw.ZERO, *draw.configurations(rng, 5))]
+    own = [(FRANKA, q) for q in (draw.ZERO, FAR, *draw.configurations(rng, 5))]
     others = draw.numbers(rng, -1.5, 1.5, 4, 8, 3)
     return own + list(zip(others, draw.numbers(rng, -2, 2, 4, 7), strict=True))
 
@@ -148,15 +160,33 @@ def _plain(inputs, kind, truth, mistakes) -> Ask:
     return Ask(inputs, kind, truth=truth, mistakes=mistakes, near=NEAR)
 
 
+def _table(inputs, truth, mistakes) -> Ask:
+    return Ask(
+        inputs,
+        SCREWS,
+        truth=truth,
+        mistakes=mistakes,
+        near=NEAR,
+        unnamed=halves.which_half,
+    )
+
+
 QUESTIONS = {
     "skew": _plain(_vectors, Matrix((3, 3)), screws.skew, SKEW),
     "exp_rotation": _plain(_turns, Rotation(), se3.axis_angle, EXP_ROTATION),
-    "screw_axis": _plain(_hinges, Twist(), screws.screw_axis, SCREW_AXIS),
+    "screw_axis": Ask(
+        _hinges,
+        Twist(),
+        truth=screws.screw_axis,
+        mistakes=SCREW_AXIS,
+        near=NEAR,
+        unnamed=halves.turned_round,
+    ),
     "exp_screw": _plain(_motions, Pose(), screws.exp_screw, EXP_SCREW),
-    "joint_screws": _plain(_links, SCREWS, screws.joint_screws, JOINT_SCREWS),
+    "joint_screws": _table(_links, screws.joint_screws, JOINT_SCREWS),
     "fk_space": _chain(_arms, screws.fk_space, FK_SPACE),
     "adjoint": _plain(_poses, Matrix((6, 6)), screws.adjoint, ADJOINT),
-    "body_screws": _plain(_without_q, SCREWS, screws.body_screws, BODY_SCREWS),
+    "body_screws": _table(_without_q, screws.body_screws, BODY_SCREWS),
     "fk_body": _chain(_seen_by_the_hand, screws.fk_body, FK_BODY),
     "dh_link": _plain(_rows, Pose(), screws.dh_link, DH_LINK),
     "dh_fk": Ask(

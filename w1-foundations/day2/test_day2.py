@@ -5,6 +5,8 @@ import json
 import re
 from unittest.mock import MagicMock
 
+import inprocess
+import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
@@ -178,6 +180,25 @@ def test_the_pose_at_ready_taken_for_M_is_off_by_the_same_at_every_q(arm):
     assert f"{mm[0]:.1f} mm and {deg[0]:.1f} degrees off at *every* q" in GUIDE
 
 
+def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body name='a'><freejoint/><geom size='0.1'/></body>"
+        "</worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    v, omega = [1, 2, 3], [4, 5, 6]
+    data.qvel = [*v, *omega]
+    mujoco.mj_forward(model, data)
+    of_the_object, body = np.empty(6), mujoco.mjtObj.mjOBJ_BODY
+    mujoco.mj_objectVelocity(model, data, body, model.body("a").id, of_the_object, 0)
+    jacp, jacr = np.zeros((2, 3, 6))
+    mujoco.mj_jacBody(model, data, jacp, jacr, model.body("a").id)
+    assert_same(data.cvel[1], [*omega, *v], 1e-15)
+    assert_same(of_the_object, [*omega, *v], 1e-15)
+    assert_same(jacp @ data.qvel, v, 1e-15)
+    assert_same(jacr @ data.qvel, omega, 1e-15)
+
+
 def test_how_many_named_mistakes_are_exact_at_zero(arm):
     importlib.import_module("lesson_day2.roulette")
     products = importlib.import_module("lesson_day2.mistakes.products")
@@ -197,8 +218,10 @@ def test_the_wrong_adjoint_hides_in_the_symmetric_M(arm):
     S, M, q = arm
     assert_same(M[:3, :3], M[:3, :3].T, 1e-15)
     B = S @ screws.adjoint(M).T
-    mm, _ = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
-    assert f"{np.median(mm[2:]):.0f} mm at random configurations" in GUIDE
+    assert_same(B[:, :3], screws.body_screws(S, M)[:, :3], 1e-15)
+    mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
+    assert f"{np.median(mm[2:]):.0f} mm, the median of 20 random" in GUIDE
+    assert deg.max() < 1e-5
 
 
 def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda):
@@ -227,6 +250,41 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
     assert np.linalg.matrix_rank(S) == 5
     assert_same(S[:, 0], np.zeros(7), 0.0)
     assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
+
+
+# --- where in the product it is wrong ---
+
+TWO_JOINTS = """
+import numpy as np
+def skew(w):
+    return np.cross(np.eye(3), w)
+def exp_screw(S, theta):
+    K, T = skew(S[:3]), np.eye(4)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    G = theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    T[:3, 3] = G @ S[3:]
+    return T
+def fk_space(screws, M, q):
+    q, order = q.copy(), list(range(7))
+    {slip}
+    T = np.eye(4)
+    for i in order:
+        T = T @ exp_screw(screws[i], q[i])
+    return T @ M
+"""
+ONE_BY_ONE = {
+    "q[[1, 3]] = np.abs(q[[1, 3]])": "wrong for negative angles of joint2 and joint4.",
+    "q[[1, 3, 5]] *= 2": "it is wrong for joint2, joint4 and joint6.",
+    "order[1:3] = 2, 1": "look at how the exponentials are put together: their order",
+}
+
+
+@pytest.mark.parametrize("slip", ONE_BY_ONE)
+def test_joints_are_asked_for_one_at_a_time_both_ways(slip, tmp_path):
+    file = tmp_path / "day2_screws.py"
+    file.write_text(TWO_JOINTS.format(slip=slip), encoding="utf-8")
+    verdict = inprocess.verdicts(DAY, file, "2.6")["2.6"]
+    assert ONE_BY_ONE[slip] in verdict.message
 
 
 # --- what each mistake costs: the median of 20 random q, and ready ---

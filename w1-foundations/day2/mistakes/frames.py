@@ -8,8 +8,8 @@ from robo47.checks import Array
 from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake, lifted
 
+from .brackets import SKEW
 from .moves import skew, without
-from .turns import SKEW
 
 Corner = Callable[[Array, Array], Array]  # from R and [p] to a 3x3 block
 
@@ -26,13 +26,14 @@ def _blocks(
     lower: Corner = _lever,
     upper: Corner = _nothing,
     bracket: Callable[[Array], Array] = skew,
+    last: Callable[[Array], Array] = np.positive,
 ) -> Callable[[Array], Array]:
-    """Return the adjoint with other blocks off the diagonal."""
+    """Return the adjoint with other blocks."""
 
     def adjoint(T: Array) -> Array:
         R, p = split(T)
         out = np.zeros((*T.shape[:-2], 6, 6))
-        out[..., :3, :3] = out[..., 3:, 3:] = R
+        out[..., :3, :3], out[..., 3:, 3:] = R, last(R)
         out[..., 3:, :3], out[..., :3, 3:] = lower(R, bracket(p)), upper(R, bracket(p))
         return out
 
@@ -56,8 +57,8 @@ ADJOINT = [
     ),
     Mistake(
         "block-top-right",
-        "[p] R stands top right; that is for twists (v; omega). Here v is the lower "
-        "half, and it is v that the distance changes",
+        "[p] R stands top right; that is for twists (v; omega), and for wrenches. Here "
+        "v is the lower half, and it is v that the distance changes",
         _blocks(_nothing, _lever),
         "the right one with that block moved",
     ),
@@ -99,6 +100,33 @@ ADJOINT = [
         "the right one with [p] * R",
     ),
     Mistake(
+        "last-block-identity",
+        "the lower right block is the identity; v has to be turned by R too",
+        _blocks(last=lambda R: np.broadcast_to(np.eye(3), R.shape)),
+        "the right one with I there",
+    ),
+    Mistake(
+        "last-block-zero",
+        "the blocks are R, [p] and 0: the lower right one has to be R, and the lower "
+        "left one [p] R",
+        _blocks(lambda R, P: P, last=np.zeros_like),
+        "the right one with those blocks",
+    ),
+    Mistake(
+        "lever-arm-turned-twice",
+        "the lower left block is R [p] R; p is told in the outer frame already, so "
+        "[p] R is all",
+        _blocks(lambda R, P: R @ P @ R),
+        "the right one with R [p] R",
+    ),
+    Mistake(
+        "point-turned-back",
+        "in [p], p is turned back by R^T; it is told in the outer frame, and [p] R is "
+        "too",
+        _blocks(lambda R, P: transposed(R) @ P @ R @ R),
+        "the right one with [R^T p] R",
+    ),
+    Mistake(
         "R-turned-back",
         "R is transposed in every block: twists come out turned the other way",
         _turned_back,
@@ -138,7 +166,27 @@ BODY_SCREWS = [
         "unchanged",
         "the screws come back as they went in, still seen from the world",
         lambda S, M: S + 0.0 * M[:, :1, :1],
-        "the space screws",
+        "the table that went in",
+    ),
+    Mistake(
+        "last-joint-first",
+        "the screws are right, but in the reverse order: joint1's comes first",
+        lambda S, M: _carried(S, adjoint(rigid_inverse(M)))[:, ::-1],
+        "the right answer in reverse",
+    ),
+    Mistake(
+        "transposed-for-inverse",
+        "Ad(M) is transposed, but its inverse is not its transpose (the same comes out "
+        "where [p] R stands top right in the adjoint)",
+        lambda S, M: S @ adjoint(M),
+        "Ad(M)^T S",
+    ),
+    Mistake(
+        "no-lever-arm",
+        "both halves are only turned: in the adjoint the lower left block is 0 (was "
+        "M.T taken for the inverse of M?)",
+        lambda S, M: _carried(S, _blocks(_nothing)(rigid_inverse(M))),
+        "the right one without that block",
     ),
     Mistake(
         "t-only-negated",
@@ -147,7 +195,11 @@ BODY_SCREWS = [
         "Ad S with t negated",
     ),
     *lifted(
-        without(ADJOINT, "of-the-inverse", "transposed"),
+        without(
+            ADJOINT,
+            *("of-the-inverse", "transposed", "block-top-right", "no-lever-arm"),
+            "point-turned-back",  # here it is t only negated
+        ),
         "in the adjoint, ",
         lambda redo: lambda S, M: _carried(S, redo(rigid_inverse(M))),
     ),

@@ -18,6 +18,10 @@ def _halves(first: Array, second: Array) -> Array:
     return np.concatenate([first, second], axis=-1)
 
 
+def _divided(S: Array) -> Array:
+    return S / np.linalg.norm(S, axis=-1, keepdims=True)
+
+
 SCREW_AXIS = [
     Mistake(
         "moment-sign",
@@ -70,6 +74,13 @@ SCREW_AXIS = [
         "(omega; omega * point)",
     ),
     Mistake(
+        "divided-by-its-length",
+        "all six numbers are divided by their length; omega alone is of length 1, and "
+        "it comes so",
+        lambda axis, point: _divided(screw(axis, point)),
+        "the right one so divided",
+    ),
+    Mistake(
         "axis-reversed",
         "the whole screw is negated: it turns about the same line, the other way",
         lambda axis, point: -screw(axis, point),
@@ -105,64 +116,89 @@ def _multiplied(T: Array) -> Array:
     return np.stack(out, axis=1)
 
 
+def _wrapped(T: Array) -> Array:
+    """Return the points of the links before; the first joint's is the last link's."""
+    return np.roll(T[..., :3, 3], 1, axis=-2)
+
+
+def _repeated(T: Array) -> Array:
+    """Return the points of the links before; the first joint's is its own."""
+    return np.concatenate([T[:, :1, :3, 3], T[:, :-1, :3, 3]], axis=1)
+
+
+def _from_the_world(T: Array) -> Array:
+    """Return the points of the links before; the first joint's is the world's 0."""
+    return np.concatenate([0.0 * T[:, :1, :3, 3], T[:, :-1, :3, 3]], axis=1)
+
+
 JOINT_SCREWS = [
     Mistake(
         "axis-row-not-column",
         "the axis is taken from a row of R; what the link's z looks like from the "
         "world stands in a column",
         _lines(axis=lambda T: T[..., 2, :3]),
-        "the screws with the third row",
+        "the answer with the third row",
     ),
     Mistake(
         "axis-local-z",
         "the axis is (0, 0, 1) for every joint: that is z in the link's own frame; the "
         "screw needs it seen from the world",
         _lines(axis=lambda T: np.broadcast_to([0.0, 0.0, 1.0], T[..., :3, 3].shape)),
-        "the screws with (0, 0, 1)",
+        "the answer with (0, 0, 1)",
     ),
     Mistake(
         "axis-x-column",
         "the axis is the links' x; the Panda's joints turn about their z",
         _lines(axis=lambda T: T[..., :3, 0]),
-        "the screws with x",
+        "the answer with x",
     ),
     Mistake(
         "axis-y-column",
         "the axis is the links' y; the Panda's joints turn about their z",
         _lines(axis=lambda T: T[..., :3, 1]),
-        "the screws with y",
+        "the answer with y",
     ),
     Mistake(
         "point-is-local-pos",
         "the point is each link's place on the one before, in that one's axes, as the "
         "file has it; the screw needs it seen from the world",
         _lines(point=lambda T: _local(T)[..., :3, 3]),
-        "the screws with those points",
+        "the answer with those points",
     ),
     Mistake(
         "all-local",
         "axis and point are each link's on the one before; the screw needs both seen "
         "from the world",
         lambda T: _lines()(_local(T)),
-        "the screws from those poses",
+        "the answer from those poses",
     ),
     Mistake(
         "poses-multiplied",
         "the poses are multiplied along the arm; they are in the world already",
         lambda T: _lines()(_multiplied(T)),
-        "the screws from those products",
+        "the answer from those products",
     ),
     Mistake(
         "point-turned-back",
         "the point is turned back into the link's axes; it is in the world already",
         _lines(point=lambda T: times(transposed(T[..., :3, :3]), T[..., :3, 3])),
-        "the screws with R^T p",
+        "the answer with R^T p",
     ),
     Mistake(
         "next-links-point",
         "each joint's point is the next link's origin, which need not be on its axis",
         _lines(point=lambda T: np.roll(T[..., :3, 3], -1, axis=-2)),
-        "the screws with those points",
+        "the answer with those points",
+    ),
+    *(
+        Mistake(
+            "previous-links-point",
+            "each joint's point is the origin of the link before, which need not be on "
+            "its axis",
+            _lines(point=before),
+            "the answer with those points",
+        )
+        for before in (_repeated, _wrapped, _from_the_world)
     ),
     Mistake(
         "first-link-for-all",
@@ -174,7 +210,7 @@ JOINT_SCREWS = [
         "last-joint-first",
         "the screws are right, but in the reverse order: joint1's comes first",
         lambda T: _lines()(T)[:, ::-1],
-        "the right ones in reverse",
+        "the right answer in reverse",
     ),
     *lifted(
         SCREW_AXIS,

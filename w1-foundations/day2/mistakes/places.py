@@ -14,7 +14,7 @@ from .motions import OF_A_HINGE
 from .moves import factors, motion
 from .tables import rows, with_flange
 
-ALONE = 0.7  # radians: each joint is asked for once on its own
+ALONE = 0.7  # radians: each joint is asked for on its own, both ways
 
 
 def unnamed(case: Case) -> Finding | None:
@@ -39,11 +39,11 @@ def unnamed_row(case: Case) -> Finding | None:
 
 
 def alone(first: Callable, n: int = 7) -> Callable:
-    """Return inputs of a probe: each joint of the first question moved on its own."""
+    """Return inputs of a probe: each joint alone, of the first question, both ways."""
 
     def inputs(rng: np.random.Generator) -> list[tuple]:
         *arm, _ = first(rng)[0]
-        return [(*arm, ALONE * np.eye(n)[k]) for k in range(n)]
+        return [(*arm, q) for q in ALONE * np.vstack([np.eye(n), -np.eye(n)])]
 
     return inputs
 
@@ -113,19 +113,32 @@ def _row(table: Array, q: Array, k: int) -> Factor:
 
 def _one_at_a_time(case: Case) -> Finding | None:
     """Return for which joints the pose is wrong when they move on their own."""
-    names, far = [], []
+    wrong = []
     for (S, M, q), answer in case.probes:
         if not isinstance(answer, np.ndarray) or answer.shape != (4, 4):
             return None
         right = case.ask.truth(S[None], M[None], q[None])
-        if difference(answer[None], right)[0] > case.ask.near:
-            names.append(f"joint{int(np.argmax(q)) + 1}")
-            far.append(Pose().apart(answer[None], right))
-    if len(names) == len(case.probes):
+        off = difference(answer[None], right)[0] > case.ask.near
+        wrong.append((int(np.argmax(np.abs(q))), q.sum() < 0.0, bool(off)))
+    off = [(k, negative) for k, negative, is_off in wrong if is_off]
+    if len(off) == len(wrong):
         return None
-    found = Pose().what_is_wrong(case.S, case.T)
-    if not names:
-        says = "With one joint moved at a time it is right, so look at the order."
+    if not off:
+        where = (
+            "With one joint moved at a time it is right, so look at how the "
+            "exponentials are put together: their order, say."
+        )
     else:
-        says = f"With one joint moved at a time, it is wrong for {' and '.join(names)}."
-    return Finding(found.slug, f"{found.message} {says}")
+        where = f"With one joint moved at a time, it is wrong for {_these(off)}."
+    found = Pose().what_is_wrong(case.S, case.T)
+    return Finding(found.slug, f"{found.message} {where}")
+
+
+def _these(off: list[tuple[int, bool]]) -> str:
+    """Return the joints in words, and the sign if one sign alone is wrong."""
+    *names, last = (f"joint{k + 1}" for k in sorted({k for k, _ in off}))
+    joints = f"{', '.join(names)} and {last}" if names else last
+    signs = {negative for _, negative in off}
+    if len(signs) == 2:
+        return joints
+    return f"{'negative' if signs == {True} else 'positive'} angles of {joints}"

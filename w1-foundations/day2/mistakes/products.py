@@ -13,6 +13,7 @@ from robo47.diagnose.chain import product
 from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
 from robo47.diagnose.mistake import Mistake, lifted
 
+from .angles import in_the_angles
 from .frames import adjoint
 from .motions import OF_THE_FORMULA
 from .moves import Function, factors, motion
@@ -36,58 +37,24 @@ def _summed(S: Array, q: Array) -> Array:
     return motion(V / size[:, None], size)
 
 
-def _in_the_angles(fk: Function, at_zero: str) -> list[Mistake]:
-    def with_q(change: Function) -> Function:
-        return lambda S, M, q: fk(S, M, change(q))
+def _by_entries(
+    S: Array, M: Array, q: Array, before: bool, start: Array | float = 1.0
+) -> Array:
+    """Return the product by entries, and M before or after it."""
+    X = reduce(np.multiply, factors(motion, S, q), start)
+    return M @ X if before else X @ M
 
-    def shifted(by: int) -> Mistake:
-        return Mistake(
-            "off-by-one-joint",
-            "each joint is given its neighbour's angle: q is indexed one off",
-            with_q(lambda q: np.roll(q, by, axis=1)),
-            "the pose with q shifted by one",
-        )
 
-    return [
-        Mistake(
-            "joints-left-out",
-            f"nothing moves: whatever q is, your pose is {at_zero}",
-            with_q(np.zeros_like),
-            "the pose at q = 0",
-        ),
-        Mistake(
-            "all-backwards",
-            "every joint turns the other way, by -q",
-            with_q(np.negative),
-            "the pose at -q",
-        ),
-        Mistake(
-            "radians-taken-for-degrees",
-            "q is in radians already, and is converted from degrees once more",
-            with_q(np.deg2rad),
-            "the pose at pi / 180 times q",
-        ),
-        Mistake(
-            "degrees",
-            "q comes in radians, and is used as degrees",
-            with_q(np.rad2deg),
-            "the pose at 180 / pi times q",
-        ),
-        shifted(1),
-        shifted(-1),
-        Mistake(
-            "first-angle-for-all",
-            "every joint is given the first angle, q[0]: the index never moves on",
-            with_q(lambda q: np.repeat(q[:, :1], q.shape[1], axis=1)),
-            "the pose with q[0] everywhere",
-        ),
-        Mistake(
-            "q-backwards",
-            "q is read backwards: joint1 gets the last angle",
-            with_q(lambda q: q[:, ::-1]),
-            "the pose with q backwards",
-        ),
-    ]
+def _with_M_each(S: Array, M: Array, q: Array, before: bool) -> Array:
+    """Return the product with M before or after each exponential."""
+    steps = [M @ X if before else X @ M for X in factors(motion, S, q)]
+    return product(steps, len(q))
+
+
+def _only_added(S: Array, M: Array, q: Array) -> Array:
+    """Return the product without M, moved by M's translation."""
+    R, t = split(space(S, np.eye(4), q))
+    return pose(R, t + split(M)[1])
 
 
 def _shared(fk: Function, at_zero: str) -> list[Mistake]:
@@ -100,7 +67,7 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
             lambda S, M, q: fk(S[:, ::-1], M, q[:, ::-1]),
             "the product in reverse",
         ),
-        *_in_the_angles(fk, at_zero),
+        *in_the_angles(fk, at_zero),
         Mistake(
             "M-forgotten",
             "M is missing: the motions are right, but they have to act on where the "
@@ -127,6 +94,25 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
             "the product with M twice",
         ),
         Mistake(
+            "M-twice",
+            "M is there twice, side by side",
+            lambda S, M, q: fk(S, M @ M, q),
+            "the product with M M for M",
+        ),
+        Mistake(
+            "M-in-the-loop",
+            "M is in the loop, beside every exponential: at q = 0 your pose is M seven "
+            "times, not M",
+            lambda S, M, q: _with_M_each(S, M, q, fk is body),
+            "that product",
+        ),
+        Mistake(
+            "M-rotation-missing",
+            "M's rotation is missing; only its translation is there",
+            lambda S, M, q: fk(S, pose(np.eye(3), split(M)[1]), q),
+            "the product without it",
+        ),
+        Mistake(
             "exponentials-summed",
             "the twists are added up and exponentiated together; e^A e^B is e^(A + B) "
             "only where the order does not matter",
@@ -138,12 +124,14 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
         Mistake(
             "multiplied-by-entries",
             "the exponentials are multiplied entry by entry, not as matrices",
-            lambda S, M, q: (
-                reduce(np.multiply, factors(motion, S, q)) @ M
-                if fk is space
-                else M @ reduce(np.multiply, factors(motion, S, q))
-            ),
+            lambda S, M, q: _by_entries(S, M, q, fk is body),
             "the product by entries",
+        ),
+        Mistake(
+            "multiplied-by-entries",
+            "the exponentials are multiplied entry by entry, not as matrices",
+            lambda S, M, q: _by_entries(S, M, q, fk is body, np.eye(4)),
+            "the product by entries, from the identity on",
         ),
         Mistake(
             "last-joint-missing",
@@ -158,12 +146,26 @@ def _shared(fk: Function, at_zero: str) -> list[Mistake]:
             "the product without it",
         ),
         Mistake(
+            "first-joint-only",
+            "only the first joint counts (does return stand inside the loop?)",
+            lambda S, M, q: fk(S[:, :1], M, q[:, :1]),
+            "the product with joint1 alone",
+        ),
+        Mistake(
             "last-joint-only",
             "only the last joint counts: what the others do is overwritten",
             lambda S, M, q: fk(S[:, -1:], M, q[:, -1:]),
             "the product with joint7 alone",
         ),
     ]
+
+
+def _carried_along(S: Array, M: Array, q: Array) -> Array:
+    """Return the product in which each screw is moved by what is there so far."""
+    T = np.broadcast_to(np.eye(4), (len(q), 4, 4))
+    for k in range(q.shape[1]):
+        T = T @ T @ motion(S[:, k], q[:, k]) @ rigid_inverse(T)
+    return T @ M
 
 
 FK_SPACE = [
@@ -175,6 +177,20 @@ FK_SPACE = [
         "the product with M first",
     ),
     *_shared(space, "M, the one at q = 0"),
+    Mistake(
+        "M-only-added",
+        "M's translation is added and its rotation is missing; the pose has to be "
+        "multiplied by all of M",
+        _only_added,
+        "the product with t of M added",
+    ),
+    Mistake(
+        "screws-moved-along",
+        "each screw is carried along by the joints before it; the product does that "
+        "already, so the screws of q = 0 are all it needs",
+        _carried_along,
+        "that product",
+    ),
     Mistake(
         "space-screws-in-body-form",
         "the screws are taken to the hand's frame, but the product is still that of "
@@ -192,10 +208,17 @@ FK_SPACE = [
 FK_BODY = [
     Mistake(
         "M-last",
-        "M stands on the right of the exponentials; these screws are told in the "
-        "hand's frame, so their motions follow M",
+        "M stands on the right of the exponentials (or the screws are converted, and "
+        "they are the hand's already); motions told in the hand's frame follow M",
         space,
         "the product with M last",
+    ),
+    Mistake(
+        "motions-on-the-left",
+        "each new exponential is put on the left of what is there; these screws are "
+        "told in the hand's frame, so it goes on the right",
+        lambda B, M, q: space(B[:, ::-1], M, q[:, ::-1]),
+        "the product so put together",
     ),
     *_shared(body, "M, the one at q = 0"),
     *lifted(

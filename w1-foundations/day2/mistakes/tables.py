@@ -12,6 +12,18 @@ from robo47.diagnose.mistake import Mistake, lifted
 from .links import DH_LINK, link
 from .moves import Function, factors, without
 
+# Franka's published table: alpha, a, d.
+FRANKA = np.array([
+    [0.0, 0.0, 0.333],
+    [-np.pi / 2, 0.0, 0.0],
+    [np.pi / 2, 0.0, 0.316],
+    [np.pi / 2, 0.0825, 0.0],
+    [-np.pi / 2, -0.0825, 0.384],
+    [np.pi / 2, 0.0, 0.0],
+    [np.pi / 2, 0.088, 0.0],
+    [0.0, 0.0, 0.107],
+])  # fmt: skip
+
 
 def rows(table: Array, theta: Array, step: Function = link) -> list[Array]:
     """Return the links of tables (n, m, 3) at theta (n, m), (n, 4, 4) each."""
@@ -39,6 +51,11 @@ def _late(table: Array, q: Array) -> Array:
     return product(rows(table, np.roll(with_flange(q), 1, axis=1)), len(q))
 
 
+def _early(table: Array, q: Array) -> Array:
+    """Return the product in which theta is one row early."""
+    return product(rows(table, np.roll(with_flange(q), -1, axis=1)), len(q))
+
+
 def _last_angle_again(table: Array, q: Array) -> Array:
     theta = np.concatenate([q, q[:, -1:]], axis=1)
     return product(rows(table, theta), len(q))
@@ -59,10 +76,29 @@ DH_FK = [
         "the product with q[6] twice",
     ),
     Mistake(
+        "flange-typed-in",
+        "the eighth row is typed in as Franka's; with another table it is another one",
+        lambda table, q: dh(table[:, :7], q) @ link(*FRANKA[7], np.zeros(1)),
+        "the product with Franka's eighth row",
+    ),
+    Mistake(
+        "table-not-used",
+        "with Franka's table it is right, with another one it is wrong: the argument "
+        "table is not used",
+        lambda table, q: dh(np.broadcast_to(FRANKA, table.shape), q),
+        "the product of Franka's own rows",
+    ),
+    Mistake(
         "theta-one-row-late",
         "theta is one row late: the first row is joint1's, and gets q[0]",
         _late,
         "the product with 0 first",
+    ),
+    Mistake(
+        "theta-one-row-early",
+        "theta is one row early: the first row is joint1's, and gets q[0]",
+        _early,
+        "the product with q[1] first",
     ),
     Mistake(
         "product-reversed",

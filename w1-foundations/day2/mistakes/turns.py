@@ -1,4 +1,4 @@
-"""Mistakes in tasks 2.1 `skew(w)` and 2.2 `exp_rotation(axis, theta)`."""
+"""Mistakes in task 2.2 `exp_rotation(axis, theta)`."""
 
 import numpy as np
 
@@ -6,103 +6,15 @@ from robo47 import se3
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake, lifted
 
-from .moves import from_rows, rotation, sine, skew, versine, without
-
-
-def _outer(w: Array) -> Array:
-    return w[..., :, None] * w[..., None, :]
-
-
-def _unit(w: Array) -> Array:
-    return w / np.linalg.norm(w, axis=-1, keepdims=True)
-
-
-SKEW = [
-    Mistake(
-        "p-cross-w",
-        "this does p x w: every sign is the other way round (the matrix is transposed)",
-        lambda w: -skew(w),
-        "the right one with its signs reversed",
-    ),
-    Mistake(
-        "no-minus",
-        "there is no minus: [w] is its own negative transposed, not its own transpose",
-        from_rows(lambda x, y, z: [[0, z, y], [z, 0, x], [y, x, 0]]),
-        "the right one with every sign a plus",
-    ),
-    *(
-        Mistake(
-            "pair-of-signs",
-            f"the two entries with {letter} have each other's sign",
-            lambda w, flip=flip: skew(w * flip),
-            f"the right one with {letter} negated",
-        )
-        for letter, flip in (("x", [-1, 1, 1]), ("y", [1, -1, 1]), ("z", [1, 1, -1]))
-    ),
-    *(
-        Mistake(
-            "letters-swapped",
-            f"{a} and {b} have changed places",
-            lambda w, order=order: skew(w[..., order]),
-            "the right one with the two swapped",
-        )
-        for a, b, order in (
-            ("x", "z", [2, 1, 0]),
-            ("x", "y", [1, 0, 2]),
-            ("y", "z", [0, 2, 1]),
-        )
-    ),
-    *(
-        Mistake(
-            "letters-swapped",
-            f"{a} and {b} have changed places, and all signs are reversed",
-            lambda w, order=order: -skew(w[..., order]),
-            "the right one with both",
-        )
-        for a, b, order in (
-            ("x", "z", [2, 1, 0]),
-            ("x", "y", [1, 0, 2]),
-            ("y", "z", [0, 2, 1]),
-        )
-    ),
-    Mistake(
-        "half-empty",
-        "only the upper right half is filled; the lower left one is its negative",
-        lambda w: np.triu(skew(w)),
-        "the right one without its lower half",
-    ),
-    Mistake(
-        "half-empty",
-        "only the lower left half is filled; the upper right one is its negative",
-        lambda w: np.tril(skew(w)),
-        "the right one without its upper half",
-    ),
-    Mistake(
-        "outer-product",
-        "this is w times w transposed, which does a projection, not a cross product",
-        _outer,
-        "that product",
-    ),
-    Mistake(
-        "on-the-diagonal",
-        "w stands on the diagonal; w x p has no part of w along w",
-        lambda w: _outer(w) * np.eye(3) / np.where(w == 0, 1, w)[..., None],
-        "the diagonal matrix",
-    ),
-    Mistake(
-        "made-unit",
-        "w is divided by its length first; the cross product is as long as w says",
-        lambda w: skew(_unit(w)),
-        "the right one of w / |w|",
-    ),
-]
-
-
-OF_A_UNIT_VECTOR = without(SKEW, "made-unit")  # which changes nothing
+from .brackets import OF_A_UNIT_VECTOR, outer
+from .moves import rotation, sine, skew, versine, without
 
 
 def _entry_by_entry(axis: Array, theta: Array) -> Array:
     return np.exp(skew(axis) * theta[..., None, None])
+
+
+SMALL = (1e-3, 1e-2)  # radians: any bound between two angles that are asked does it
 
 
 EXP_ROTATION = [
@@ -191,9 +103,33 @@ EXP_ROTATION = [
         "I",
         lambda axis, theta: (
             rotation(axis, theta, second=np.zeros_like)
-            + versine(theta)[..., None, None] * _outer(axis)
+            + versine(theta)[..., None, None] * outer(axis)
         ),
         "the formula with that term",
+    ),
+    Mistake(
+        "dyad-without-factor",
+        "before axis axis^T the factor 1 - cos is missing: at theta = 0 it turns "
+        "already",
+        lambda axis, theta: (
+            rotation(axis, theta) + np.cos(theta)[..., None, None] * outer(axis)
+        ),
+        "cos I + sin K + axis axis^T",
+    ),
+    Mistake(
+        "cosine-before-identity",
+        "before the identity stands the cosine; that goes with axis axis^T, and I "
+        "itself with K K",
+        lambda axis, theta: (
+            rotation(axis, theta) - versine(theta)[..., None, None] * np.eye(3)
+        ),
+        "the formula with cos I",
+    ),
+    Mistake(
+        "theta-for-sine",
+        "before K stands theta; it has to be its sine",
+        lambda axis, theta: rotation(axis, theta, first=np.positive),
+        "the formula with theta K",
     ),
     Mistake(
         "always-about-z",
@@ -218,6 +154,31 @@ EXP_ROTATION = [
         "it turns by half of the angle: that belongs to quaternions",
         lambda axis, theta: rotation(axis, theta / 2),
         "the rotation by half of it",
+    ),
+    Mistake(
+        "double-angle",
+        "it turns by twice the angle; in a quaternion stand sine and cosine of half of "
+        "it",
+        lambda axis, theta: rotation(axis, 2 * theta),
+        "the rotation by twice the angle",
+    ),
+    Mistake(
+        "sign-of-theta-lost",
+        "theta and -theta turn the same way: the sign of theta is lost",
+        lambda axis, theta: rotation(axis, np.abs(theta)),
+        "the rotation by |theta|",
+    ),
+    *(
+        Mistake(
+            "small-angle-ignored",
+            "a small angle is taken for 0; the formula is exact for small angles too, "
+            "and needs no case of its own",
+            lambda axis, theta, small=small: rotation(
+                axis, np.where(np.abs(theta) < small, 0.0, theta)
+            ),
+            "the right one with 0 for small angles",
+        )
+        for small in SMALL
     ),
     *lifted(
         without(OF_A_UNIT_VECTOR, "p-cross-w"),  # the angle's sign

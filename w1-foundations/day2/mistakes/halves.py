@@ -1,0 +1,46 @@
+"""Which half of a screw is wrong, omega or v, where no named mistake says more."""
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.diagnose import Case, Finding
+from robo47.diagnose.compare import difference
+from robo47.diagnose.matrix_kinds import few_entries
+
+
+def which_half(case: Case) -> Finding | None:
+    """Return whether omega or v is wrong in a table of screws, (n, 7, 6)."""
+    if found := few_entries(case.ask.kind, case.S, case.T):
+        return found
+    gap = np.abs(case.S - case.T)
+    omega, v = (float(gap[..., half].max()) for half in (slice(3), slice(3, None)))
+    if v <= case.ask.near:
+        says = f"v is right in every screw; omega is not: off by up to {omega:.3g}"
+        return Finding("omega-off", f"{says} in one entry.{_right_for(case)}")
+    if omega <= case.ask.near:
+        says = f"omega is right in every screw; v is not: off by up to {v:.3g}"
+        return Finding("v-off", f"{says} in one entry.{_right_for(case)}")
+    says = f"Both halves are wrong: omega by up to {omega:.3g}, v by up to {v:.3g}"
+    return Finding("both-off", f"{says} in one entry.{_right_for(case)}")
+
+
+def turned_round(case: Case) -> Finding | None:
+    """Return that some screws are negated and all others right, screws (n, 6)."""
+    right = difference(case.S, case.T) <= case.ask.near
+    negated = difference(case.S, -case.T) <= case.ask.near
+    if right.all() or not (right | negated).all():
+        return None
+    given = case.given[int(np.argmin(right))]
+    first = f", as for {given}" if 0 < len(given) <= 90 else ""
+    return Finding(
+        "axis-turned-round",
+        f"For {np.sum(~right)} of {len(right)} inputs omega and v both have the other "
+        f"sign{first}: is the axis turned round? Take it as it comes.",
+    )
+
+
+def _right_for(case: Case) -> str:
+    wrong: Array = difference(case.S, case.T) > case.ask.near
+    if wrong.all():
+        return ""
+    return f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs."

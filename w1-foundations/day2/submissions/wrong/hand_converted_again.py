@@ -1,0 +1,41 @@
+# task 2.8: M-last
+# The screws are converted to the hand's frame once more.
+import numpy as np
+
+
+def skew(w):
+    x, y, z = w
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def exp_rotation(axis, theta):
+    K = skew(axis)
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+
+
+def exp_screw(S, theta):
+    w, v = S[:3], S[3:]
+    K = skew(w)
+    T = np.eye(4)
+    T[:3, :3] = exp_rotation(w, theta)
+    T[:3, 3] = (
+        theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    ) @ v
+    return T
+
+
+def adjoint(T):
+    R, p = T[:3, :3], T[:3, 3]
+    return np.block([[R, np.zeros((3, 3))], [skew(p) @ R, R]])
+
+
+def body_screws(screws, M):
+    return (adjoint(np.linalg.inv(M)) @ screws.T).T
+
+
+def fk_body(bs, M, q):
+    B = body_screws(bs, M)
+    T = M.copy()
+    for S, t in zip(B, q):
+        T = T @ exp_screw(S, t)
+    return T

@@ -1,0 +1,26 @@
+# task 2.4: hinge-at-the-origin-forgotten
+# No v is taken for no motion.
+import numpy as np
+
+
+def skew(w):
+    x, y, z = w
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def exp_rotation(axis, theta):
+    K = skew(axis)
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+
+
+def exp_screw(S, theta):
+    w, v = S[:3], S[3:]
+    T = np.eye(4)
+    if not np.any(v):
+        return T
+    K = skew(w)
+    T[:3, :3] = exp_rotation(w, theta)
+    T[:3, 3] = (
+        theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    ) @ v
+    return T

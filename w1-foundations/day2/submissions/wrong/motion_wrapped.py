@@ -1,0 +1,25 @@
+# task 2.4: theta-wrapped (not in a run: the lab's angles are between -pi and pi)
+# theta is brought between -pi and pi.
+import numpy as np
+
+
+def skew(w):
+    x, y, z = w
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def exp_rotation(axis, theta):
+    K = skew(axis)
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+
+
+def exp_screw(S, theta):
+    theta = (theta + np.pi) % (2 * np.pi) - np.pi
+    w, v = S[:3], S[3:]
+    K = skew(w)
+    T = np.eye(4)
+    T[:3, :3] = exp_rotation(w, theta)
+    T[:3, 3] = (
+        theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    ) @ v
+    return T

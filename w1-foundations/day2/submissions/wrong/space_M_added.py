@@ -1,0 +1,32 @@
+# task 2.6: M-only-added
+# M's translation is added in the end.
+import numpy as np
+
+
+def skew(w):
+    x, y, z = w
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def exp_rotation(axis, theta):
+    K = skew(axis)
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+
+
+def exp_screw(S, theta):
+    w, v = S[:3], S[3:]
+    K = skew(w)
+    T = np.eye(4)
+    T[:3, :3] = exp_rotation(w, theta)
+    T[:3, 3] = (
+        theta * np.eye(3) + (1 - np.cos(theta)) * K + (theta - np.sin(theta)) * K @ K
+    ) @ v
+    return T
+
+
+def fk_space(screws, M, q):
+    T = np.eye(4)
+    for S, t in zip(screws, q):
+        T = T @ exp_screw(S, t)
+    T[:3, 3] += M[:3, 3]
+    return T
