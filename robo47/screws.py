@@ -151,7 +151,7 @@ def adjoint(T: ArrayLike) -> Array:
 
 
 def ad(V: ArrayLike) -> Array:
-    """Return ad(V): how a twist changes when its frame moves with twist V.
+    """Return ad(V): at what rate a twist changes that is carried along by V.
 
     [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
     bracket). ad(V) @ V = 0.

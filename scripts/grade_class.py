@@ -103,7 +103,8 @@ def admit(options: argparse.Namespace) -> None:
         print("wall: each worker's own; without one it refuses", flush=True)
         return
     print(f"wall: {wall().says}", flush=True)
-    if not options.i_know_them and (why := refusal()):
+    why = "" if options.i_know_them else refusal()
+    if why:
         raise Robo47Error(
             f"{why}, use a container (docs/teaching.md), or add --i-know-them"
         )

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from robo47.checker.replies import Reply
 from robo47.checker.slips import arguments, unfinished
+from robo47.diagnose.answers import ONLY_NUMPY
 from robo47.diagnose.judging import judge
 from robo47.diagnose.mistake import Verdict
 from robo47.diagnose.rounds import Round
@@ -58,10 +59,7 @@ def why_not_loaded(script: Path, reply: Reply) -> str:
         return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
     why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
     if reply.kind == "ModuleNotFoundError":
-        why += (
-            ". The checker has NumPy and Python's own modules only: import others in "
-        )
-        why += "in the function that uses them."
+        why += f".{ONLY_NUMPY} Import others in the function that uses them."
     elif reply.kind == "SyntaxError" and _line_of(script, reply).startswith("<<<<<<<"):
         why += ". This is the mark of a merge that git could not finish: keep one side."
     return why

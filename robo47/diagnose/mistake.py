@@ -8,10 +8,9 @@ import numpy as np
 
 from robo47.checks import Array
 
-# What is no symbol of a formula, though as short as one, and what is, though longer.
-SHORT_WORDS = {"a", "all", "an", "any", "at", "for", "if", "in", "it", "its", "no",
-               "of", "on", "one", "the", "to", "two"}  # fmt: skip
-GREEK = {"alpha", "beta", "omega", "theta", "zeta"}
+# Words that are symbols of a formula; those of one letter but "a" are, too.
+SYMBOLS = {"alpha", "beta", "cos", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
+           "qd", "qdd", "sd", "sdd", "sin", "tau", "theta", "zeta"}  # fmt: skip
 
 
 class Finding(NamedTuple):
@@ -65,8 +64,8 @@ class Mistake:
 def capitalised(clause: str) -> str:
     """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
     first = clause.partition(" ")[0].rstrip(",")
-    short = len(first) < 4 and first not in SHORT_WORDS
-    if short or first in GREEK or not first.isalpha():
+    letter = len(first) == 1 and first != "a"
+    if letter or first in SYMBOLS or not first.isalpha():
         return clause
     return clause[0].upper() + clause[1:]
 

@@ -30,7 +30,9 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
         return found
     found = kind.what_is_wrong(S[i], T[i])
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
-    where = _where(kind, S[i], T[i], case.given, ask.near)
+    where = ""
+    if found.slug != "one-factor-off":  # every entry, so where does not matter
+        where = _where(kind, S[i], T[i], case.given, ask.near)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -53,7 +55,8 @@ def named_mistake(
             continue
         pairs = list(zip(S, again, ask.kinds, strict=False))
         if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in pairs):
-            says = f"{capitalised(mistake.says)}."
+            says = capitalised(mistake.says)
+            says += "" if says.endswith("?") else "."
             if T is not None:
                 i = worst_part(ask, S, T)
                 says += f" (Off by up to {ask.kinds[i].apart(S[i], T[i])}; "
