@@ -98,8 +98,8 @@ SATURATE = [
     ),
     Mistake(
         "nothing-within-the-limits",
-        "where all torques are within their limits, 0 comes back; nobody should touch "
-        "them",
+        "where all torques are within their limits, 0 comes back; they should stay as "
+        "they are",
         lambda tau, limits: np.where(
             _over(tau, limits), np.clip(tau, -limits, limits), 0.0
         ),
