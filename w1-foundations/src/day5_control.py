@@ -19,7 +19,7 @@ READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 DRIVE = "torque"  # motors, in Nm; "servo" would take the same numbers for angles
 INTEGRATOR = "mjINT_IMPLICITFAST"  # the model's; with mjINT_EULER nothing changes here
 RATE = 250.0  # Hz; 500 fits the curve better, 100 misses it, 50: the springs buzz
-OMEGA = 20.0  # rad/s; 5 tracks four times worse, above 414 no 2 ms step can follow
+OMEGA = 20.0  # rad/s; 5 tracks 7 times worse, above 414 no 2 ms step can follow
 KP, KD = 100.0, 20.0  # Nm/rad, Nm s/rad of the plain springs; kp 1000 sags a tenth
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; well above 2 OMEGA^3 the loop swings up
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of the tracking run
@@ -50,7 +50,7 @@ def gains(omega: float, zeta: float) -> np.ndarray:
 
 
 def error_response(t: np.ndarray, omega: float, zeta: float) -> np.ndarray:
-    """Return the error at times t, (n,), that was 1 and at rest at t = 0.
+    """Return, at the times t, (n,), the error that was 1 and at rest at t = 0.
 
     At omega = 10 and zeta = 1 it is 0.7358 after 0.1 s. zeta may be under or over 1.
     """

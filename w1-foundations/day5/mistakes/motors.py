@@ -19,6 +19,10 @@ def _by_length(tau: Array, limits: Array) -> Array:
     return tau * np.minimum(1.0, limits / np.maximum(length, 1e-300))
 
 
+def _over(tau: Array, limits: Array) -> Array:
+    return np.any(np.abs(tau) > limits, axis=1, keepdims=True)
+
+
 SATURATE = [
     Mistake(
         "not-bounded",
@@ -85,6 +89,30 @@ SATURATE = [
         "every motor gives its limit, in one direction or the other; a torque within "
         "the limits stays as it is",
         lambda tau, limits: np.sign(tau) * limits,
+    ),
+    Mistake(
+        "one-over-stops-all",
+        "one motor over its limit stops all seven; the others can still give what they "
+        "are asked for",
+        lambda tau, limits: np.where(_over(tau, limits), 0.0, tau),
+    ),
+    Mistake(
+        "nothing-within-the-limits",
+        "where all torques are within their limits, 0 comes back; they should stay as "
+        "they are",
+        lambda tau, limits: np.where(
+            _over(tau, limits), np.clip(tau, -limits, limits), 0.0
+        ),
+    ),
+    Mistake(
+        "first-limit-typed-in",
+        "all joints get 87 Nm, typed in; take each motor's own from limits",
+        lambda tau, limits: np.clip(tau, -PANDA[0], PANDA[0]) + 0.0 * limits,
+    ),
+    Mistake(
+        "all-positive",
+        "every torque has lost its sign; a motor turns both ways",
+        lambda tau, limits: np.minimum(np.abs(tau), limits),
     ),
 ]
 
@@ -167,5 +195,20 @@ SERVO = [
         "gains-swapped",
         "kp and kd are swapped",
         lambda tau, q, qd, kp, kd: q + (tau + kp * qd) / kd,
+    ),
+    Mistake(
+        "one-gain-for-all",
+        "all joints get the first servo's kp; each has its own",
+        lambda tau, q, qd, kp, kd: q + (tau + kd * qd) / kp[:, :1],
+    ),
+    Mistake(
+        "angle-subtracted",
+        "q is subtracted; the command is that far from q, so add it",
+        lambda tau, q, qd, kp, kd: (tau + kd * qd) / kp - q,
+    ),
+    Mistake(
+        "stiffness-forgotten",
+        "a torque is added to an angle; kp turns one into the other",
+        lambda tau, q, qd, kp, kd: q + tau + kd * qd,
     ),
 ]

@@ -6,14 +6,9 @@ import numpy as np
 
 from robo47 import control
 from robo47.checks import Array
-from robo47.diagnose.ask import Case
-from robo47.diagnose.mistake import Finding, Mistake
+from robo47.diagnose.mistake import Mistake
 
-CASES = ("zeta = 1", "zeta under 1", "zeta over 1")
-
-
-def _masks(zeta: Array) -> tuple[Array, ...]:
-    return zeta == 1.0, zeta < 1.0, zeta > 1.0
+from .where import masks
 
 
 def _truth(t: Array, omega: Array, zeta: Array) -> Array:
@@ -25,7 +20,7 @@ def _only(case: int, wrong: Callable[..., Array]) -> Callable[..., Array]:
 
     def redo(t: Array, omega: Array, zeta: Array) -> Array:
         out = _truth(t, omega, zeta)
-        some = _masks(zeta)[case]
+        some = masks(zeta)[case]
         out[some] = wrong(t[some], omega[some, None], zeta[some, None])
         return out
 
@@ -92,6 +87,18 @@ def _critical(t: Array, w: Array, z: Array) -> Array:
     return (1 + w * t) * np.exp(-w * t)
 
 
+def _near_one(t: Array, w: Array, z: Array) -> Array:
+    return np.where(
+        np.abs(z - 1) < 0.05, _critical(t, w, z), _truth(t, w[:, 0], z[:, 0])
+    )
+
+
+def _first_is_one(t: Array, w: Array, z: Array) -> Array:
+    out = _truth(t, w[:, 0], z[:, 0])
+    out[:, 0] = 1.0
+    return out
+
+
 RESPONSE = [
     Mistake(
         "one-formula-for-all",
@@ -103,6 +110,40 @@ RESPONSE = [
         "this is the envelope, e^(-zeta omega t); the error starts at rest, and this "
         "curve starts with a slope",
         _everywhere(lambda t, w, z: np.exp(-z * w * t)),
+    ),
+    Mistake(
+        "envelope-of-omega",
+        "this is e^(-omega t), whatever zeta is; the error starts at rest, and this "
+        "curve starts with a slope",
+        _everywhere(lambda t, w, z: np.exp(-w * t)),
+    ),
+    Mistake(
+        "half-the-damping",
+        "this is the curve of half the zeta: the equation has 2 zeta omega before ed",
+        lambda t, w, z: _truth(t, w, z / 2),
+    ),
+    Mistake(
+        "window-around-one",
+        "zeta near 1 gets the formula of zeta = 1, which is right at 1 alone; only "
+        "rounding, 1e-9 say, may count as 1",
+        _everywhere(_near_one),
+    ),
+    Mistake(
+        "time-from-the-first",
+        "time is counted from the first of t; t = 0 is where the error was 1, whether "
+        "it is in t or not",
+        lambda t, w, z: _truth(t - t[:, :1], w, z),
+    ),
+    Mistake(
+        "times-sorted",
+        "the times are sorted first; entry i of the answer belongs to entry i of t",
+        lambda t, w, z: _truth(np.sort(t, axis=1), w, z),
+    ),
+    Mistake(
+        "first-entry-one",
+        "the first entry is set to 1, whatever the first time is; only at t = 0 the "
+        "error is 1",
+        _everywhere(_first_is_one),
     ),
     Mistake(
         "output-in-place-of-error",
@@ -196,20 +237,3 @@ RESPONSE = [
         _only(2, _critical),
     ),
 ]
-
-
-def which_case(case: Case) -> Finding | None:
-    """Say for which zeta the curve is wrong, and whether it starts at 1."""
-    right = np.abs(case.S - case.T).max(axis=1) < 1e-8
-    wrong = [
-        name
-        for name, some in zip(CASES, _masks(case.arguments[2]), strict=True)
-        if not right[some].all()
-    ]
-    if len(wrong) == len(CASES):
-        if np.abs(case.S[:, 0] - 1.0).max() < 1e-8:
-            return None
-        says = "At t = 0 the error is 1; here it is not, for some zeta."
-        return Finding("does-not-start-at-one", says)
-    says = f"Wrong for {' and for '.join(wrong)}, right otherwise."
-    return Finding("one-case-wrong", says)

@@ -1,4 +1,4 @@
-"""Mistakes with springs: tasks 5.1 `pd_torque`, 5.2 `gains`, 5.4, 5.5 `gravity_pd`."""
+"""Mistakes with springs: tasks 5.1 `pd_torque`, 5.4 `sag_step`, 5.5 `gravity_pd`."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,6 +7,12 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake, lifted
+
+
+def wrapped(angle: Array) -> Array:
+    """Return angles taken to within half a turn of 0."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
+
 
 PD = [
     Mistake(
@@ -28,7 +34,7 @@ PD = [
     ),
     Mistake(
         "damper-forgotten",
-        "there is a spring, but no damper: the arm would swing for ever",
+        "there is a spring, but no damper: the arm would swing for long",
         lambda e, ed, kp, kd: kp * e,
     ),
     Mistake(
@@ -63,58 +69,24 @@ PD = [
             np.sum(kp * e + kd * ed, axis=1, keepdims=True), e.shape
         ),
     ),
-]
-
-
-def _two(first: Array, second: Array) -> Array:
-    return np.stack(np.broadcast_arrays(first, second), axis=-1)
-
-
-GAINS = [
     Mistake(
-        "two-forgotten",
-        "kd is zeta omega; the standard form has a factor of its own before them, "
-        "and without it the joint is damped half as much as you asked",
-        lambda w, z: _two(w**2, z * w),
+        "error-wrapped",
+        "e is taken to within +-pi; these joints have stops, so a whole turn is not "
+        "the same as none",
+        lambda e, ed, kp, kd: kp * wrapped(e) + kd * ed,
     ),
     Mistake(
-        "kp-is-omega",
-        "kp is omega, not its square: compare the units, kp is in 1/s2",
-        lambda w, z: _two(w, 2 * z * w),
+        "damper-through-both-gains",
+        "kd ed is multiplied by kp as well; kp and kd each have one error of their own",
+        lambda e, ed, kp, kd: kp * (e + kd * ed),
     ),
     Mistake(
-        "kd-is-omega",
-        "kd is omega whatever zeta is, which is right for zeta = 0.5 alone. It tracks "
-        "well and overshoots by a sixth",
-        lambda w, z: _two(w**2, w),
-    ),
-    Mistake(
-        "zeta-ignored",
-        "kd does not depend on zeta: it is right for critical damping alone",
-        lambda w, z: _two(w**2, 2 * w),
-    ),
-    Mistake("swapped", "kp and kd are swapped", lambda w, z: _two(2 * z * w, w**2)),
-    Mistake(
-        "root-of-omega",
-        "kd has the square root of omega in it, as if omega were kp already",
-        lambda w, z: _two(w**2, 2 * z * np.sqrt(w)),
-    ),
-    Mistake(
-        "kd-with-omega-squared",
-        "kd has omega squared in it: compare the units, kd is in 1/s",
-        lambda w, z: _two(w**2, 2 * z * w**2),
-    ),
-    Mistake(
-        "zeta-squared-in-kp",
-        "kp has zeta in it; damping changes kd alone",
-        lambda w, z: _two((z * w) ** 2, 2 * z * w),
-    ),
-    Mistake(
-        "omega-in-turns",
-        "omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s",
-        lambda w, z: _two((2 * np.pi * w) ** 2, 4 * np.pi * z * w),
+        "velocity-error-forgotten",
+        "kd is added as it is: it becomes a torque once it is multiplied by ed",
+        lambda e, ed, kp, kd: kp * e + kd,
     ),
 ]
+
 
 SAG = [
     Mistake(
@@ -164,6 +136,22 @@ SAG = [
         "the goal is divided by the stiffness as well",
         lambda q, g, kp: (q - g) / kp,
     ),
+    Mistake(
+        "always-below",
+        "gravity's sign is lost: where g is negative, the joint rests above its goal",
+        lambda q, g, kp: q - np.abs(g) / kp,
+    ),
+    Mistake(
+        "stiffness-squared",
+        "gravity's torque is divided by kp twice: compare the units",
+        lambda q, g, kp: q - g / kp**2,
+    ),
+    Mistake(
+        "answer-wrapped",
+        "the angle is taken to within +-pi; these joints have stops, so a whole turn "
+        "is not the same as none, and joint6 goes beyond pi",
+        lambda q, g, kp: wrapped(q - g / kp),
+    ),
 ]
 
 
@@ -173,6 +161,10 @@ def _held(spring: Callable[..., Array]) -> Callable[..., Array]:
 
 def _right(e: Array, ed: Array, kp: Array, kd: Array) -> Array:
     return kp * e + kd * ed
+
+
+def _at_goal(e: Array) -> Array:
+    return np.all(e == 0.0, axis=1, keepdims=True)
 
 
 GRAVITY = [
@@ -206,6 +198,22 @@ GRAVITY = [
         "gravity-through-both-gains",
         "gravity's torque is multiplied by the whole of it; torques add",
         lambda e, ed, kp, kd, g: _right(e, ed, kp, kd) * g,
+    ),
+    Mistake(
+        "gravity-at-the-goal-only",
+        "at the goal only gravity's torque is there, and elsewhere only the springs'; "
+        "the arm has its weight everywhere, and its springs too",
+        lambda e, ed, kp, kd, g: np.where(_at_goal(e), g, _right(e, ed, kp, kd)),
+    ),
+    Mistake(
+        "gravity-at-rest-only",
+        "gravity's torque is there only where ed is 0; a moving arm has its weight too",
+        lambda e, ed, kp, kd, g: _right(e, ed, kp, kd) + g * (ed == 0.0),
+    ),
+    Mistake(
+        "nothing-at-the-goal",
+        "where e is 0, no torque comes back: the arm has its weight at the goal too",
+        lambda e, ed, kp, kd, g: np.where(_at_goal(e), 0.0, _right(e, ed, kp, kd) + g),
     ),
     *lifted([replace(m) for m in PD], "gravity is right; in the springs, ", _held),
 ]

@@ -7,6 +7,10 @@ import numpy as np
 from robo47.checks import Array
 from robo47.diagnose.mistake import Mistake
 
+from .springs import wrapped
+
+ARMATURE = 0.1  # kg m2, of every joint of the Panda's model
+
 
 def _made(
     *,
@@ -41,9 +45,24 @@ def _everything_scaled(M, b, damping, qd, e, ed, qdd_ref, kp, kd):
     return _times(M, acc + b + damping * qd)
 
 
-def _friction_of_the_error(M, b, damping, qd, e, ed, qdd_ref, kp, kd):
+def _bias_scaled(M, b, damping, qd, e, ed, qdd_ref, kp, kd):
     acc = _acceleration(qd, e, ed, qdd_ref, kp[:, None], kd[:, None])
-    return _times(M, acc) + b + damping * ed
+    return _times(M, acc + b) + damping * qd
+
+
+def _rubbing(velocity: Callable[[Array, Array], Array]) -> Callable[..., Array]:
+    """Return computed torque whose friction is damping times another velocity."""
+
+    def redo(M, b, damping, qd, e, ed, qdd_ref, kp, kd):
+        acc = _acceleration(qd, e, ed, qdd_ref, kp[:, None], kd[:, None])
+        return _times(M, acc) + b + damping * velocity(qd, ed)
+
+    return redo
+
+
+def _bias_alone_at_the_goal(M, b, damping, qd, e, ed, qdd_ref, kp, kd):
+    right = _made()(M, b, damping, qd, e, ed, qdd_ref, kp, kd)
+    return np.where(np.all(e == 0.0, axis=1, keepdims=True), b, right)
 
 
 TORQUE = [
@@ -70,7 +89,23 @@ TORQUE = [
     Mistake(
         "friction-of-the-error",
         "friction is multiplied by ed; the joint rubs with its measured velocity",
-        _friction_of_the_error,
+        _rubbing(lambda qd, ed: ed),
+    ),
+    Mistake(
+        "friction-of-the-reference",
+        "friction is multiplied by the reference's velocity, qd + ed; the joint rubs "
+        "with its measured velocity",
+        _rubbing(lambda qd, ed: qd + ed),
+    ),
+    Mistake(
+        "friction-without-velocity",
+        "damping is added as it is: it becomes a torque once it is multiplied by qd",
+        _rubbing(lambda qd, ed: 1.0),
+    ),
+    Mistake(
+        "friction-twice",
+        "the joints' friction is in it twice; bias does not hold it, so once is enough",
+        _made(friction=2.0),
     ),
     Mistake(
         "bias-forgotten",
@@ -115,6 +150,18 @@ TORQUE = [
         _made(inside=lambda qd, e, ed, acc, kp, kd: acc - kd * ed + kp * e),
     ),
     Mistake(
+        "both-signs",
+        "kp e and kd ed both have the wrong sign: e and ed are the reference minus "
+        "what is measured",
+        _made(inside=lambda qd, e, ed, acc, kp, kd: acc - kd * ed - kp * e),
+    ),
+    Mistake(
+        "error-wrapped",
+        "e is taken to within +-pi; these joints have stops, so a whole turn is not "
+        "the same as none",
+        _made(inside=lambda qd, e, ed, acc, kp, kd: acc + kd * ed + kp * wrapped(e)),
+    ),
+    Mistake(
         "gains-swapped",
         "kp and kd are swapped",
         _made(inside=lambda qd, e, ed, acc, kp, kd: acc + kp * ed + kd * e),
@@ -144,6 +191,21 @@ TORQUE = [
         "everything-through-M",
         "bias and friction go through M as well; they are torques already",
         _everything_scaled,
+    ),
+    Mistake(
+        "bias-through-M",
+        "bias goes through M as well; it is a torque already",
+        _bias_scaled,
+    ),
+    Mistake(
+        "armature-twice",
+        "the armature, 0.1 kg m2, is added to M; M has it already",
+        _made(scaled=lambda M, acc: _times(M, acc) + ARMATURE * acc),
+    ),
+    Mistake(
+        "bias-alone-at-the-goal",
+        "where e is 0 only bias comes back, but the arm may be moving there",
+        _bias_alone_at_the_goal,
     ),
     Mistake(
         "reference-outside-M",
