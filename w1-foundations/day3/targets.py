@@ -181,7 +181,7 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     return Finding(
         "not-the-best",
         f"{says} (radians and metres). Is the q returned whose error was the shortest, "
-        "and is the damping as in the docstring?",
+        "and are the steps and their damping those of the docstring?",
     )
 
 

@@ -106,12 +106,6 @@ DLS = [
         "the step with damping 0.05",
     ),
     Mistake(
-        "damping-subtracted",
-        "damping^2 is taken away from the diagonal; it has to be added",
-        _with(lambda damping: -(damping**2)),
-        "the step with -damping^2 I",
-    ),
-    Mistake(
         "damping-added-to-the-values",
         "the damping is added to each singular value s, 1 / (s + damping); the formula "
         "makes s / (s^2 + damping^2) of it",
