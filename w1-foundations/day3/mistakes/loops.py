@@ -204,14 +204,6 @@ SOLVE_IK = [
         "what q = 0 leads to",
     ),
     Mistake(
-        "M-forgotten",
-        "M is left out of fk_space, so it is not the hand that comes to the target",
-        lambda S, M, goal, q, limits: walk(
-            S, np.broadcast_to(np.eye(4), M.shape), goal, q, limits
-        ),
-        "what the identity in place of M leads to",
-    ),
-    Mistake(
         "one-step",
         "there is one step only; the Jacobian is a straight line along a curve, so it "
         "takes several",
