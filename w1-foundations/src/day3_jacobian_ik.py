@@ -136,7 +136,7 @@ def manipulability(J: np.ndarray) -> float:
 def null_step(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
     """Return the part of dq, (7,), that the hand does not feel: dq - J^+ J dq.
 
-    With J = [I 0] and dq all 1 only the seventh joint moves.
+    With J = [I 0] and dq all 1 only the seventh joint moves. J may be singular.
     """
     # region 3.8
     return dq - np.linalg.pinv(J) @ (J @ dq)
