@@ -4,8 +4,6 @@ The truth comes from `robo47.jacobian`, which its own tests hold against MuJoCo,
 Pinocchio and the textbook; `solve_ik` is judged by where its answers bring the hand.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from robo47 import jacobian, screws, se3
@@ -14,26 +12,18 @@ from robo47.diagnose import (
     Ask,
     HeldOut,
     Jacobian,
-    Scalar,
-    Twist,
     Vector,
     draw,
 )
 
 from . import targets
-from .mistakes import errors, jacobians, loops, points, steps
+from .kinds import Gap, Number, Numbers
+from .mistakes import angles, errors, jacobians, logs, loops, measures, points, steps
 
 NEAR = 1e-5
 ROTVEC = ("x", "y", "z")
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 UNIT = np.hstack([np.eye(6), np.zeros((6, 1))])  # a Jacobian of unit columns
-
-
-@dataclass(frozen=True)
-class Gap(Twist):
-    """A pose error: a rotation above, a translation below."""
-
-    halves = ("the rotation", "the translation")
 
 
 def _jacobians(q: Array) -> Array:
@@ -72,10 +62,20 @@ def _space_and_p(rng):
 
 def _turns(rng):
     """From 0 to nearly pi; the docstring's first, drawn ones last."""
-    angles = [1e-9, 1e-5, 0.3, *(np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8]))]
+    angles = [
+        1e-9,
+        1e-7,
+        1e-6,
+        5e-6,
+        1e-5,
+        1e-3,
+        0.3,
+        *(np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])),
+    ]
     angles += [2.0, *rng.uniform(0.2, 3.0, 5)]
     R = screws.exp_rotation(draw.units(rng, len(angles)), np.array(angles))
-    return [(se3.Rz(np.pi / 2),), (np.eye(3),), *((one,) for one in R)]
+    rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
+    return [(se3.Rz(np.pi / 2),), (np.eye(3),), (rounded,), *((one,) for one in R)]
 
 
 def _half_turns(rng):
@@ -107,13 +107,25 @@ def _steps(rng):
     return [first, *zip(_near_singular(rng), e, map(float, damping), strict=True)]
 
 
+def _steps_without_damping(rng):
+    J = _jacobians(draw.configurations(rng, 3))
+    return [
+        (one, e, 0.0) for one, e in zip(J, draw.numbers(rng, -1, 1, 3, 6), strict=True)
+    ]
+
+
 def _only_J(rng):
     first = np.hstack([np.diag([1.0, 2.0, 3.0, 1.0, 1.0, 1.0]), np.zeros((6, 1))])
-    return [(first,), *((J,) for J in _near_singular(rng))]
+    return [
+        (first,),
+        *((J,) for J in targets.SINGULAR),
+        *((J,) for J in _near_singular(rng)),
+    ]
 
 
 def _J_and_dq(rng):
     J = _jacobians(draw.configurations(rng, 9))
+    J[0, 0] = 0.0  # rank 5: two motions are not felt
     return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
 
 
@@ -130,6 +142,13 @@ HALF_TURN = HeldOut(
     "Right below pi, but not at exactly pi. There R - R^T is 0, so it knows neither "
     "the axis nor its sign: the docstring says which sign to return.",
     _half_turns,
+)
+AT_NO_DAMPING = HeldOut(
+    "zero-without-damping",
+    "Right, but with damping 0 it returns zeros. There the formula is the plain "
+    "pseudo-inverse's step, which step 6 of the lab takes.",
+    _steps_without_damping,
+    mistaken=lambda J, e, damping: np.zeros(J.shape[::2]),
 )
 
 QUESTIONS = {
@@ -149,10 +168,11 @@ QUESTIONS = {
     ),
     "log_rotation": Ask(
         _turns,
-        Vector((3,), "rad", names=ROTVEC),
+        Numbers((3,), "rad", names=ROTVEC),
         truth=jacobian.log_rotation,
-        mistakes=errors.LOG,
-        unnamed=errors.where_the_angle_fails,
+        mistakes=[*logs.LOG, *logs.NOT_FINITE],
+        unnamed=angles.where_the_angle_fails,
+        near_miss=angles.where_the_digits_go,
         held_out=[HALF_TURN],
         near=NEAR,
     ),
@@ -168,6 +188,7 @@ QUESTIONS = {
         Vector((7,), "rad", names=JOINTS),
         truth=jacobian.dls_step,
         mistakes=steps.DLS,
+        held_out=[AT_NO_DAMPING],
         near=NEAR,
     ),
     "solve_ik": Ask(
@@ -178,9 +199,9 @@ QUESTIONS = {
     ),
     "manipulability": Ask(
         _only_J,
-        Scalar(),
+        Number(),
         truth=jacobian.manipulability,
-        mistakes=steps.MANIPULABILITY,
+        mistakes=measures.MANIPULABILITY,
         tolerance=1e-6,
         near=NEAR,
     ),
@@ -188,7 +209,8 @@ QUESTIONS = {
         _J_and_dq,
         Vector((7,), "rad", names=JOINTS),
         truth=jacobian.null_step,
-        mistakes=steps.NULL,
+        mistakes=measures.NULL,
+        unnamed=measures.what_the_hand_feels,
         near=NEAR,
     ),
     "body_jacobian": Ask(

@@ -2,6 +2,7 @@
 
 Near targets have to be reached, to 1e-8; of those out of reach, and of those that only
 lead through a joint limit, an answer has to come near. Nothing may leave the limits.
+Where the docstring's loop has one way only to go, an answer has to end as near.
 """
 
 from functools import cache
@@ -14,6 +15,28 @@ from robo47.diagnose import Finding, draw
 
 from .mistakes import loops
 
+# Rank 5: row 6 is the sum of two. Rounding makes the determinant of J J^T, and the
+# product of its eigenvalues, a bit less than 0 (with four ways to compute it).
+_ROWS = """
+-1 3 0 -3 3 3 0  -1 -2 2 -3 -3 3 0  -1 1 -3 1 -1 2 -1
+-2 0 -1 1 1 -3 -3  0 2 1 -1 1 -2 -1  -1 0 3 -4 -2 1 -1
+3 -3 1 1 -1 2 -1  -1 2 0 0 0 2 0  0 -3 3 0 -3 -2 2
+0 -2 -3 2 -1 -1 -3  0 2 3 3 -2 2 -1  3 -5 -2 3 -2 1 -4
+2 -1 2 1 0 -2 2  -1 2 2 -3 3 0 -1  3 -3 0 -1 -1 2 -1
+-3 2 -1 -1 3 -2 -2  1 1 3 1 1 3 -3  -4 4 1 -4 6 -2 -3
+"""
+SINGULAR = np.array(_ROWS.split(), dtype=float).reshape(3, 6, 7) / 8.0
+
+# Joint 4 may go to -0.07 only: the target wants more. Then one at joint 6's and joint
+# 7's limits, which a loop that keeps the limits at its end alone does not find.
+START_4 = np.array([0.4, 0.5, -0.3, -0.2, 0.5, 1.2, 0.3])
+BEYOND_4 = np.array([0.5, 0.4, -0.2, -0.02, 0.6, 1.4, 0.4])
+START_6 = np.array([-1.605, -0.761, 0.885, -2.204, -2.157, 0.076, -1.154])
+AT_6 = np.array([-1.44, -1.026, 0.941, -2.329, -2.077, -0.017, -2.897])
+# A turn by 2.5 rad about y from here meets no limit, and leads into a valley: the
+# best q that the loop has passed is a third nearer than its last.
+FAR_START = np.array([0.578, 0.069, 0.367, -1.654, -1.832, 2.08, 1.819])
+
 
 @cache
 def arm() -> tuple[Array, Array, Array]:
@@ -23,7 +46,10 @@ def arm() -> tuple[Array, Array, Array]:
 
 
 def targets(rng):
-    """Return a solved start, near targets, four out of reach, and near ones again."""
+    """Return a solved start, chosen targets, near ones, four out of reach, near ones.
+
+    The near ones at the end are drawn anew at each check.
+    """
     S, M, limits = arm()
     start, goal = _near_targets(rng, 30, 0.7)
     some = np.flatnonzero(_reached(goal, start, limits))[:17]
@@ -32,7 +58,27 @@ def targets(rng):
     start[1:3], goal[1:3] = _by_the_limits(rng)
     out = goal[9:13, :3, 3]
     out *= 2.0 / np.linalg.norm(out, axis=1)[:, None]
-    return [(S, M, T, q, limits) for T, q in zip(goal, start, strict=True)]
+    rows = [(S, M, T, q, limits) for T, q in zip(goal, start, strict=True)]
+    return [rows[0], *_chosen(), *rows[1:]]
+
+
+def _chosen() -> list[tuple[Array, ...]]:
+    """Return a pure turn and a pure move, two targets at limits, and one far turn."""
+    S, M, limits = arm()
+    at, turned = screws.fk_space(S, M, np.array([draw.READY, FAR_START]))
+    at_4, at_6 = screws.fk_space(S, M, np.array([BEYOND_4, AT_6]))
+    moved = at.copy()
+    moved[2, 3] -= 0.1
+    goals = [_turned(at, 2, 0.5), moved, at_4, at_6, _turned(turned, 1, 2.5)]
+    starts = [draw.READY, draw.READY, START_4, START_6, FAR_START]
+    return [(S, M, T, q, limits) for T, q in zip(goals, starts, strict=True)]
+
+
+def _turned(T: Array, axis: int, angle: float) -> Array:
+    """Return a pose turned in place about an axis of the world."""
+    out = T.copy()
+    out[:3, :3] = screws.exp_rotation(np.eye(3)[axis], angle) @ T[:3, :3]
+    return out
 
 
 def _near_targets(rng, n: int, part: float) -> tuple[Array, Array]:
@@ -81,12 +127,62 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return _unchanged(q_start, q)
     if np.linalg.norm(T_goal[:3, 3]) > 1.5:  # the arm is 1.2 m long
         return _as_near_as_can_be(S, M, T_goal, q_start, limits, after)
+    if found := _half_there(S, M, T_goal, q):
+        return found
     if after >= before:
         return Finding("no-nearer", "It ends no nearer to its target than it started.")
-    if after > 1e-8 and _reached(T_goal[None], q_start[None], limits)[0]:
+    if after <= 1e-8:
+        return None
+    if _reached(T_goal[None], q_start[None], limits)[0]:
         says = f"The hand is not at its target, which is near: {after:.2g} off"
         return Finding("not-reached", f"{says} (radians and metres).")
+    return _as_the_docstring(T_goal, q_start, limits, after)
+
+
+def _half_there(S, M, T_goal, q) -> Finding | None:
+    """Return that only the position, or only the rotation, is right."""
+    e = jacobian.pose_error(screws.fk_space(S, M, q), T_goal)
+    turn, move = np.linalg.norm(e[:3]), np.linalg.norm(e[3:])
+    if move < 1e-8 and turn > 1e-4:
+        says = (
+            f"The hand's position is right, its rotation is {turn:.2g} rad off: does "
+            "the loop steer, stop or choose by the position alone?"
+        )
+        return Finding("position-only", says)
+    if turn < 1e-8 and move > 1e-4:
+        says = (
+            f"The hand's rotation is right, its position is {1000 * move:.2g} mm off: "
+            "does the loop steer, stop or choose by the rotation alone?"
+        )
+        return Finding("rotation-only", says)
     return None
+
+
+def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
+    """Return that the docstring's loop comes nearer, where its way is certain.
+
+    It is where no limit is met, and a last digit of the start changes nothing.
+    """
+    S, M, _ = arm()
+    starts = q_start + np.array([0.0, 0.0, 1e-7, -3e-7])[:, None]
+    goal = np.repeat(T_goal[None], 4, axis=0)
+    kept = loops.walk(*_stacked(goal, starts, limits))
+    free = loops.walk(*_stacked(goal, starts, limits), clip=False)
+    miss = np.linalg.norm(
+        jacobian.pose_error(screws.fk_space(S, M, kept), T_goal), axis=1
+    )
+    least = float(miss[0])
+    certain = np.abs(free[0] - kept[0]).max() < 1e-6 and np.ptp(miss) < 0.003 * least
+    if not certain or least < 1e-3 or after < 1.1 * least:  # another damping: 1.08
+        return None
+    says = (
+        f"It ends {after:.3g} off a target far away; 60 steps can end {least:.3g} off"
+    )
+    return Finding(
+        "not-the-best",
+        f"{says} (radians and metres). Is the q returned whose error was the shortest, "
+        "and are the steps and their damping those of the docstring?",
+    )
 
 
 def _miss(S, M, T_goal, q) -> float:

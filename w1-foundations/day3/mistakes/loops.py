@@ -14,9 +14,11 @@ from robo47 import jacobian
 from robo47.checks import Array
 from robo47.diagnose.matrices import transposed
 from robo47.diagnose.mistake import Mistake
+from robo47.panda import READY_Q
 from robo47.screws import adjoint, fk_space, skew
 
-from .errors import LOG, error, in_the_hands_axes
+from .errors import error, in_the_hands_axes
+from .logs import LOG
 from .steps import damped
 
 Function = Callable[..., Any]
@@ -186,6 +188,20 @@ SOLVE_IK = [
         "the Jacobian is that of the start; it changes with every step",
         _with(**PARTS["jacobian-never-updated"]),
         "what the first Jacobian leads to",
+    ),
+    Mistake(
+        "q-start-unused",
+        "the loop starts from READY_Q: q_start is not used",
+        lambda S, M, goal, q, limits: walk(
+            S, M, goal, np.broadcast_to(READY_Q, q.shape).copy(), limits
+        ),
+        "what READY_Q leads to",
+    ),
+    Mistake(
+        "q-start-unused",
+        "the loop starts from q = 0, whatever q_start is",
+        lambda S, M, goal, q, limits: walk(S, M, goal, np.zeros_like(q), limits),
+        "what q = 0 leads to",
     ),
     Mistake(
         "one-step",

@@ -100,4 +100,11 @@ BODY = [
         lambda J, T: transposed(adjoint(T)) @ J,
         "the Jacobian with that transpose",
     ),
+    Mistake(
+        "turned-by-R",
+        "J_site is turned by R, which leads from the hand's axes to the world's; the "
+        "way back is R^T",
+        lambda J, T: _turned(jacobian.site_jacobian(J, T[:, :3, 3]), transposed(T)),
+        "J_site turned by R",
+    ),
 ]

@@ -1,6 +1,6 @@
-"""Mistakes in tasks 3.5, 3.7 and 3.8: `dls_step`, `manipulability`, `null_step`.
+"""Mistakes in task 3.5: `dls_step(J, e, damping)`.
 
-`redo` takes J (n, 6, 7) with e (n, 6) and damping (n,), alone, or with dq (n, 7).
+`redo` takes J (n, 6, 7), e (n, 6) and damping (n,).
 """
 
 from collections.abc import Callable
@@ -26,6 +26,17 @@ def _with(change: Function) -> Function:
     return lambda J, e, damping: damped(
         J, e, change(damping[:, None, None]) * np.eye(6)
     )
+
+
+def _by_singular_values(weight: Function) -> Function:
+    """Return the step with other weights, made of the singular values and damping."""
+
+    def redo(J: Array, e: Array, damping: Array) -> Array:
+        U, values, Vt = np.linalg.svd(J, full_matrices=False)
+        along = times(transposed(U), e) * weight(values, damping[:, None])
+        return times(transposed(Vt), along)
+
+    return redo
 
 
 DLS = [
@@ -82,119 +93,30 @@ DLS = [
         ),
         "the plain step over 1 + damping^2",
     ),
-]
-
-
-def _determinant(J: Array) -> Array:
-    return np.linalg.det(J @ transposed(J))
-
-
-def _values(J: Array) -> Array:
-    return np.linalg.svd(J, compute_uv=False)
-
-
-MANIPULABILITY = [
     Mistake(
-        "no-square-root",
-        "the square root is missing: this is det(J J^T)",
-        _determinant,
-        "det(J J^T)",
+        "damping-squared-twice",
+        "the damping is squared twice: its fourth power is added",
+        _with(lambda damping: damping**4),
+        "the step with damping^4 I",
     ),
     Mistake(
-        "other-product",
-        "J^T J is 7x7 and always singular; J J^T is the one that is meant",
-        lambda J: np.sqrt(np.abs(np.linalg.det(transposed(J) @ J))),
-        "the root of det(J^T J)",
+        "damping-fixed",
+        "the damping is 0.05 whatever the argument says",
+        _with(lambda damping: np.full_like(damping, 0.05**2)),
+        "the step with damping 0.05",
     ),
     Mistake(
-        "smallest-singular-value",
-        "this is the smallest singular value alone; the product of all six is asked "
-        "for",
-        lambda J: _values(J)[:, -1],
-        "the smallest singular value",
+        "damping-added-to-the-values",
+        "the damping is added to each singular value s, 1 / (s + damping); the formula "
+        "makes s / (s^2 + damping^2) of it",
+        _by_singular_values(lambda s, d: 1.0 / (s + d)),
+        "the step with 1 / (s + damping)",
     ),
     Mistake(
-        "largest-singular-value",
-        "this is the largest singular value, the norm of J",
-        lambda J: _values(J)[:, 0],
-        "the largest singular value",
-    ),
-    Mistake(
-        "sum-of-singular-values",
-        "the singular values are added; they have to be multiplied",
-        lambda J: _values(J).sum(axis=1),
-        "the sum of the singular values",
-    ),
-    Mistake(
-        "trace",
-        "this comes from the trace, which is the sum; the determinant is asked for",
-        lambda J: np.sqrt(np.trace(J @ transposed(J), axis1=1, axis2=2)),
-        "the root of the trace",
-    ),
-    Mistake(
-        "inverse-condition",
-        "this is the smallest singular value over the largest one, another measure",
-        lambda J: _values(J)[:, -1] / _values(J)[:, 0],
-        "the inverse of the condition number",
-    ),
-    Mistake(
-        "square-part",
-        "this is the determinant of the first six columns; joint 7 counts too",
-        lambda J: np.abs(np.linalg.det(J[:, :, :6])),
-        "the determinant of six columns",
-    ),
-]
-
-
-def _felt(J: Array, dq: Array) -> Array:
-    return times(np.linalg.pinv(J), times(J, dq))
-
-
-def _damped_projector(J: Array, dq: Array, damping: float) -> Array:
-    return dq - damped(J, times(J, dq), damping**2 * np.eye(6))
-
-
-NULL = [
-    Mistake(
-        "transpose-for-pseudo-inverse",
-        "J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels "
-        "it",
-        lambda J, dq: dq - times(transposed(J), times(J, dq)),
-        "dq - J^T J dq",
-    ),
-    Mistake(
-        "felt-part",
-        "this is the part that the hand does feel, J^+ J dq; the rest is asked for",
-        _felt,
-        "J^+ J dq",
-    ),
-    Mistake(
-        "unchanged",
-        "dq comes back as it was",
-        lambda J, dq: dq,
-        "dq itself",
-    ),
-    Mistake(
-        "added",
-        "the part that the hand feels is added; it has to be taken away",
-        lambda J, dq: dq + _felt(J, dq),
-        "dq + J^+ J dq",
-    ),
-    Mistake(
-        "nothing-left",
-        "nothing is left: seven joints always have a motion that the hand does not "
-        "feel",
-        lambda J, dq: np.zeros_like(dq),
-        "zeros",
-    ),
-    *(
-        Mistake(
-            "damped-projector",
-            f"the pseudo-inverse in it is damped (by {damping:g}), so a part of the "
-            "felt motion stays",
-            lambda J, dq, damping=damping: _damped_projector(J, dq, damping),
-            "the projector with damping",
-        )
-        for damping in (0.05, 0.1, 0.01)
+        "singular-value-missing",
+        "the weights are 1 / (s^2 + damping^2) for the singular values s: J^T in front "
+        "puts one more s above",
+        _by_singular_values(lambda s, d: 1.0 / (s * s + d * d)),
+        "the step with 1 / (s^2 + damping^2)",
     ),
 ]

@@ -13,6 +13,7 @@ def manipulability(J):
 
 
 def null_step(J, dq):
-    Vt = np.linalg.svd(J)[2]
-    n = Vt[-1]
-    return n * (n @ dq)
+    _, values, Vt = np.linalg.svd(J)
+    rank = np.sum(values > 1e-12 * values[0])
+    N = Vt[rank:]
+    return N.T @ (N @ dq)

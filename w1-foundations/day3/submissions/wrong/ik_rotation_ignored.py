@@ -1,4 +1,4 @@
-# task 3.6: not-reached
+# task 3.6: position-only
 # Only the translation is steered.
 import numpy as np
 

@@ -1,4 +1,4 @@
-# task 3.3: not-finite
+# task 3.3: nan-at-0
 # 0 / 0 at the identity.
 import numpy as np
 

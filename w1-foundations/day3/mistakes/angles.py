@@ -1,0 +1,135 @@
+"""What is wrong with a `log_rotation` that no named mistake gives: where, and how."""
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.diagnose import Case, Finding
+from robo47.diagnose.compare import difference
+
+BY_PI, BY_0 = 0.02, 0.02  # radians: "near pi" and "near 0" begin here
+OFF = 1e-5
+NEXT_TO_NONE = 1e-8  # "close" begins here
+
+
+def where_the_angle_fails(case: Case) -> Finding | None:
+    """Return that the answer is right but for a sign, near 0, or near pi."""
+    S, T = case.S, case.T
+    angle = np.linalg.norm(T, axis=1)
+    off = difference(S, T) > OFF
+    by_pi, by_0 = angle > np.pi - BY_PI, angle < BY_0
+    if not off.any():
+        return None
+    if off[~by_pi & ~by_0].any():
+        return _everywhere(S, T, off, angle)
+    if not off[by_pi].any():
+        return _zero_near_0(S, T, off) or Finding(
+            "wrong-near-0", "It is right, but not for angles near 0."
+        )
+    some = off & by_pi
+    i = np.flatnonzero(some)[0]
+    says = (
+        f"It is right, but not near pi: {np.pi - angle[i]:.0e} below it, it is off by "
+        f"{np.abs(S[i] - T[i]).max():.2g}."
+    )
+    return _near_pi(S, T, some, says)
+
+
+def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
+    one_of_two = np.minimum(difference(S, T), difference(S, -T))
+    if difference(S[some], -T[some]).max() < OFF:
+        return Finding(
+            "sign-near-pi",
+            f"{says} The axis is right there, its sign is not: R - R^T is small, but "
+            "it still tells the sign.",
+        )
+    if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
+        return Finding(
+            "signs-near-pi",
+            f"{says} The entries are right there but for their signs: a root of the "
+            "diagonal has none. Which column of R + R^T tells them?",
+        )
+    if found := _set_to_pi(S, T, some):
+        return found
+    return Finding(
+        "wrong-near-pi",
+        f"{says} R - R^T is nearly 0 there: is it divided by the sine, which makes "
+        "noise of it?",
+    )
+
+
+def _alike(a: Array, b: Array) -> bool:
+    return bool(difference(a, b).max() < OFF)
+
+
+def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
+    length = np.linalg.norm(T[some], axis=1, keepdims=True)
+    if difference(S[some], np.pi * T[some] / length).max() > 1e-9:
+        return None
+    least = np.pi - float(length.min())
+    return Finding(
+        "pi-for-the-angle",
+        f"The angle is set to pi where it is {least:.1e} less. Below pi the sine is "
+        "small, but not 0: atan2 gives the angle there too.",
+    )
+
+
+def _zero_near_0(S: Array, T: Array, some: np.ndarray) -> Finding | None:
+    if S[some].any():
+        return None
+    angle = float(np.linalg.norm(T[some], axis=1).max())
+    return Finding(
+        "zero-for-small-angles",
+        f"0 comes back for a turn of {angle:.0e} rad: a threshold is too wide. What is "
+        "the answer there, without a division?",
+    )
+
+
+def _everywhere(
+    S: Array, T: Array, off: np.ndarray, angle: np.ndarray
+) -> Finding | None:
+    """Return that it is right but for the sign, or for whole turns."""
+    k, n = off.sum(), len(off)
+    if difference(S[off], -T[off]).max() < OFF:
+        return Finding(
+            "sign-of-the-axis",
+            f"It is right but for its sign, which is wrong for {k} of {n} turns: an "
+            "axis has two directions, and R - R^T tells which one it is.",
+        )
+    other_way = T[off] * (1.0 - 2.0 * np.pi / angle[off, None])
+    if difference(S[off], other_way).max() < OFF:
+        return Finding(
+            "angle-over-pi",
+            f"The angle is more than pi for {k} of {n} turns: it goes the long way. "
+            "Of the quaternions q and -q, which are one turn, take the one with w > 0.",
+        )
+    return None
+
+
+def where_the_digits_go(case: Case) -> Finding | None:
+    """Return that a nearly right answer is 0 near 0, is pi near pi, or an arccosine."""
+    S, T = case.S, case.T
+    off = difference(S, T) > NEXT_TO_NONE
+    angle = np.linalg.norm(T, axis=1)
+    by_0, by_pi = angle < BY_0, angle > np.pi - BY_PI
+    if off[~by_0 & ~by_pi].any():
+        return None
+    if not off[by_pi].any() and (found := _zero_near_0(S, T, off)):
+        return found
+    if not off[by_0].any() and (found := _set_to_pi(S, T, off)):
+        return found
+    return _as_an_arccosine(S, T, off)
+
+
+def _as_an_arccosine(S: Array, T: Array, off: np.ndarray) -> Finding | None:
+    """Return that the angles, and they alone, have half of their digits."""
+    axis = T[off] / np.linalg.norm(T[off], axis=1, keepdims=True)
+    along = np.sum(S[off] * axis, axis=1, keepdims=True) * axis
+    apart = difference(S, T).max()
+    if difference(S[off], along).max() > 1e-12 or apart > 1e-7:
+        return None
+    return Finding(
+        "arccosine",
+        f"Close, but not equal: the angle is off by {apart:.1e} near 0 or pi. An "
+        "arccosine loses half the digits there; which function takes the sine and the "
+        "cosine?",
+    )

@@ -1,0 +1,13 @@
+# task 3.3: signs-near-pi
+# Near pi the root of the diagonal, which has no signs.
+import numpy as np
+
+
+def log_rotation(R):
+    s = 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    c = 0.5 * (np.trace(R) - 1.0)
+    n = np.linalg.norm(s)
+    theta = np.arctan2(n, c)
+    if c > -0.999999:
+        return s if n < 1e-12 else s * theta / n
+    return theta * np.sqrt(np.clip((np.diag(R) + 1) / 2, 0, None))
