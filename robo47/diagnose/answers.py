@@ -28,11 +28,13 @@ def read(
     """
     if broken := [reply for reply in replies if reply.kind]:
         return _raised(broken, len(replies), ask, source)
-    if any(reply.value is None for reply in replies):
-        return Finding(
-            "nothing-returned",
-            "It returns nothing (None): the result is worked out, but not handed back.",
+    if nothing := sum(reply.value is None for reply in replies):
+        says = (
+            "It returns nothing (None): the result is worked out, but not handed back."
         )
+        if nothing < len(replies):
+            says = f"It returns None for {nothing} of {len(replies)} inputs."
+        return Finding("nothing-returned", says)
     kinds = ask.kinds
     columns: list[list[Array]] = [[] for _ in kinds]
     for reply in replies:

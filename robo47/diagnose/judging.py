@@ -145,7 +145,8 @@ def _judge_accepted(
         return Verdict("wrong", *named)
     i, found = wrong[0]
     given = in_words(questions[i], names)
-    where = f" (For {len(wrong)} of {len(questions)} inputs"
+    often = sum(other.slug == found.slug for _, other in wrong)
+    where = f" (For {often} of {len(questions)} inputs"
     where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
     return Verdict("wrong", found.slug, found.message + where)
 
