@@ -9,7 +9,9 @@
 What a number must reach stands in the day's day.toml and nowhere else.
 """
 
+import contextlib
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +54,14 @@ class Lab:
     def step(self, title: str) -> None:
         """Print the heading of a step."""
         print(f"\n{title}")
+
+    @contextlib.contextmanager
+    def side_quest(self) -> Iterator[None]:
+        """Go on where what is optional is still to do: its rows are not asked for."""
+        try:
+            yield
+        except NotImplementedError as gap:
+            print(cli.wrapped(f"to do: {gap}", "  "))
 
     def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
         """Print a matrix or a vector with aligned columns.

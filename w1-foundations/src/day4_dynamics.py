@@ -340,9 +340,10 @@ def main() -> int:
           f"{away:.2f} m in 5 s, then {speed[-1]:.3f} m/s")  # fmt: skip
 
     lab.step("8. Side quest: energy, and who makes it")
-    off = each(energy, M, qd, body[0], com, g)
-    off = off - [mujoco_energy(model, *one) for one in zip(q, qd, strict=True)]
-    lab.check("largest |energy - MuJoCo's|, J", off)
+    with lab.side_quest():
+        off = each(energy, M, qd, body[0], com, g)
+        off = off - [mujoco_energy(model, *one) for one in zip(q, qd, strict=True)]
+        lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
         gain = swing(name, ms / 1000)
         print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")

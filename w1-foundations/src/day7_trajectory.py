@@ -322,8 +322,9 @@ def main() -> int:
     ]
     lab.check("torque to carry the hand, off MuJoCo's", off)
     grip, mu, up = rng.uniform([0, 0, -5], [10, 2, 5], (TRIALS, 3)).T
-    off = each(heaviest_cube, grip, mu, up) - library.heaviest_cube(grip, mu, up)
-    lab.check("heaviest_cube, off the library", off)
+    with lab.side_quest():
+        off = each(heaviest_cube, grip, mu, up) - library.heaviest_cube(grip, mu, up)
+        lab.check("heaviest_cube, off the library", off)
     if lab.failed:
         # The habit of every real robot: no power before the checks are green.
         print("\n  The arm stays off until these checks pass.")
@@ -362,6 +363,10 @@ def week():
     fns = capstone.library()
     for name in capstone.USES[7]:
         setattr(fns, name, globals()[name])
+    try:
+        heaviest_cube(1.0, 1.0, 0.0)
+    except NotImplementedError:  # a side quest: where it is to do, the library's lifts
+        fns.heaviest_cube = library.heaviest_cube
     return fns
 
 
