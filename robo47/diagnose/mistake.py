@@ -9,8 +9,8 @@ import numpy as np
 from robo47.checks import Array
 
 # Words that are symbols of a formula; those of one letter but "a" are, too.
-SYMBOLS = {"alpha", "beta", "cos", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
-           "qd", "qdd", "sd", "sdd", "sin", "tau", "theta", "zeta"}  # fmt: skip
+SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
+           "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
 
 
 class Finding(NamedTuple):
