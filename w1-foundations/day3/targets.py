@@ -46,17 +46,17 @@ def arm() -> tuple[Array, Array, Array]:
 
 
 def targets(rng):
-    """Return a solved start, chosen targets, near ones, four out of reach, near ones.
+    """Return a solved start, chosen targets, near ones, two out of reach, near ones.
 
     The near ones at the end are drawn anew at each check.
     """
     S, M, limits = arm()
     start, goal = _near_targets(rng, 30, 0.7)
-    some = np.flatnonzero(_reached(goal, start, limits))[:17]
+    some = np.flatnonzero(_reached(goal, start, limits))[:15]
     start, goal = start[some], goal[some]
     goal[0], start[0] = screws.fk_space(S, M, draw.READY), draw.READY
     start[1:3], goal[1:3] = _by_the_limits(rng)
-    out = goal[9:13, :3, 3]
+    out = goal[9:11, :3, 3]
     out *= 2.0 / np.linalg.norm(out, axis=1)[:, None]
     rows = [(S, M, T, q, limits) for T, q in zip(goal, start, strict=True)]
     return [rows[0], *_chosen(), *rows[1:]]
