@@ -28,10 +28,9 @@ Push = Callable[[mujoco.MjModel, mujoco.MjData], None]
 RATE = 250.0  # Hz, of the controller; 100 still works for gains of omega = 20
 
 # The Panda's own limits, which its model file does not hold (Franka, FCI documentation,
-# "Robot and interface specifications"): rad/s, rad/s2 and rad/s3 of joint1 to joint7.
+# "Robot and interface specifications"): rad/s and rad/s2 of joint1 to joint7.
 SPEED_LIMITS = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])
 ACC_LIMITS = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])
-JERK_LIMITS = np.array([7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0])
 
 
 class Run(NamedTuple):

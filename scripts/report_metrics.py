@@ -8,7 +8,8 @@ The page works offline, on a phone and in the dark. Thresholds come from the
 days' manifests. Rows that were repaired while reading or could not be read are
 listed at the end of the page. Without a filter there is a page on the week of
 the last day that you began as well, report-week1.html, and its numbers are
-written between the marks of docs/RETRO_w1.md, where that file has them.
+written between the marks of docs/RETRO_w1.md, where that file has them;
+with --file they are left alone.
 """
 
 import argparse
@@ -47,7 +48,7 @@ def main() -> int:
     if picture:
         write(out / "report.png", picture)
     if week is not None:
-        write_week(report, heading, out, week)
+        write_week(report, heading, out, week, args.file)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing, {report.count('none')} not run yet"
@@ -59,8 +60,8 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path, week: int) -> None:
-    """Write the page on a week, and its retrospective."""
+def write_week(report: Report, heading: str, out: Path, week: int, log: Path) -> None:
+    """Write the page on a week, and from the student's own log its retrospective."""
     from robo47.week import page as week_page
     from robo47.week import retro
     from robo47.week.facts import facts_of
@@ -70,8 +71,9 @@ def write_week(report: Report, heading: str, out: Path, week: int) -> None:
     with cli.busy("looking at your tasks"):
         facts = [facts_of(day, series) for day in days_of(week)]
     write(out / f"report-week{week}.html", week_page.render(facts, heading).encode())
-    for path in retro.fill(facts):
-        print(f"its numbers are in {shown(path)}")
+    if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
+        for path in retro.fill(facts):
+            print(f"its numbers are in {shown(path)}")
 
 
 def parser() -> argparse.ArgumentParser:

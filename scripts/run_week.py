@@ -28,7 +28,7 @@ def lines_of(ran: Ran) -> list[Line]:
     """Return a line per number of a day."""
     lines: list[Line] = []
     for metric in ran.day.metrics:
-        value = ran.values.get((metric.check, metric.metric))
+        value = ran.value(metric)
         number = "none" if value is None else number_of(value)
         verdict = "PASS" if ran.passes(metric) else "FAIL"
         name = name_of(ran.day, metric)[:NAMED]

@@ -96,8 +96,9 @@ def test_a_number_is_the_same_within_a_factor_of_two(before, now, equal):
 
 def ran(day, value, *, mine=False):
     metric = day.metrics[0]
-    values = {(metric.check, metric.metric): value}
-    return Ran(replace_metrics(day, metric), mine, values, "")
+    row = {"value": value, "n_failures": 0, "n_trials": 1}
+    rows = {(metric.check, metric.metric): row}
+    return Ran(replace_metrics(day, metric), mine, rows, "")
 
 
 def replace_metrics(day, *metrics):

@@ -120,6 +120,24 @@ def test_a_metric_has_a_max_or_a_min_and_nan_passes_neither(metric, value, passe
     assert metric.passes(value) is passes
 
 
+@pytest.mark.parametrize(
+    ("value", "failures", "verdict"),
+    [
+        (1e-15, 0, "pass"),
+        (1e-15, None, "pass"),
+        (1e-15, 7, "fail"),  # the largest is fine, some trials were not
+        (1e-3, 0, "fail"),
+        (-1e-15, 0, "fail"),
+        (float("nan"), 0, "fail"),
+        ("", 0, "fail"),
+    ],
+)
+def test_a_row_is_judged_in_one_place(value, failures, verdict):
+    row = {"value": value, "n_failures": failures, "n_trials": 10}
+    assert Metric("c", "m", max=1e-8).judge(row) == verdict
+    assert Metric("c", "m", max=1e-8).judge(None) == "none"
+
+
 def test_a_day_or_task_that_does_not_exist_is_told_with_those_that_do():
     numbers = ", ".join(str(day.number) for day in all_days())
     with pytest.raises(Robo47Error, match=f"no day 48 yet; the kit has: {numbers}"):

@@ -2,12 +2,13 @@
 
 import hashlib
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day
+from robo47.lesson.day import Metric, find_day
 from robo47.lesson.lab import Lab
 from robo47.metrics import read_rows
 from robo47.metrics.header import LINE
@@ -59,6 +60,23 @@ def test_the_absolute_value_is_judged(log, capsys):
 
 def test_a_number_at_its_limit_fails_as_the_week_and_the_check_say(log):
     assert lab_with(1e-8).finish() == 1
+
+
+@pytest.mark.parametrize(
+    ("trials", "value", "code"), [(1.5, 1.5, 0), (0.5, 0.5, 1), ([1.2, 2.5], 2.5, 1)]
+)
+def test_a_number_with_a_min_and_a_max_is_judged_by_both(
+    log, capsys, trials, value, code
+):
+    lab = Lab(str(SCRIPT), "A lab.")
+    both = Metric("gain", "N", max=2.0, min=1.0)
+    lab.day = replace(lab.day, metrics=(both,))
+    lab.record("gain", trials)
+    assert lab.finish() == code
+    assert "(over 1 and under 2)" in capsys.readouterr().out
+    (found,) = read_rows(log)
+    assert (found["value"], found["n_failures"]) == (value, code)
+    assert both.judge(found) == ("fail" if code else "pass")
 
 
 def test_a_row_says_which_file_wrote_it(log):

@@ -4,6 +4,7 @@ import html
 import json
 import os
 import re
+import shutil
 import subprocess
 from dataclasses import replace
 
@@ -43,7 +44,7 @@ def begun(day):
 
 
 def facts(day, **changed):
-    number = Number(SMALL, 1e-15, 0.5, 2e-15, 3)
+    number = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
     met = [Met("1.3", "t-not-negated", True), Met("1.8", "chain-reversed", False)]
     return replace(DayFacts(day, [number], 7, 8, 8, 9, 200, 4, met), **changed)
 
@@ -92,7 +93,8 @@ def test_a_lab_that_fails_is_named_with_its_reason(run_in, begun):
 
 def row(value, script, when="2026-09-01"):
     mark = file_mark(script)
-    return {"value": value, "notes": f"limit 1e-8; {mark}", "date": when}
+    notes = f"limit 1e-8; {mark}"
+    return {"value": value, "n_failures": 0, "notes": notes, "date": when}
 
 
 def numbers(day, metric, *rows):
@@ -120,6 +122,14 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
 def test_the_worst_is_the_smallest_where_a_minimum_is_asked_for(day):
     found = numbers(day, SHARE, row(0.2, b"a"), row(1.0, b"a"))
     assert (found.latest, found.worst, found.passed) == (1.0, 0.2, True)
+
+
+def test_both_pages_say_that_a_row_with_failed_trials_failed(day):
+    failed = {**row(1e-15, b"a"), "n_failures": 7, "n_trials": 1000}
+    assert numbers(day, SMALL, failed).status == "fail"
+    series = Series((1, "fk", "err"), SMALL)
+    series.rows = [failed]
+    assert series.status == "fail"
 
 
 def test_a_number_that_is_none_is_the_worst_of_all(day):
@@ -192,7 +202,8 @@ def test_the_page_shows_the_week(day):
 
 
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
-    ran, own = Number(SMALL, 1e-15, 0.5, 2e-15, 3), Number(SMALL, 1e-15, 0.5, None, 3)
+    ran = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
+    own = replace(ran, kit=None)
     assert "the kit's here" in page.render([facts(day, numbers=[ran, own])], "")
     assert "the kit's here" not in page.render([facts(day, numbers=[own])], "")
 
@@ -210,7 +221,9 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
     day, tmp_path, width, chromium
 ):
     week = [
-        facts(d, numbers=[Number(m, 1.234e-15, 0.5, 2e-15, 3) for m in d.metrics])
+        facts(
+            d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15, 3) for m in d.metrics]
+        )
         for d in days_of(1)
     ]
     text = page.render(week, "of my log")
@@ -267,6 +280,18 @@ def test_nobodys_numbers_are_written_nowhere(day):
     file.write_bytes(BEFORE + AFTER)
     assert retro.fill([facts(day)]) == []
     assert file.read_bytes() == BEFORE + AFTER
+
+
+def test_another_logs_numbers_stay_out_of_the_retrospective(
+    run_in, begun, clone, diary
+):
+    other = clone / "other.csv"
+    shutil.copy(clone / "metrics" / "metrics.csv", other)
+    before = diary.read_bytes()
+    done = run_in(REPORT, "--file", other)
+    assert done.returncode == 0, done.stderr
+    assert "report-week1.html" in done.stdout
+    assert diary.read_bytes() == before
 
 
 @pytest.mark.kit

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from robo47.checker.replies import Path, Question, Reply
+from robo47.checker.replies import Path, Question
 from robo47.checks import Array
 from robo47.diagnose.ask import Ask, HeldOut, Inputs, Robot
 
 SEED = 47
-Exchange = tuple[Question, Reply]
 
 
 @dataclass(frozen=True)

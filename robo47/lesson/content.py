@@ -1,8 +1,11 @@
 """What a day consists of: its tasks, its numbers, what it hands in."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from robo47.errors import Robo47Error
 
@@ -50,6 +53,28 @@ class Metric:
         """Return whether a value is within the range; NaN never is."""
         high = self.max is None or value < self.max
         return value == value and high and (self.min is None or value > self.min)
+
+    def judge(self, row: Mapping[str, Any] | None) -> str:
+        """Return how a row of the log stands: "pass", "fail", or "none" without one.
+
+        Nothing else in the kit decides this.
+        """
+        if row is None:
+            return "none"
+        return "fail" if self.fault(row) else "pass"
+
+    def fault(self, row: Mapping[str, Any]) -> str:
+        """Return what is wrong with a row's number; "" where it is as it must be."""
+        value = row["value"]
+        if not isinstance(value, int | float) or not math.isfinite(value):
+            return f"is {value}, not a number"
+        if value < 0 and self.min is None:
+            return f"is {value:.3g}, and an error is never negative"
+        if not self.passes(value):
+            return f"is {value:.3g}; it must be {self.limit}"
+        if failures := row["n_failures"]:
+            return f"failed in {failures} of {row['n_trials'] or '?'} trials"
+        return ""
 
 
 @dataclass(frozen=True)

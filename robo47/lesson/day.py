@@ -6,6 +6,7 @@ day whose manifest is broken costs that day alone.
 """
 
 import re
+from functools import lru_cache
 from pathlib import Path
 
 from robo47.errors import Robo47Error
@@ -84,6 +85,12 @@ def load_day(manifest: Path) -> Day:
         Robo47Error: it cannot be read, or an entry is missing, empty, of a wrong type
             or unknown; says which.
     """
+    stat = manifest.stat() if manifest.is_file() else None
+    return _load(manifest, stat and (stat.st_mtime_ns, stat.st_size))
+
+
+@lru_cache(64)  # one command asks for the same manifests many times
+def _load(manifest: Path, _state: tuple[int, int] | None) -> Day:
     top = entries.read(manifest)
     number = top.get("number", int)
     if manifest.parent.name != f"day{number}":

@@ -85,7 +85,7 @@ class Lab:
             limit: it must be under this; by default the day's own limit.
         """
         limit = self.day.limit if limit is None else limit
-        self._judge(name, Metric("", name, max=limit), _largest(error), limit)
+        self._judge(name, Metric("", name, max=limit), _largest(error))
 
     def record(
         self,
@@ -100,8 +100,8 @@ class Lab:
 
         Args:
             check: what was checked, as day.toml names it.
-            error: a number, or one per trial: the largest |entry| counts (where the
-                manifest says `min`, the smallest).
+            error: a number, or one per trial: the largest |entry| counts; where the
+                manifest says `min`, the smallest; where it says both, the worst.
             metric: which of the check's numbers, where day.toml has several.
             label: what to print; by default the name of the check.
             fields: other columns of the row, see metrics/README.md.
@@ -111,10 +111,9 @@ class Lab:
         """
         wanted = self.day.metric(check, metric)
         trials = np.atleast_1d(np.asarray(error, dtype=np.float64)).ravel()
-        value = _largest(trials) if wanted.min is None else float(np.min(trials))
-        bound = wanted.max if wanted.min is None else wanted.min
-        assert bound is not None
-        self._judge(label or check.replace("_", " "), wanted, value, bound)
+        trials = np.abs(trials) if wanted.min is None else trials
+        value = _worst(trials, wanted)
+        self._judge(label or check.replace("_", " "), wanted, value)
         row = {
             "run_id": self.script.stem,
             "day": self.day.number,
@@ -122,10 +121,10 @@ class Lab:
             "seed": 0,
             "method": "manual",
             "n_trials": trials.size,
-            "n_failures": int(sum(not wanted.passes(abs(x)) for x in trials)),
+            "n_failures": int(sum(not wanted.passes(x) for x in trials)),
             "metric": wanted.metric,
             "value": value,
-            "notes": f"limit {bound:g}; file {stamp(self.script)}",
+            "notes": f"limit {_bounds(wanted)}; file {stamp(self.script)}",
         }
         self.rows.append({**row, **fields})
 
@@ -152,12 +151,12 @@ class Lab:
         for failure in self.failed:
             print(cli.wrapped(f"FAILED: {failure}", "  "))
 
-    def _judge(self, name: str, wanted: Metric, value: float, bound: float) -> None:
+    def _judge(self, name: str, wanted: Metric, value: float) -> None:
         good = wanted.passes(value)
-        side = "limit" if wanted.min is None else "over"
         verdict = cli.paint("PASS", "good") if good else cli.paint("FAIL", "bad")
-        number, limit = number_of(value), f"{bound:g}"
-        print(f"  {verdict}  {name}: {number} ({side} {limit})")
+        number = number_of(value)
+        asked = wanted.limit if wanted.min is not None else f"limit {_bounds(wanted)}"
+        print(f"  {verdict}  {name}: {number} ({asked})")
         if not good:
             self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
 
@@ -184,6 +183,19 @@ def number_of(value: float) -> str:
     if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
         return f"{value:.1e}" if value else "0"
     return f"{value:.4g}"
+
+
+def _bounds(wanted: Metric) -> str:
+    bounds = (wanted.min, wanted.max)
+    return " to ".join(f"{bound:g}" for bound in bounds if bound is not None)
+
+
+def _worst(trials: np.ndarray, wanted: Metric) -> float:
+    """Return the trial that a row is judged by; NaN where one is NaN."""
+    low, high = float(np.min(trials)), float(np.max(trials))
+    if wanted.min is None or (wanted.max is not None and wanted.passes(low)):
+        return high
+    return low
 
 
 def _largest(error: ArrayLike) -> float:

@@ -157,7 +157,7 @@ def _dot(series: Series, axis: _Axis, x: float, row: Row, count: int) -> Dot:
     """Return a run's dot; one whose value is no number sits hollow at the top."""
     role = "line"
     if series.threshold:
-        role = "pass" if series.passes(row) else "fail"
+        role = series.threshold.judge(row)
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
     if row["n_failures"]:
         tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"

@@ -32,14 +32,7 @@ class Series:
             return "none"
         if self.threshold is None:
             return "open"
-        return "pass" if self.passes(self.rows[-1]) else "fail"
-
-    def passes(self, row: Row) -> bool:
-        """Return whether a run reached the threshold, in all of its trials."""
-        value = value_of(row)
-        if self.threshold is None or value is None or row["n_failures"]:
-            return False
-        return self.threshold.passes(value)
+        return self.threshold.judge(self.rows[-1])
 
     @property
     def limits(self) -> str:

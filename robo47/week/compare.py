@@ -35,23 +35,18 @@ def faults(ran: Ran, clone: Path) -> list[str]:
         return [f"day {day.number}: {error}"]
     found = []
     for metric in day.metrics:
-        value = ran.values.get((metric.check, metric.metric))
-        why = _fault(metric, value, rows, ran.mine)
+        why = _fault(metric, ran, rows)
         found += [f"day {day.number}, {name_of(day, metric)}: {why}"] if why else []
     return found
 
 
-def _fault(
-    metric: Metric,
-    value: float | None,
-    rows: Mapping[tuple[str, str], Row],
-    mine: bool,
-) -> str:
+def _fault(metric: Metric, ran: Ran, rows: Mapping[tuple[str, str], Row]) -> str:
+    value = ran.value(metric)
     if value is None:
         return "the lab recorded no such number"
-    if not metric.passes(value):
+    if not ran.passes(metric):
         return f"{number_of(value)} in the clone; it must be {metric.limit}"
-    if not mine:
+    if not ran.mine:
         return ""  # the kit's own: nobody committed a row
     row = rows.get((metric.check, metric.metric))
     before = row["value"] if row else None

@@ -12,6 +12,7 @@ from pathlib import Path
 from robo47.errors import Robo47Error
 from robo47.lesson.day import Day, Metric, all_days
 from robo47.metrics import read_rows
+from robo47.metrics.rows import Row
 from robo47.paths import ROOT
 
 Key = tuple[str, str]  # of a number: its check and its metric
@@ -24,13 +25,13 @@ class Ran:
     Attributes:
         day: from the manifest.
         mine: whether the student's file ran, and not the kit's.
-        values: the numbers it recorded.
+        rows: those it recorded.
         why: why it did not pass, in a line; "" where it did.
     """
 
     day: Day
     mine: bool
-    values: Mapping[Key, float]
+    rows: Mapping[Key, Row]
     why: str
 
     @property
@@ -39,9 +40,13 @@ class Ran:
         return not self.why and all(map(self.passes, self.day.metrics))
 
     def passes(self, metric: Metric) -> bool:
-        """Return whether a number was recorded and is within its limit."""
-        value = self.values.get((metric.check, metric.metric))
-        return value is not None and metric.passes(value)
+        """Return whether a number was recorded and is as it must be."""
+        return metric.judge(self.rows.get((metric.check, metric.metric))) == "pass"
+
+    def value(self, metric: Metric) -> float | None:
+        """Return a number that was recorded, or None."""
+        row = self.rows.get((metric.check, metric.metric))
+        return None if row is None else float(str(row["value"]))
 
 
 def week_of(day: Day) -> int:
@@ -117,8 +122,8 @@ def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> R
             check=False,
         )
         rows = read_rows(log) if log.exists() else []
-    values = {(str(r["check"]), str(r["metric"])): r["value"] for r in rows}
-    numbers = {k: float(v) for k, v in values.items() if v is not None}
+    latest = {(str(r["check"]), str(r["metric"])): r for r in rows}
+    numbers = {k: row for k, row in latest.items() if row["value"] is not None}
     return Ran(day, mine, numbers, _why(done))
 
 

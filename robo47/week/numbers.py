@@ -21,6 +21,7 @@ class Number:
     Attributes:
         metric: what it must reach.
         latest: the student's last run.
+        status: how that run stands, as `Metric.judge` says.
         worst: the farthest from the limit's good side that the student logged.
         kit: the kit's own last run on this machine.
         runs: how often the student logged it.
@@ -28,6 +29,7 @@ class Number:
 
     metric: Metric
     latest: float | None
+    status: str
     worst: float | None
     kit: float | None
     runs: int
@@ -35,7 +37,7 @@ class Number:
     @property
     def passed(self) -> bool:
         """Whether the student's last run is within the limit."""
-        return self.latest is not None and self.metric.passes(self.latest)
+        return self.status == "pass"
 
 
 def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
@@ -55,11 +57,13 @@ def _rows(day: Day, metric: Metric, series: Mapping[Key, Series]) -> Sequence[Ro
 
 
 def _number(metric: Metric, rows: Sequence[Row], kits: set[str]) -> Number:
-    own = [_value(r) for r in rows if mark_of(r) and mark_of(r) not in kits]
+    mine = [r for r in rows if mark_of(r) and mark_of(r) not in kits]
+    own = [_value(r) for r in mine]
     kit = [_value(r) for r in rows if mark_of(r) in kits]
     return Number(
         metric,
         own[-1] if own else None,
+        metric.judge(mine[-1] if mine else None),
         max(own, key=lambda value: _badness(metric, value), default=None),
         kit[-1] if kit else None,
         len(own),

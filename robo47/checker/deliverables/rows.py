@@ -2,7 +2,6 @@
 
 import hashlib
 import io
-import math
 import re
 
 from robo47.checker.deliverables.handin import Handin, day_files
@@ -44,7 +43,7 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
         why = _why_missing(day, rows, own, missing)
         return Item("metrics", "todo", f"{why}\nRun your lab: {run}")
     for metric in day.metrics:
-        if fault := _implausible(latest[metric.check, metric.metric], metric):
+        if fault := metric.fault(latest[metric.check, metric.metric]):
             says = f"{metric.check}: {metric.metric} {fault}.\nFix it, then: {run}"
             return Item("metrics", "wrong", says)
     if not tasks_pass:
@@ -108,17 +107,3 @@ def marks_of(script: bytes | None) -> set[str]:
         return set()
     unix = script.replace(b"\r\n", b"\n")
     return {file_mark(data) for data in (script, unix, unix.replace(b"\n", b"\r\n"))}
-
-
-def _implausible(row: Row, wanted: Metric) -> str | None:
-    """Return what is wrong with a row's number, or None."""
-    value = row["value"]
-    if not isinstance(value, int | float) or not math.isfinite(value):
-        return f"is {value}, not a number"
-    if value < 0 and wanted.min is None:
-        return f"is {value:.3g}, and an error is never negative"
-    if not wanted.passes(value):
-        return f"is {value:.3g}; it must be {wanted.limit}"
-    if failures := row["n_failures"]:
-        return f"failed in {failures} of {row['n_trials'] or '?'} trials"
-    return None
