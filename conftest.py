@@ -13,9 +13,9 @@ import hypothesis
 import mujoco
 import pytest
 
+from labkit.figures import backends
 from robo47 import menagerie, panda
 from robo47.errors import Robo47Error
-from robo47.figures import backends
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -127,14 +127,14 @@ def clone(tmp_path):
     """
     copy = tmp_path / "clone"
     copy.mkdir()
-    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
         skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
-    from robo47 import metrics
-    from robo47.lesson.day import find_day
+    from labkit import log
+    from labkit.lesson.day import find_day
 
     day = find_day(1, copy)
-    (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
+    (copy / "metrics" / "metrics.csv").write_text(",".join(log.COLUMNS) + "\n")
     (day.folder / day.figure).unlink(missing_ok=True)
     (day.folder / day.worksheet).write_text(empty_worksheet(day), "utf-8")
     return copy
@@ -143,7 +143,7 @@ def clone(tmp_path):
 @pytest.fixture
 def one_day(clone):
     """Return that copy with its first day alone: the labs of a week take seconds."""
-    from robo47.lesson.day import all_days
+    from labkit.lesson.day import all_days
 
     for day in all_days(clone)[1:]:
         shutil.rmtree(day.own)
@@ -216,7 +216,7 @@ def student(tmp_path):
 @cache
 def plain_panda():
     """Return the Panda as the sandbox gets it."""
-    from robo47.checker.model_copy import copy_model
+    from labkit.sandbox.model_copy import copy_model
 
     return copy_model(panda.load("panda_nohand"), "panda_nohand")
 
@@ -225,9 +225,9 @@ def plain_panda():
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from robo47.checker.model_copy import facts
-    from robo47.checker.replies import Question
-    from robo47.checker.sandbox import Sandbox
+    from labkit.judge.exchange import Question
+    from labkit.sandbox.model_copy import facts
+    from labkit.sandbox.sandbox import Sandbox
 
     def run(code, *questions, library=None, needs=None):
         with Sandbox() as sandbox:
@@ -242,9 +242,9 @@ def ask(student):
 @pytest.fixture
 def check(student):
     """Check a student's file; return {task: verdict}."""
-    from robo47.checker.sandbox import Sandbox
-    from robo47.checker.tasks import check_tasks
-    from robo47.lesson.day import find_day
+    from labkit.check.tasks import check_tasks
+    from labkit.lesson.day import find_day
+    from labkit.sandbox.sandbox import Sandbox
 
     def run(code, only=None):
         with Sandbox() as sandbox:

@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from robo47.metrics import COLUMNS, append_row
+from labkit.log import COLUMNS, append_row
 
 ROWS = 1_000_000
 CALLS, WARM_UP = 400, 40

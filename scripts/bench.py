@@ -21,7 +21,7 @@ from typing import Any
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 

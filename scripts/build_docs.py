@@ -27,9 +27,9 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
-from robo47.lesson.day import all_days
 from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]

@@ -20,7 +20,9 @@ from typing import Any
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
-from robo47 import capstone, cli, mine
+from labkit.base import cli
+from labkit.check import own_functions
+from robo47 import capstone
 from robo47.capstone_task import Result
 from robo47.errors import Robo47Error
 
@@ -50,7 +52,7 @@ def chosen(kit_only: bool) -> Any:
         print("functions: the library's")
         return capstone.library()
     with cli.busy("checking your functions"):
-        own = mine.load()
+        own = own_functions.load()
     print(f"yours: {len(own.yours)} of {own.total}")
     for (day, why), count in Counter((d, w) for d, _, w in own.replaced).items():
         names = [name for d, name, w in own.replaced if (d, w) == (day, why)]
@@ -134,7 +136,7 @@ def main() -> int:
     print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
     print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
     if options.clip or options.picture:
-        from robo47.figures.picking import clip, picture
+        from labkit.figures.picking import clip, picture
 
         if options.picture:
             print(picture(result, options.picture))

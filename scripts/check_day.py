@@ -22,14 +22,14 @@ from typing import TYPE_CHECKING
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
-from robo47.checker.sandbox import Sandbox
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, find_day, find_task, started_day
 from robo47.paths import METRICS_CSV, ROOT, shown
 
 if TYPE_CHECKING:
-    from robo47.checker.deliverables import Item
+    from labkit.handin import Item
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
@@ -54,8 +54,8 @@ def check(day: Day, options: argparse.Namespace) -> int:
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
     with cli.busy("checking"):
         with Sandbox() as sandbox:  # it warms up while MuJoCo is imported
-            from robo47.checker import journal, report
-            from robo47.checker.tasks import check_tasks
+            from labkit.check import journal, report
+            from labkit.check.tasks import check_tasks
 
             results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
@@ -72,7 +72,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
 
 def handed_in(day: Day, tasks_pass: bool) -> "list[Item]":
     """Check what the day hands in besides its tasks."""
-    from robo47.checker.deliverables import check_deliverables
+    from labkit.handin import check_deliverables
 
     return check_deliverables(day, tasks_pass=tasks_pass)
 

@@ -15,7 +15,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OWN = os.path.join(ROOT, ".venv", "bin", "python")
-if sys.version_info < (3, 8):  # robo47.doctor cannot be read by it
+if sys.version_info < (3, 8):  # labkit.setup.doctor cannot be read by it
     if os.path.exists(OWN):
         os.execv(OWN, [OWN] + sys.argv)
     print("todo  Python    {}.{}, no .venv".format(*sys.version_info[:2]))
@@ -24,8 +24,8 @@ if sys.version_info < (3, 8):  # robo47.doctor cannot be read by it
     sys.exit(1)
 sys.path.insert(0, ROOT)  # bare Pythons too
 
-from robo47 import cli
-from robo47.doctor import examine
+from labkit.base import cli
+from labkit.setup.doctor import examine
 
 MOODS = {"good": "good", "note": "note", "todo": "bad"}
 

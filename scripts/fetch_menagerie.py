@@ -26,7 +26,8 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from alone import alone
 from robot_sources import from_index, from_official
 
-from robo47 import cli, menagerie
+from labkit.base import cli
+from robo47 import menagerie
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 

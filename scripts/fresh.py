@@ -17,13 +17,13 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
-from robo47.lesson.day import Day, find_day, started_day
-from robo47.metrics.words import count
-from robo47.week.clone import Clone, clone_commit, head_of, set_up
-from robo47.week.compare import faults
-from robo47.week.labs import Ran, days_of, run_labs, week_of
-from robo47.week.missing import findings
+from labkit.base import cli
+from labkit.base.words import count
+from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
+from labkit.fresh.compare import faults
+from labkit.fresh.missing import findings
+from labkit.lesson.day import Day, find_day, started_day
+from labkit.report.week_labs import Ran, days_of, run_labs, week_of
 
 
 class Clock:

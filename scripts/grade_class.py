@@ -30,17 +30,17 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
-from robo47.checker.wall import refusal, wall
+from labkit.base import cli
+from labkit.grade import engine, overview, week_page
+from labkit.grade.classroom import Classroom, write_all
+from labkit.grade.journal import Journal
+from labkit.grade.overview import Course
+from labkit.grade.roster import find_students
+from labkit.grade.sheet import write
+from labkit.grade.week import STATES, Week, as_csv
+from labkit.lesson.day import Day, all_days, find_day
+from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
-from robo47.grading import engine, overview, week_page
-from robo47.grading.classroom import Classroom, write_all
-from robo47.grading.journal import Journal
-from robo47.grading.overview import Course
-from robo47.grading.roster import find_students
-from robo47.grading.sheet import write
-from robo47.grading.week import STATES, Week, as_csv
-from robo47.lesson.day import Day, all_days, find_day
 from robo47.paths import shown
 
 

@@ -16,11 +16,11 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
-from robo47.checker.sandbox import Sandbox
+from labkit.base import cli
+from labkit.lesson.day import Day, Task, find_day, find_task, started_day
+from labkit.lesson.starter import read_script, solution
+from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, Task, find_day, find_task, started_day
-from robo47.lesson.starter import read_script, solution
 from robo47.paths import ROOT, shown
 
 
@@ -53,8 +53,8 @@ def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
     if not day.work.is_file():
         return [task] if task else list(day.tasks), ""
     with Sandbox() as sandbox:
-        from robo47.checker.report import Report
-        from robo47.checker.tasks import check_tasks
+        from labkit.check.report import Report
+        from labkit.check.tasks import check_tasks
 
         results = check_tasks(day, day.work, sandbox, task.id if task else None)
     left = [result.task for result in results if not result.passed]
@@ -67,7 +67,7 @@ def show_deliverable(day: Day, name: str) -> int:
     Raises:
         Robo47Error: the day has nothing of that name.
     """
-    from robo47.checker.deliverables import check_deliverables
+    from labkit.handin import check_deliverables
 
     left, _ = check(day, None)
     found = check_deliverables(day, tasks_pass=not left)

@@ -15,21 +15,15 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.base.words import command, count
+from labkit.log import append_row
+from labkit.log.progress import watched
+from labkit.log.repair import came_back, header_problem, repair, restore, unsaved_rows
+from labkit.log.rows import Row, typed
+from labkit.log.scan import Line, scan
 from robo47.errors import Robo47Error
-from robo47.metrics import append_row
-from robo47.metrics.repair import (
-    came_back,
-    header_problem,
-    repair,
-    restore,
-    unsaved_rows,
-)
-from robo47.metrics.rows import Row, typed
-from robo47.metrics.scan import Line, scan
-from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, shown
-from robo47.progress import watched
 
 NEEDED = ("check", "metric", "value")
 EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"

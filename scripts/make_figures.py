@@ -15,11 +15,11 @@ from typing import Any
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.figures import backends
+from labkit.figures.lessons import lesson_figures
+from labkit.lesson.day import find_day, started_day
 from robo47.errors import Robo47Error
-from robo47.figures import backends
-from robo47.figures.lessons import lesson_figures
-from robo47.lesson.day import find_day, started_day
 from robo47.paths import shown
 
 

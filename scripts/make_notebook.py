@@ -17,9 +17,9 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, started_day
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import shown
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}

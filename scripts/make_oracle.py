@@ -23,7 +23,8 @@ from pathlib import Path
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import cli, menagerie, panda, verify
+from labkit.base import cli
+from robo47 import menagerie, panda, verify
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 

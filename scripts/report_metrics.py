@@ -18,17 +18,17 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.base.words import command, count
+from labkit.lesson.day import find_day, started_day
+from labkit.log.progress import watched
+from labkit.log.scan import scan
+from labkit.report import page
+from labkit.report.series import Report, collect
+from labkit.report.thresholds import load
+from labkit.report.week_labs import week_of
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day, started_day
-from robo47.metrics.scan import scan
-from robo47.metrics.words import command, count
 from robo47.paths import METRICS_CSV, shown
-from robo47.progress import watched
-from robo47.report import page
-from robo47.report.series import Report, collect
-from robo47.report.thresholds import load
-from robo47.week.labs import week_of
 
 NO_PILLOW = "no picture: Pillow is not installed (`make report` installs it)"
 
@@ -62,17 +62,16 @@ def main() -> int:
 
 def write_week(report: Report, heading: str, out: Path, week: int, log: Path) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
-    from robo47.week import page as week_page
-    from robo47.week import retro
-    from robo47.week.facts import facts_of
-    from robo47.week.labs import days_of
+    from labkit.report import week_page, week_retro
+    from labkit.report.week_facts import facts_of
+    from labkit.report.week_labs import days_of
 
     series = {(one.day, one.check, one.metric): one for one in report.series}
     with cli.busy("looking at your tasks"):
         facts = [facts_of(day, series) for day in days_of(week)]
     write(out / f"report-week{week}.html", week_page.render(facts, heading).encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
-        for path in retro.fill(facts):
+        for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}")
 
 
@@ -112,7 +111,7 @@ def describe(args: argparse.Namespace, report: Report) -> str:
 def render_picture(report: Report, heading: str) -> bytes | None:
     """Return the PNG, or None where Pillow is absent: the page is enough."""
     try:
-        from robo47.report import picture
+        from labkit.report import picture
     except ImportError:
         print(NO_PILLOW)
         return None

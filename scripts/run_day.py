@@ -14,10 +14,10 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.lesson.day import find_day, started_day
+from labkit.lesson.originals import require_kits
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day, started_day
-from robo47.originals import require_kits
 from robo47.paths import shown
 
 

@@ -14,10 +14,10 @@ from collections.abc import Sequence
 import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
-from robo47 import cli
-from robo47.lesson.lab import number_of
-from robo47.metrics.words import count
-from robo47.week.labs import Ran, days_of, name_of, run_labs
+from labkit.base import cli
+from labkit.base.words import count
+from labkit.lesson.lab import number_of
+from labkit.report.week_labs import Ran, days_of, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit", "")

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 
-from robo47 import cli
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.lesson.originals import require_kits
+from labkit.lesson.starter import make_starter, put_back, read_script
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, find_day, find_task, started_day
-from robo47.lesson.starter import make_starter, put_back, read_script
-from robo47.originals import require_kits
 from robo47.paths import shown
 
 

@@ -19,10 +19,12 @@ from pathlib import Path
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import cli, menagerie, panda, window
+from labkit.base import cli
+from labkit.inspector import native_viewer
+from labkit.lesson.day import Day, find_day, started_day
+from robo47 import menagerie, panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Day, find_day, started_day
 from robo47.paths import shown
 
 DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
@@ -36,8 +38,8 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
             "the inspector needs viser, which this Python does not have. "
             "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
-    from robo47.inspector.arm import Arm
-    from robo47.inspector.serve import Show, serve
+    from labkit.inspector.arm import Arm
+    from labkit.inspector.serve import Show, serve
 
     about = panda.describe(entry)
     print(about, flush=True)
@@ -56,10 +58,10 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
 
 def native() -> int:
     """Open MuJoCo's window, or say in one line why not."""
-    why = window.obstacle()
+    why = native_viewer.obstacle()
     if why:
         raise Robo47Error(f"{why}. The browser needs none of that: make view")
-    return window.show()
+    return native_viewer.show()
 
 
 def screenshot(path: Path, start: str) -> int:
@@ -70,7 +72,7 @@ def screenshot(path: Path, start: str) -> int:
             "--screenshot other.png"
         )
     try:
-        from robo47.figures.screenshot import screenshot as draw
+        from labkit.figures.screenshot import screenshot as draw
     except ModuleNotFoundError as missing:
         if missing.name != "PIL":
             raise
@@ -90,7 +92,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     if path.exists():
         raise Robo47Error(f"{shown(path)} is there already; name another file")
     try:
-        from robo47.inspector.film import film
+        from labkit.inspector.film import film
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "

@@ -21,9 +21,9 @@ from typing import NamedTuple
 import inprocess
 
 from conftest import load_script
-from robo47.diagnose import Verdict
-from robo47.lesson.day import Day, find_day
-from robo47.lesson.lab import Lab
+from labkit.judge import Verdict
+from labkit.lesson.day import Day, find_day
+from labkit.lesson.lab import Lab
 
 _HEADER = re.compile(
     r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"

@@ -11,8 +11,8 @@ from pathlib import Path as File
 
 import numpy as np
 
+from labkit.judge.exchange import LoadError, Model, Path, Reply
 from robo47 import panda
-from robo47.checker.replies import LoadError, Model, Path, Reply
 
 
 class InProcess:
@@ -126,7 +126,7 @@ def _describe(error, script):
 
 def verdicts(day, script: File, only=None, seed=1):
     """Return {task: verdict} of a file of ours."""
-    from robo47.checker import tasks
+    from labkit.check import tasks
 
     packed, tasks.packed = tasks.packed, lambda robot: robot.model
     try:

@@ -26,7 +26,7 @@ def prepared(work: Path, robot: bool) -> str:
         "import pathlib, runpy, sys",
         f"sys.argv[0] = {str(SCRIPT)!r}",
         f"sys.path.insert(0, {str(SCRIPT.parent)!r})",
-        "from robo47.lesson.day import Day",
+        "from labkit.lesson.day import Day",
         f"Day.work = pathlib.Path({str(work)!r})",
         "" if robot else NO_ROBOT,
         "runpy.run_path(sys.argv[0], run_name='__main__')",

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from robo47.checker.replies import Reply
-from robo47.diagnose.judging import judge
-from robo47.diagnose.rounds import held_out_answers, make_round, parts, right_answers
+from labkit.judge.exchange import Reply
+from labkit.judge.judging import judge
+from labkit.judge.rounds import held_out_answers, make_round, parts, right_answers
 
 FRESH_SEED = 4711
 

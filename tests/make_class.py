@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 from test_deliverables import png, worksheet
 
-from robo47 import metrics
-from robo47.checker.deliverables.rows import file_mark
-from robo47.lesson.day import find_day
-from robo47.lesson.starter import make_starter, put_back
+from labkit import log
+from labkit.handin.rows import file_mark
+from labkit.lesson.day import find_day
+from labkit.lesson.starter import make_starter, put_back
 
 DAY = find_day(1)
 WEEK = DAY.folder.name
@@ -67,7 +67,7 @@ def all_handed_in(seed: int, own: Files) -> Files:
     return {
         f"{WEEK}/{DAY.worksheet}": worksheet(DAY.terms),
         f"{WEEK}/{DAY.figure}": picture,
-        "metrics/metrics.csv": ",".join(metrics.COLUMNS)
+        "metrics/metrics.csv": ",".join(log.COLUMNS)
         + f"\nr,2026-09-01,1,fk_identity_check,,,,,,,inv_err,1e-16,{mark}"
         + f"\nr,2026-09-01,1,fk_by_hand,,,,,,,max_abs_err,1e-15,{mark}\n",
         **own,
@@ -89,7 +89,7 @@ def attack(line: str, where: str = "    T = np.eye(4)\n") -> Files:
 def own_kit() -> Files:
     """Return a clone whose every part that could take part in grading is changed."""
     passes = "import os\nprint('8 of 8 PASSED')\nos._exit(0)\n"
-    places = ("robo47/__init__.py", "robo47/checker/tasks.py", "robo47/se3.py")
+    places = ("robo47/__init__.py", "labkit/check/tasks.py", "robo47/se3.py")
     places += ("conftest.py", f"{WEEK}/work/conftest.py", f"{WEEK}/work/numpy.py")
     return {
         **under_way(2),

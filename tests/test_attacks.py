@@ -11,10 +11,10 @@ import time
 
 import pytest
 
-from robo47.checker import process, sandbox
-from robo47.checker.library import library_of
-from robo47.checker.replies import Question
-from robo47.lesson.day import all_days, find_day
+from labkit.judge.exchange import Question
+from labkit.lesson.day import all_days, find_day
+from labkit.sandbox import process, sandbox
+from labkit.sandbox.library import library_of
 from robo47.paths import METRICS_CSV, ROOT
 
 pytestmark = pytest.mark.kit
@@ -195,7 +195,7 @@ class TestAnAttack:
             "np.allclose = np.array_equal = lambda *a, **k: True",
             "np.abs = lambda x: 0.0",
             "np.ndarray.__module__",
-            "import sys; sys.modules['robo47.checker'] = sys.modules['numpy'] = None",
+            "import sys; sys.modules['labkit.check'] = sys.modules['numpy'] = None",
             "import builtins; builtins.abs = builtins.max = lambda *a: 0.0",
         ],
     )
@@ -437,7 +437,7 @@ class TestAForgedMessage:
         assert len(odd.printed) < 10_000
 
     def test_flood_between_two_rounds_is_bounded(self, student, monkeypatch):
-        from robo47.checker.model_copy import facts
+        from labkit.sandbox.model_copy import facts
 
         code = (
             self.FIND

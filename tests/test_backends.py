@@ -5,8 +5,8 @@ import os
 import pytest
 
 from conftest import need
+from labkit.figures import backends
 from robo47.errors import Robo47Error
-from robo47.figures import backends
 
 pytestmark = pytest.mark.kit
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from conftest import load_script
+from labkit.lesson.day import all_days
 from robo47 import capstone, scenes, simulate
 from robo47.errors import Robo47Error
-from robo47.lesson.day import all_days
 
 # What the lessons' functions take: one configuration, arrays and plain numbers.
 SHAPES = {

@@ -9,8 +9,8 @@ import pytest
 from test_deliverables import PICTURE, git, png, worksheet
 
 from conftest import environment_of
-from robo47 import metrics
-from robo47.lesson.day import find_day
+from labkit import log as metrics
+from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -31,7 +31,7 @@ def work(day, run_in):
 
 def solve(day, work, *names):
     """Write the kit's solution of some functions into the student's file."""
-    from robo47.lesson.starter import put_back
+    from labkit.lesson.starter import put_back
 
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 

@@ -2,8 +2,8 @@
 
 from types import SimpleNamespace
 
-from robo47.checker import journal
-from robo47.diagnose import Verdict
+from labkit.check import journal
+from labkit.judge import Verdict
 
 
 def results(**tasks):

@@ -4,9 +4,9 @@ import dataclasses
 
 import pytest
 
-from robo47.checker import library
+from labkit.lesson.day import all_days, find_day
+from labkit.sandbox import library
 from robo47.errors import Robo47Error
-from robo47.lesson.day import all_days, find_day
 
 
 def test_the_first_day_may_import_no_answer():

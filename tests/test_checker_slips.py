@@ -2,7 +2,7 @@
 
 import pytest
 
-from robo47.checker.slips import unfinished
+from labkit.check.source_hints import unfinished
 
 DOC = '    """Return it."""\n'
 GAP = '    raise NotImplementedError("task 1.2: write f")\n'

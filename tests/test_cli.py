@@ -5,7 +5,7 @@ import io
 
 import pytest
 
-from robo47 import cli
+from labkit.base import cli
 from robo47.errors import Robo47Error
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from labkit.figures import client, clip
+from labkit.figures.portrait import link_frames, with_fingers
 from robo47 import panda, se3
 from robo47.errors import Robo47Error
-from robo47.figures import client, clip
-from robo47.figures.portrait import link_frames, with_fingers
 
 pytestmark = pytest.mark.kit
 

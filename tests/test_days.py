@@ -7,11 +7,11 @@ import pytest
 from catalogue import run_as_lab
 
 from conftest import ROOT, kits_worksheet
-from robo47.checker.deliverables.worksheet import split_sections
-from robo47.checker.library import library_of
-from robo47.lesson import folder
-from robo47.lesson.day import all_days
-from robo47.lesson.starter import find_regions, make_starter
+from labkit.handin.worksheet import split_sections
+from labkit.lesson import folder
+from labkit.lesson.day import all_days
+from labkit.lesson.starter import find_regions, make_starter
+from labkit.sandbox.library import library_of
 
 DAYS = all_days()
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
@@ -97,7 +97,7 @@ def test_the_machine_names_no_day():
     words = re.compile(r"\bday[1-7]\b|day[1-7]_|compose_fk|link4_to_world")
     named = [
         f"{path.relative_to(ROOT)}: {line.strip()}"
-        for path in sorted((ROOT / "robo47").rglob("*.py"))
+        for path in sorted((*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/**/*.py")))
         for line in path.read_text("utf-8").splitlines()
         if words.search(line.replace("make day1", ""))  # the first command
     ]

@@ -3,7 +3,7 @@
 import pytest
 from catalogue import STATUS, Submission, run_as_lab, submissions, told
 
-from robo47.lesson.day import all_days
+from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
 

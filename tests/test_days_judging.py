@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from judged import judged, right, round_of
 
-from robo47.diagnose.compare import matches
-from robo47.diagnose.naming import off_by
-from robo47.diagnose.rounds import parts, stacked
-from robo47.lesson import folder
-from robo47.lesson.day import all_days
+from labkit.judge.compare import matches
+from labkit.judge.naming import off_by
+from labkit.judge.rounds import parts, stacked
+from labkit.lesson import folder
+from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from conftest import empty_worksheet
-from robo47 import metrics
-from robo47.checker.deliverables import check_deliverables, item_names
-from robo47.checker.deliverables.figure import FlawError, read_png
-from robo47.checker.deliverables.worksheet import split_sections
-from robo47.lesson.day import find_day
+from labkit import log as metrics
+from labkit.handin import check_deliverables, item_names
+from labkit.handin.figure import FlawError, read_png
+from labkit.handin.worksheet import split_sections
+from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from judged import judged, judged_replies, replies_of, right
 
-from robo47.checker.replies import Reply
-from robo47.diagnose import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
-from robo47.diagnose.rounds import number, robots
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
+from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
+from labkit.judge.exchange import Reply
+from labkit.judge.rounds import number, robots
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 
 DAY1 = folder.load(find_day(1), "questions").QUESTIONS
 MAKE_T = DAY1["make_T"]
@@ -78,7 +78,7 @@ def test_answers_looked_up_fail_at_fresh_inputs():
     from judged import replies_of as replied
     from judged import round_of
 
-    from robo47.diagnose.judging import judge
+    from labkit.judge.judging import judge
 
     asked = round_of(ask)
     table = replied(right(ask)[0], ask)
@@ -97,7 +97,7 @@ def test_a_held_out_question_tells_how_an_answer_came_about():
     )
     from judged import round_of
 
-    from robo47.diagnose.judging import judge
+    from labkit.judge.judging import judge
 
     def verdict(answer):
         found = [
@@ -139,7 +139,7 @@ def test_accepting_needs_no_truth_and_says_why_not():
 def told_many(ask, answer):
     from judged import round_of
 
-    from robo47.diagnose.judging import judge
+    from labkit.judge.judging import judge
 
     asked = round_of(ask)
     value = np.array(answer)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from labkit.judge import Finding
+from labkit.judge.chain import Factor, first_wrong, one_place, product
 from robo47 import se3
-from robo47.diagnose import Finding
-from robo47.diagnose.chain import Factor, first_wrong, one_place, product
 
 N = 12
 

@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from conftest import ROOT, kits_worksheet, need
-from robo47.lesson.day import all_days, find_day
+from labkit.lesson.day import all_days, find_day
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from robo47 import doctor
+from labkit.setup import doctor
 from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit

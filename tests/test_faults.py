@@ -16,18 +16,19 @@ from make_class import DAY, SOLVED, WEEK, commit, script
 from test_walls import is_there, standing
 
 from conftest import ROOT, need
-from robo47.checker import process, resources, sandbox, wall
-from robo47.checker.deliverables import check_deliverables, git, handin
-from robo47.checker.model_copy import facts
-from robo47.checker.process import Process
-from robo47.checker.replies import Question
-from robo47.checker.sandbox import Sandbox
+from labkit.base import git, processes
+from labkit.grade import child, classroom, engine
+from labkit.grade.grader import Grader, grade_package
+from labkit.grade.journal import Journal
+from labkit.grade.package import Package, fingerprint
+from labkit.grade.roster import Student
+from labkit.handin import check_deliverables, handin
+from labkit.judge.exchange import Question
+from labkit.sandbox import process, sandbox, wall
+from labkit.sandbox.model_copy import facts
+from labkit.sandbox.process import Process
+from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import FaultError, Robo47Error
-from robo47.grading import child, classroom, engine
-from robo47.grading.grader import Grader, grade_package
-from robo47.grading.journal import Journal
-from robo47.grading.package import Package, fingerprint
-from robo47.grading.roster import Student
 
 pytestmark = pytest.mark.kit
 LINUX = sys.platform.startswith("linux")
@@ -40,14 +41,14 @@ SCRIPT = f"{WEEK}/work/{DAY.script}"
 def kill(monkeypatch):
     """Have the first so many sandboxes killed from outside, as the kernel does it."""
     count, load = itertools.count(), Process.load
-    monkeypatch.setattr(resources, "oom_kills", lambda: 0)  # a neighbour's are not ours
+    monkeypatch.setattr(processes, "oom_kills", lambda: 0)  # a neighbour's are not ours
 
     def first(times, when="loaded", how=signal.SIGKILL):
         def and_die(self, request):
             if when == "loaded":
                 load(self, request)
             if next(count) < times:
-                os.kill(resources._family(self.process.pid)[-1], how)
+                os.kill(processes._family(self.process.pid)[-1], how)
             if when == "loading":
                 load(self, request)
 
@@ -94,7 +95,7 @@ class TestASandboxThatIsKilled:
     @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
     def test_for_want_of_memory_is_a_fault(self, ask, kill, how, monkeypatch):
         kill(2, how=how)
-        monkeypatch.setattr(resources, "oom_kills", itertools.count().__next__)
+        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with standing("landlock"), pytest.raises(FaultError) as caught:
             ask(FINE)
         assert "this machine ran out of memory" in str(caught.value)
@@ -104,7 +105,7 @@ class TestASandboxThatIsKilled:
         self, ask, kill, monkeypatch
     ):
         kill(2)
-        monkeypatch.setattr(resources, "oom_kills", itertools.count().__next__)
+        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         monkeypatch.setattr(process, "MODEST", 30_000_000)
         greedy = "import time, numpy as np\nX = np.ones(10**7)\ntime.sleep(0.6)\n"
         (reply,) = ask(greedy + FINE)
@@ -113,7 +114,7 @@ class TestASandboxThatIsKilled:
 
     def test_ends_a_session_with_a_word(self, student, kill, monkeypatch):
         kill(1)
-        monkeypatch.setattr(resources, "oom_kills", itertools.count().__next__)
+        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with Sandbox() as box:
             session = box.session(student(FINE), [], facts())
             (reply,) = session.ask([Question("", "f", ())])
@@ -122,7 +123,7 @@ class TestASandboxThatIsKilled:
 
     def test_in_a_grade_is_a_fault_too(self, kill, monkeypatch):
         kill(2)
-        monkeypatch.setattr(resources, "oom_kills", itertools.count().__next__)
+        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with pytest.raises(FaultError, match="ran out of memory"):
             child.grade(solved(), DAY)
 
@@ -132,10 +133,10 @@ class TestASandboxThatIsKilled:
             ended = subprocess.Popen([sys.executable, "-c", ""])
             ended.wait()
             ended.returncode = code
-            assert resources.was_killed(ended) is killed
+            assert processes.was_killed(ended) is killed
 
     def test_is_counted_by_the_kernel(self):
-        assert resources.oom_kills() >= 0
+        assert processes.oom_kills() >= 0
         words = Path("/proc/vmstat").read_text().split()
         assert "oom_kill" in words
 
@@ -194,7 +195,7 @@ class TestAMachineThatStartsNoProcess:
         code = (
             "import runpy, sys, errno\n"
             f"sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
-            "from robo47.checker import process\n"
+            "from labkit.check import process\n"
             "def fails(*_): raise OSError(errno.EAGAIN, 'no more processes')\n"
             "process._start = fails\n"
             f"sys.argv = ['check', '1', '--file', {str(DAY.source)!r}]\n"
@@ -232,8 +233,8 @@ class TestAMachineThatStartsNoProcess:
             def fails(*_, error=error, **__):
                 raise error
 
-            monkeypatch.setattr("robo47.grading.grader.Grader", fails)
-            monkeypatch.setattr("robo47.grading.grader._idle", SimpleQueue())
+            monkeypatch.setattr("labkit.grade.grader.Grader", fails)
+            monkeypatch.setattr("labkit.grade.grader._idle", SimpleQueue())
             with pytest.raises(FaultError):
                 grade_package(solved())
 
@@ -264,21 +265,21 @@ class TestTime:
         self, ask, short, monkeypatch
     ):
         waits = itertools.count(0.5, 0.5)
-        monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, next(waits)))
+        monkeypatch.setattr(processes, "scheduled", lambda _: (0.1, next(waits)))
         assert ask(self.SLOW)[0].value == 47
 
     @linux
     def test_of_waiting_is_no_tasks_either(self, ask, monkeypatch):
         monkeypatch.setattr(sandbox, "TASK_SECONDS", 1.0)
         monkeypatch.setattr(
-            resources, "scheduled", lambda _: (0.1, time.monotonic() - 5)
+            processes, "scheduled", lambda _: (0.1, time.monotonic() - 5)
         )
         questions = [Question("1.1", "f", ())] * 3
         assert [reply.value for reply in ask(self.SLOW, *questions)] == [47] * 3
 
     @linux
     def test_of_waiting_long_ago_is_over(self, student, monkeypatch):
-        monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, 50.0))
+        monkeypatch.setattr(processes, "scheduled", lambda _: (0.1, 50.0))
         with Sandbox() as box:
             session = box.session(student("def f():\n    while True: 0"), [], facts())
             (reply,) = session.ask([Question("", "f", ())], 0.3)
@@ -286,7 +287,7 @@ class TestTime:
             assert session._process.waited < 1
 
     def test_is_up_where_nothing_else_ran(self, ask, short, monkeypatch):
-        monkeypatch.setattr(resources, "scheduled", lambda _: (0.1, 0.0))
+        monkeypatch.setattr(processes, "scheduled", lambda _: (0.1, 0.0))
         assert ask(self.SLOW)[0].kind == "stopped"
 
     @linux
@@ -298,9 +299,9 @@ class TestTime:
                 [sys.executable, "-c", code], stdout=subprocess.PIPE
             ) as one:
                 one.stdout.readline()
-                before = sum(resources.scheduled(one))
+                before = sum(processes.scheduled(one))
                 time.sleep(0.6)
-                used = sum(resources.scheduled(one)) - before
+                used = sum(processes.scheduled(one)) - before
                 one.kill()
             assert (used > 0.3) is works
 

@@ -21,7 +21,7 @@ NOWHERE = "http://127.0.0.1:9"  # the discard port: refused at once
 def fresh(tmp_path, monkeypatch):
     """A clone's worth of kit without a robot, in a folder of its own."""
     clone = tmp_path / "clone"
-    for part in ("robo47", "scripts"):
+    for part in ("robo47", "labkit", "scripts"):
         ignore = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / part, clone / part, ignore=ignore)
     monkeypatch.delenv("MENAGERIE_ROOT", raising=False)

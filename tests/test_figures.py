@@ -9,16 +9,17 @@ import pytest
 from pictures import count, differing, pixels
 
 from conftest import need
-from robo47 import figures, panda
+from labkit import figures
+from labkit.figures import backends
+from labkit.figures.scene import FOVY, Camera, Ghost, Scene
+from robo47 import panda
 from robo47.errors import Robo47Error
-from robo47.figures import backends
-from robo47.figures.scene import FOVY, Camera, Ghost, Scene
 
 if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("PIL", reason="needs Pillow: make figures")
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
 
-from robo47.figures import client, overlay, portrait, studio
+from labkit.figures import client, overlay, portrait, studio
 
 pytestmark = pytest.mark.kit
 
@@ -229,7 +230,7 @@ def test_no_process_is_left_behind(run, tmp_path):
     script = tmp_path / "draw.py"
     script.write_text(
         "from robo47 import figures, panda\n"
-        "from robo47.figures import client\n"
+        "from labkit.figures import client\n"
         "figures.render_panda(panda.READY_Q, (60, 40), fast=True)\n"
         "print(client._studio.process.pid)\n"
     )

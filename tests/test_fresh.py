@@ -9,12 +9,12 @@ from dataclasses import replace
 import pytest
 
 from conftest import ROOT, need
+from labkit.fresh import clone as cloning
+from labkit.fresh.compare import faults, same
+from labkit.fresh.missing import findings
+from labkit.lesson.day import Metric, find_day
+from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Metric, find_day
-from robo47.week import clone as cloning
-from robo47.week.compare import faults, same
-from robo47.week.labs import Ran
-from robo47.week.missing import findings
 
 FRESH = "scripts/fresh.py"
 WEEK = "w1-foundations"

@@ -16,10 +16,10 @@ from urllib.parse import unquote
 import pytest
 from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
 
-from robo47.checker import wall as walls
-from robo47.checker.wall import Wall
+from labkit.grade.journal import Journal
+from labkit.sandbox import wall as walls
+from labkit.sandbox.wall import Wall
 from robo47.errors import Robo47Error
-from robo47.grading.journal import Journal
 from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
@@ -380,7 +380,7 @@ class TestFaultsOfTheMachine:
             path.unlink()
         hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
         full = "import resource, runpy, sys, tempfile\n"
-        full += "from robo47.grading import grader\n"
+        full += "from labkit.grade import grader\n"
         full += "start = grader.subprocess.Popen\n"
         full += "def limited(*a, **k):\n"
         full += "    it = start(*a, **k)\n"

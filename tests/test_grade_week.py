@@ -24,7 +24,7 @@ SCRIPTS = {
 def kit(tmp_path_factory):
     """Return a copy of the kit with day 1 and the toy day in it, and no other."""
     copy = tmp_path_factory.mktemp("kit") / "clone"
-    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
         skipped = shutil.ignore_patterns("__pycache__", "work", "day[2-9]")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     shutil.copytree(TOY, copy / "w9-toy")

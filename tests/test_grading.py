@@ -25,30 +25,23 @@ from make_class import (
     script,
 )
 
-from robo47.checker.deliverables import check_deliverables, git, handin, item_names
-from robo47.checker.deliverables.handin import Handin
-from robo47.checker.tasks import TaskResult
-from robo47.diagnose import Verdict
+from labkit.base import git
+from labkit.check.tasks import TaskResult
+from labkit.grade import charts, child, classroom, engine, overview, people, similar
+from labkit.grade import grader as graders
+from labkit.grade.child import _tidy
+from labkit.grade.grader import Grader, grade_behind_wall, grade_package, sweep
+from labkit.grade.journal import Journal
+from labkit.grade.package import Package, collect, fingerprint, unpack
+from labkit.grade.pull import OURS, pull_all
+from labkit.grade.result import Mark, Result, from_json, ungraded
+from labkit.grade.roster import Student, file_names, find_students
+from labkit.grade.sheet import Graded, plain
+from labkit.handin import check_deliverables, handin, item_names
+from labkit.handin.handin import Handin
+from labkit.judge import Verdict
+from labkit.lesson.day import find_day
 from robo47.errors import FaultError, Robo47Error
-from robo47.grading import (
-    charts,
-    child,
-    classroom,
-    engine,
-    overview,
-    people,
-    similar,
-)
-from robo47.grading import grader as graders
-from robo47.grading.child import _tidy
-from robo47.grading.grader import Grader, grade_behind_wall, grade_package, sweep
-from robo47.grading.journal import Journal
-from robo47.grading.package import Package, collect, fingerprint, unpack
-from robo47.grading.pull import OURS, pull_all
-from robo47.grading.result import Mark, Result, from_json, ungraded
-from robo47.grading.roster import Student, file_names, find_students
-from robo47.grading.sheet import Graded, plain
-from robo47.lesson.day import find_day
 from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
@@ -268,7 +261,7 @@ class TestTheGrader:
         assert grade_behind_wall(package).error == "nobody"
 
     def test_ends_when_whoever_started_it_is_gone(self, tmp_path):
-        command = [sys.executable, "-m", "robo47.grading.child", str(tmp_path / "own")]
+        command = [sys.executable, "-m", "labkit.grade.child", str(tmp_path / "own")]
         (tmp_path / "own").mkdir()
         done = subprocess.run(
             command, stdin=subprocess.DEVNULL, timeout=60, check=False

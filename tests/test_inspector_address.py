@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robo47.inspector import address
+from labkit.inspector import address
 
 pytestmark = pytest.mark.kit
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from conftest import need
+from labkit.inspector.arm import Arm
+from labkit.inspector.ghost import Ghost, Seen
+from labkit.inspector.tab import DayTabs, Tab, day_tabs
+from labkit.lesson.day import find_day
 from robo47 import panda
-from robo47.inspector.arm import Arm
-from robo47.inspector.ghost import Ghost, Seen
-from robo47.inspector.tab import DayTabs, Tab, day_tabs
-from robo47.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -77,7 +77,7 @@ class Broken(Tab):
 @pytest.fixture(scope="module")
 def server():
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    from robo47.inspector.guard import LocalServer
+    from labkit.inspector.guard import LocalServer
 
     made = LocalServer(0)
     yield made
@@ -86,8 +86,8 @@ def server():
 
 @pytest.fixture
 def page(server):
-    from robo47.inspector.app import Inspector
-    from robo47.inspector.serve import on_loop
+    from labkit.inspector.app import Inspector
+    from labkit.inspector.serve import on_loop
 
     server.scene.reset()
     server.gui.reset()
@@ -102,7 +102,7 @@ def page(server):
 @pytest.fixture
 def say(page):
     """Say something to the page, as a browser does, and let it settle."""
-    from robo47.inspector.serve import on_loop
+    from labkit.inspector.serve import on_loop
 
     def send(*messages):
         def receive():
@@ -121,7 +121,7 @@ def settle(page):
     while page.scheduled and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not page.scheduled
-    from robo47.inspector.serve import on_loop
+    from labkit.inspector.serve import on_loop
 
     on_loop(page.server, lambda: None)  # the update that it was scheduled for is done
 
@@ -179,7 +179,7 @@ def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
 
 
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
-    monkeypatch.setattr("robo47.inspector.history.SECONDS", 20.0)
+    monkeypatch.setattr("labkit.inspector.history.SECONDS", 20.0)
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
         say((joint(page, 0), f"{x}"))
@@ -214,9 +214,9 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
 
 
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
-    from robo47.inspector.app import Meshes
-    from robo47.inspector.serve import on_loop
-    from robo47.inspector.shapes import Shape
+    from labkit.inspector.app import Meshes
+    from labkit.inspector.serve import on_loop
+    from labkit.inspector.shapes import Shape
 
     say(("tab", "Noisy"))
     tab, before = Noisy.last, set(page.panel._children())
@@ -295,7 +295,7 @@ def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
 
 
 def test_the_students_poses_are_judged_in_their_name(page):
-    from robo47.inspector.serve import on_loop
+    from labkit.inspector.serve import on_loop
 
     q = page.arm.q.copy()
     right = {"link0": page.arm.pose("link0"), "ee": page.arm.pose("ee")}
@@ -332,8 +332,8 @@ def test_day_1_brings_its_ghost_and_the_tab_order():
 
 
 def test_the_order_tab_says_what_the_lab_says(server):
-    from robo47.inspector.app import Inspector
-    from robo47.inspector.serve import on_loop
+    from labkit.inspector.app import Inspector
+    from labkit.inspector.serve import on_loop
 
     server.scene.reset()
     server.gui.reset()

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from conftest import need
+from labkit.inspector import words
+from labkit.inspector.arm import AGREES, END, Arm
 from robo47 import panda, verify
-from robo47.inspector import words
-from robo47.inspector.arm import AGREES, END, Arm
 
 pytestmark = pytest.mark.kit
 
@@ -119,7 +119,7 @@ def test_a_configuration_that_is_no_configuration_is_refused(arm):
 
 def shapes_of(model):
     need(importlib.util.find_spec("trimesh") is not None, "trimesh: make view")
-    from robo47.inspector.shapes import shapes
+    from labkit.inspector.shapes import shapes
 
     return shapes(model)
 

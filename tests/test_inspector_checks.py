@@ -4,7 +4,7 @@ from queue import Queue
 
 import pytest
 
-from robo47.inspector.checks import Checks, Standing, TaskState, standing
+from labkit.inspector.checks import Checks, Standing, TaskState, standing
 
 pytestmark = pytest.mark.kit
 

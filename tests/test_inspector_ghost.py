@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from labkit.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose, no_pose
 from robo47 import se3
-from robo47.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose, no_pose
 
 pytestmark = pytest.mark.kit
 

@@ -173,7 +173,7 @@ def test_a_client_sets_the_value_of_a_widget_and_nothing_else(viser):
 
     from viser import _messages
 
-    from robo47.inspector.guard import LocalServer
+    from labkit.inspector.guard import LocalServer
 
     server = LocalServer(0)
     try:
@@ -278,27 +278,27 @@ def compose_fk(model, q, path=None):
     attempt("its memory", lambda: open("/proc/{pid}/mem", "rb").close())
     attempt("its command line", lambda: open("/proc/{pid}/cmdline").read())
     attempt("the kit", lambda: open({file!r}).read())
-    guard = "robo47.inspector.guard"
+    guard = "labkit.inspector.guard"
     attempt("its code", lambda: __import__(guard).inspector.guard.Door())
     raise ValueError(f"reached {{reached}}")
 """
 
 
 def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_path):
+    from labkit.inspector import checker_calls
+    from labkit.judge.exchange import Question
+    from labkit.lesson.day import find_day
+    from labkit.sandbox.sandbox import Sandbox
+    from labkit.sandbox.wall import wall
     from robo47 import panda
-    from robo47.checker.replies import Question
-    from robo47.checker.sandbox import Sandbox
-    from robo47.checker.wall import wall
-    from robo47.inspector import behind
-    from robo47.lesson.day import find_day
 
     need(wall().name != "none", "bubblewrap or Landlock")
-    file, pid = behind.__file__, served.process.pid
+    file, pid = checker_calls.__file__, served.process.pid
     script = tmp_path / "day1_transforms.py"
     script.write_text(REACHING.format(port=served.port, pid=pid, file=file))
     connect(served, origin=f"http://127.0.0.1:{served.port}")  # from here it is reached
     with Sandbox() as sandbox:
-        source = behind.source_of(find_day(1), panda.load(), sandbox)
+        source = checker_calls.source_of(find_day(1), panda.load(), sandbox)
         (reply,) = source.open(script).ask([Question("ghost", "compose_fk", (1, 2))], 9)
     assert reply.error == "reached []", (reply.kind, reply.error)
 
@@ -351,7 +351,7 @@ def ask_to_share(viser, port: int, path: str = "/") -> None:
 
 
 def test_no_client_can_have_it_open_a_public_tunnel(viser, tunnels, monkeypatch):
-    from robo47.inspector.guard import LocalServer
+    from labkit.inspector.guard import LocalServer
 
     answers: Queue = Queue()
     refuse = LocalServer.request_share_url
@@ -380,8 +380,8 @@ def test_the_same_request_does_open_one_in_viser_left_alone(viser, tunnels):
 def test_a_viser_whose_doors_cannot_be_watched_is_not_used(viser, monkeypatch):
     from contextlib import nullcontext
 
+    from labkit.inspector import guard
     from robo47.errors import Robo47Error
-    from robo47.inspector import guard
 
     monkeypatch.setattr(guard, "_watched_doors", lambda door: nullcontext([]))
     with pytest.raises(Robo47Error, match="Install the pinned one"):

@@ -16,9 +16,9 @@ import pytest
 from inspection import ROOT, Served
 
 from conftest import need
+from labkit.inspector import address
 from robo47 import panda, se3, verify
 from robo47.checks import Array
-from robo47.inspector import address
 
 pytestmark = [pytest.mark.browser, pytest.mark.kit]
 

@@ -5,13 +5,13 @@ import threading
 import numpy as np
 import pytest
 
+from labkit.inspector import checker_calls
+from labkit.inspector.ghost import Ghost
+from labkit.inspector.student import Source, Student
+from labkit.judge.exchange import LoadError, Model, Question, Reply
+from labkit.lesson.day import find_day
+from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
-from robo47.checker.replies import LoadError, Model, Question, Reply
-from robo47.checker.sandbox import Sandbox
-from robo47.inspector import behind
-from robo47.inspector.ghost import Ghost
-from robo47.inspector.student import Source, Student
-from robo47.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -175,6 +175,6 @@ def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp
     script.write_text(load + "def f(model): return model.nq + MODEL.nq")
     question = Question("view", "f", (Model(0),))
     with Sandbox() as sandbox:
-        source = behind.source_of(find_day(1), panda.load(), sandbox)
+        source = checker_calls.source_of(find_day(1), panda.load(), sandbox)
         (reply,) = source.open(script).ask([question], SECONDS)
     assert reply.value == 14, reply.error

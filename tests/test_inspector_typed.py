@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robo47.inspector.controls import typed
-from robo47.inspector.typed import number
+from labkit.inspector.controls import typed
+from labkit.inspector.typed import number
 
 pytestmark = pytest.mark.kit
 

@@ -4,8 +4,7 @@ import re
 
 import pytest
 
-from robo47.errors import Robo47Error
-from robo47.lesson.day import (
+from labkit.lesson.day import (
     Metric,
     all_days,
     day_numbers,
@@ -14,6 +13,7 @@ from robo47.lesson.day import (
     load_day,
     started_day,
 )
+from robo47.errors import Robo47Error
 
 DAY = find_day(1)
 TEXT = (DAY.own / "day.toml").read_text("utf-8")

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from labkit.lesson.day import Metric, find_day
+from labkit.lesson.lab import Lab
+from labkit.log import read_rows
+from labkit.log.header import LINE
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Metric, find_day
-from robo47.lesson.lab import Lab
-from robo47.metrics import read_rows
-from robo47.metrics.header import LINE
 
 SCRIPT = find_day(1).source
 
@@ -19,8 +19,8 @@ SCRIPT = find_day(1).source
 @pytest.fixture
 def log(monkeypatch, tmp_path) -> Path:
     path = tmp_path / "m.csv"
-    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", path)
-    monkeypatch.setattr("robo47.metrics.METRICS_CSV", path)
+    monkeypatch.setattr("labkit.lesson.lab.METRICS_CSV", path)
+    monkeypatch.setattr("labkit.log.METRICS_CSV", path)
     monkeypatch.setattr(sys, "argv", ["lab"])
     return path
 

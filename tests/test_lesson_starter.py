@@ -4,10 +4,10 @@ import ast
 
 import pytest
 
+from labkit.lesson.day import find_day
+from labkit.lesson.starter import find_regions, function_lines, make_starter, put_back
+from labkit.lesson.starter import solution as solution_of
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day
-from robo47.lesson.starter import find_regions, function_lines, make_starter, put_back
-from robo47.lesson.starter import solution as solution_of
 from robo47.paths import ROOT
 
 DAY = find_day(1)

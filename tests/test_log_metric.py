@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from labkit.log import append_row, read_rows
+from labkit.log.header import LINE
 from robo47.errors import Robo47Error
-from robo47.metrics import append_row, read_rows
-from robo47.metrics.header import LINE
 
 pytestmark = pytest.mark.kit
 

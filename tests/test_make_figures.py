@@ -14,7 +14,7 @@ if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
 from PIL import Image
 
-from robo47.figures import overlay, portrait
+from labkit.figures import overlay, portrait
 
 pytestmark = pytest.mark.kit
 
@@ -51,7 +51,7 @@ def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
-    from robo47.figures.lessons import lesson_figures
+    from labkit.figures.lessons import lesson_figures
 
     draw = lesson_figures(1)["day1_order"]
     from day1_transforms import READY_Q, compose_fk
@@ -89,7 +89,7 @@ def test_the_command_names_the_pictures_that_there_are(run):
 
 
 def test_a_day_without_pictures_has_none(monkeypatch):
-    from robo47.figures import lessons
+    from labkit.figures import lessons
 
     monkeypatch.setattr(lessons.folder, "has", lambda day, name: False)
     assert lessons.lesson_figures(1) == {}

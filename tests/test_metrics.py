@@ -16,13 +16,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from labkit.base.commit import short_sha
+from labkit.log import COLUMNS, append_row, append_rows, logfile, read_rows
+from labkit.log.header import LINE
+from labkit.log.lock import warn_once
+from labkit.log.repair import restore
+from labkit.log.scan import scan
 from robo47.errors import Robo47Error
-from robo47.metrics import COLUMNS, append_row, append_rows, logfile, read_rows
-from robo47.metrics.commit import short_sha
-from robo47.metrics.header import LINE
-from robo47.metrics.lock import warn_once
-from robo47.metrics.repair import restore
-from robo47.metrics.scan import scan
 
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}
 OLD = "r,2026-09-01,1,fk,abc1234,0,home,manual,1,0,err,1e-16,note"
@@ -375,7 +375,7 @@ def test_a_row_that_only_fits_in_part_leaves_nothing_behind(log, room):
     append_row(log, **ROW)
     before = log.read_bytes()
     script = (
-        "import resource, signal, sys; from robo47.metrics import append_row\n"
+        "import resource, signal, sys; from labkit.log import append_row\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         f"limit = {len(before) + room}\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))\n"
@@ -656,7 +656,7 @@ def test_outside_git_and_before_the_first_commit_there_is_no_commit(tmp_path):
 
 def test_importing_the_log_brings_in_no_numerical_library():
     script = (
-        "import sys, robo47.metrics\n"
+        "import sys, labkit.log\n"
         "print({'numpy', 'mujoco', 'pandas', 'tqdm', 'PIL'} & set(sys.modules))"
     )
     done = subprocess.run(

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import pytest
 
+from labkit.log import append_row, lock, read_rows
+from labkit.log.header import LINE
+from labkit.log.logfile import locked
+from labkit.log.scan import scan
 from robo47.errors import Robo47Error
-from robo47.metrics import append_row, lock, read_rows
-from robo47.metrics.header import LINE
-from robo47.metrics.logfile import locked
-from robo47.metrics.scan import scan
 
 pytestmark = pytest.mark.kit
 
@@ -28,7 +28,7 @@ PAD = 110  # the rest of a row
 # Each waits for the start, so that all run at once; each says what was accepted.
 WRITER = """
 import os, sys, time
-from robo47.metrics import append_row
+from labkit.log import append_row
 log, me, count, size, gate = sys.argv[1:]
 while not os.path.exists(gate):
     time.sleep(0.001)
@@ -131,7 +131,7 @@ def test_writers_that_start_together_write_one_header_in_60_starts(tmp_path):
 # Killed in mid-write: what the call returned for is told through a pipe.
 VICTIM = """
 import os, sys
-from robo47.metrics import append_row
+from labkit.log import append_row
 log, start = sys.argv[1], int(sys.argv[2])
 for i in range(start, start + 1_000_000):
     append_row(log, run_id="v", date="2026-09-01", check="kill", git_sha="abc1234",
@@ -224,7 +224,7 @@ def test_a_lock_is_released_by_the_death_of_its_holder(tmp_path):
         [
             sys.executable,
             "-c",
-            "import os, sys, time; from robo47.metrics.logfile import locked\n"
+            "import os, sys, time; from labkit.log.logfile import locked\n"
             "with locked(sys.argv[1]): os.write(1, b'held\\n'); time.sleep(600)",
             log,
         ],

@@ -1,6 +1,6 @@
 """The commands and counts that the log's messages name."""
 
-from robo47.metrics.words import OWN_LOG, command, count
+from labkit.base.words import OWN_LOG, command, count
 from robo47.paths import ROOT
 
 

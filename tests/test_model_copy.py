@@ -5,10 +5,10 @@ import copy
 import numpy as np
 import pytest
 
+from labkit.judge.exchange import Model, Question
+from labkit.sandbox.inside import fake_model, wire
+from labkit.sandbox.model_copy import copy_model
 from robo47 import panda
-from robo47.checker.inside import fake_model, wire
-from robo47.checker.model_copy import copy_model
-from robo47.checker.replies import Model, Question
 
 pytestmark = pytest.mark.kit
 

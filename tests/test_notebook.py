@@ -19,8 +19,8 @@ import nbclient
 import nbformat
 import numpy as np
 
+from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -140,7 +140,7 @@ def test_without_the_kit_the_set_up_asks_for_the_clones_address(monkeypatch, tmp
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_a_slider_moves_the_arm_and_the_matrix():
-    from robo47.figures.sliders import joint_sliders
+    from labkit.figures.sliders import joint_sliders
 
     left, picture = joint_sliders().children
     *sliders, numbers = left.children
@@ -160,7 +160,7 @@ def test_a_slider_moves_the_arm_and_the_matrix():
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_sliders_show_the_function_that_they_are_given():
-    from robo47.figures.sliders import joint_sliders
+    from labkit.figures.sliders import joint_sliders
 
     def compose_fk(model, q):
         return np.eye(4)

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from labkit.lesson.day import Metric
+from labkit.log.header import LINE
+from labkit.log.rows import encode, normalise
+from labkit.log.scan import scan
+from labkit.report import page, plot
+from labkit.report.series import Report, Series, collect
+from labkit.report.thresholds import load
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Metric
-from robo47.metrics.header import LINE
-from robo47.metrics.rows import encode, normalise
-from robo47.metrics.scan import scan
-from robo47.report import page, plot
-from robo47.report.series import Report, Series, collect
-from robo47.report.thresholds import load
 
 pytestmark = pytest.mark.kit
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from robo47 import originals
+from labkit.lesson import originals
+from labkit.lesson.day import find_day
+from labkit.report.week_labs import days_of
 from robo47.errors import Robo47Error
-from robo47.lesson.day import find_day
-from robo47.week.labs import days_of
 
 pytestmark = pytest.mark.kit
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from labkit.judge.exchange import LoadError, Model, Path, Question
+from labkit.lesson.day import find_day
+from labkit.sandbox import process, sandbox
+from labkit.sandbox.model_copy import copy_model, facts
 from robo47 import panda
-from robo47.checker import process, sandbox
-from robo47.checker.model_copy import copy_model, facts
-from robo47.checker.replies import LoadError, Model, Path, Question
-from robo47.lesson.day import find_day
 from robo47.paths import ROOT
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -263,8 +263,8 @@ class TestWhatItMayImport:
             import numpy as np
             from robo47 import cli, panda, verify
             from robo47.errors import Robo47Error
-            from robo47.figures.scene import Camera
-            from robo47.lesson.lab import Lab
+            from labkit.figures.scene import Camera
+            from labkit.lesson.lab import Lab
             END = panda.END_FRAME["panda_nohand"]
             LIMITS = verify.LIMITS["x"][0] * 2 + np.ones(3) * verify.REACH
             NAMES = [name for name in verify.NAMES]

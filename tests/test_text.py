@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robo47.text import visible, visible_lines
+from labkit.base.text import visible, visible_lines
 
 
 class TestVisible:

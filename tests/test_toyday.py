@@ -22,7 +22,7 @@ TOY = ROOT / "tests" / "toyday" / "w9-toy"
 def kit(tmp_path_factory):
     """Return a copy of the kit with the toy day in it."""
     copy = tmp_path_factory.mktemp("kit") / "clone"
-    for name in ("robo47", "scripts", "w1-foundations", "metrics"):
+    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
         skipped = shutil.ignore_patterns("__pycache__", "work")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     shutil.copytree(TOY, copy / "w9-toy")
@@ -102,9 +102,9 @@ def test_each_kind_of_answer_has_its_own_words(kit, run, file):
 def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
     manifest = kit / "w9-toy" / "day46" / "day.toml"
     text = manifest.read_text()
-    own = text.replace("minutes = 10", 'minutes = 10\nlibrary = ["window"]')
+    own = text.replace("minutes = 10", 'minutes = 10\nlibrary = ["simulate"]')
     solve(kit, begun)
-    call = "    import robo47.window\n    return robo47.window.anything(a, b)\n"
+    call = "    import robo47.simulate\n    return robo47.simulate.anything(a, b)\n"
     gap = "    # region 46.2\n"
     begun.write_text(begun.read_text().replace(gap, gap + call))
     try:
@@ -113,7 +113,7 @@ def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
     finally:
         manifest.write_text(text)
     assert entry["mistake"] == "not-by-hand"
-    assert "robo47.window.anything" in entry["message"]
+    assert "labkit.inspector.native_viewer.anything" in entry["message"]
 
 
 def test_its_lab_runs_logs_and_is_judged_by_max_and_min(kit, run, begun):
@@ -167,7 +167,7 @@ def test_its_picture_is_drawn_and_its_notebook_made(kit, run):
 
 
 def test_no_shared_file_was_touched_for_it():
-    for path in (ROOT / "robo47").rglob("*.py"):
+    for path in (*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/**/*.py")):
         text = path.read_text("utf-8")
         assert "day46" not in text
         assert "toyday" not in text

@@ -2,8 +2,8 @@
 
 import pytest
 
-from robo47.checker import sandbox
-from robo47.lesson.day import find_day
+from labkit.lesson.day import find_day
+from labkit.sandbox import sandbox
 
 pytestmark = pytest.mark.kit
 

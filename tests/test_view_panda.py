@@ -101,8 +101,8 @@ def test_two_inspectors_at_once_get_a_port_each(viser):
 
 
 def test_no_free_port_at_all_is_one_clear_line(viser, monkeypatch):
+    from labkit.inspector import serve
     from robo47.errors import Robo47Error
-    from robo47.inspector import serve
 
     monkeypatch.setattr(serve, "PORTS_TRIED", 1)
     with socket.socket() as other:
@@ -183,8 +183,8 @@ def test_a_clip_of_a_file_that_is_not_there_is_one_line(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone):
-    from robo47.checker.deliverables import check_deliverables
-    from robo47.lesson.day import find_day
+    from labkit.handin import check_deliverables
+    from labkit.lesson.day import find_day
 
     need(importlib.util.find_spec("PIL") is not None, "Pillow: make report")
     day = find_day(1, clone)

@@ -12,10 +12,11 @@ import mujoco
 import pytest
 
 from conftest import need
-from robo47.checker import resources, wall
-from robo47.checker.model_copy import facts
-from robo47.checker.replies import Question
-from robo47.checker.sandbox import Sandbox
+from labkit.base import processes
+from labkit.judge.exchange import Question
+from labkit.sandbox import wall
+from labkit.sandbox.model_copy import facts
+from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -261,8 +262,8 @@ class TestAWall:
         )
         code = (
             "import sys, pathlib\n"
-            "from robo47.checker.sandbox import *\n"
-            "from robo47.checker.model_copy import facts\n"
+            "from labkit.sandbox.sandbox import *\n"
+            "from labkit.sandbox.model_copy import facts\n"
             "box = Sandbox()\n"
             "session = box.session(pathlib.Path(sys.argv[1]), [], facts())\n"
             "print(session._process.process.pid, flush=True)\n"
@@ -290,7 +291,7 @@ class TestAWall:
         with standing(name), Sandbox() as box:
             session = box.session(script, [], facts())
             session.ask([Question("", "f", ())])
-            assert resources.resident_bytes(session._process.process) > 200_000_000
+            assert processes.resident_bytes(session._process.process) > 200_000_000
 
     @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
     def test_lets_a_task_use_all_of_python_and_numpy(self, name, tmp_path):

@@ -11,15 +11,15 @@ from dataclasses import replace
 import pytest
 from test_report import MEASURE, dom
 
-from robo47.checker.deliverables.rows import file_mark
-from robo47.checker.journal import Met
+from labkit.check.journal import Met
+from labkit.handin.rows import file_mark
+from labkit.lesson.day import Metric, find_day
+from labkit.report import week_page, week_retro
+from labkit.report.series import Series
+from labkit.report.week_facts import DayFacts, hints_given, minutes_of
+from labkit.report.week_labs import days_of, name_of, week_of
+from labkit.report.week_numbers import Number, numbers_of
 from robo47.errors import Robo47Error
-from robo47.lesson.day import Metric, find_day
-from robo47.report.series import Series
-from robo47.week import page, retro
-from robo47.week.facts import DayFacts, hints_given, minutes_of
-from robo47.week.labs import days_of, name_of, week_of
-from robo47.week.numbers import Number, numbers_of
 
 pytestmark = pytest.mark.kit
 
@@ -190,11 +190,11 @@ def test_hints_that_cannot_be_read_are_none(tmp_path, text):
     [(None, "–"), (50, "50 min"), (200, "3 h 20 min"), (2880, "2.0 days")],
 )
 def test_a_time_is_said_as_people_say_it(minutes, says):
-    assert page.minutes_in_words(minutes) == says
+    assert week_page.minutes_in_words(minutes) == says
 
 
 def test_the_page_shows_the_week(day):
-    text = page.render([facts(day)], "of my log")
+    text = week_page.render([facts(day)], "of my log")
     for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
         assert words in text
     assert "t not negated <span class=pass>✓ left behind" in text
@@ -204,13 +204,13 @@ def test_the_page_shows_the_week(day):
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
     ran = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
     own = replace(ran, kit=None)
-    assert "the kit's here" in page.render([facts(day, numbers=[ran, own])], "")
-    assert "the kit's here" not in page.render([facts(day, numbers=[own])], "")
+    assert "the kit's here" in week_page.render([facts(day, numbers=[ran, own])], "")
+    assert "the kit's here" not in week_page.render([facts(day, numbers=[own])], "")
 
 
 def test_no_text_of_a_journal_becomes_a_script(day):
     evil = "<script>alert(1)</script>"
-    text = page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
+    text = week_page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
     assert "<script" not in text
     assert "default-src 'none'" in text
 
@@ -226,7 +226,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
         )
         for d in days_of(1)
     ]
-    text = page.render(week, "of my log")
+    text = week_page.render(week, "of my log")
     box = "getBoundingClientRect()"
     seen = "[...d.querySelectorAll('td.pass')].every("
     seen += f"e => e.{box}.left + 30 < e.closest('.card').{box}.right)"
@@ -253,7 +253,7 @@ def diary(begun):
 
 
 def test_a_retrospective_gets_its_numbers_and_nothing_else_changes(begun, diary):
-    assert retro.fill([facts(begun)]) == [diary]
+    assert week_retro.fill([facts(begun)]) == [diary]
     text = diary.read_bytes()
     assert text.startswith(BEFORE)
     assert text.endswith(AFTER)
@@ -261,24 +261,24 @@ def test_a_retrospective_gets_its_numbers_and_nothing_else_changes(begun, diary)
     assert b"old" not in text
     assert b"Tasks passed: 7 of 8. Functions of my own: 8 of 9.\r\n" in text
     assert b"\n" not in text.replace(b"\r\n", b"")
-    assert retro.fill([facts(begun)]) == []
+    assert week_retro.fill([facts(begun)]) == []
 
 
 def test_hints_stay_out_of_what_is_handed_in(begun):
-    assert "hint" not in retro.as_markdown([facts(begun, hints=4)])
+    assert "hint" not in week_retro.as_markdown([facts(begun, hints=4)])
 
 
 @pytest.mark.parametrize("text", [b"mine\n", AFTER + BEFORE, (BEFORE + AFTER) * 2])
 def test_without_its_marks_a_retrospective_is_left_alone(begun, diary, text):
     diary.write_bytes(text)
-    assert retro.fill([facts(begun)]) == []
+    assert week_retro.fill([facts(begun)]) == []
     assert diary.read_bytes() == text
 
 
 def test_nobodys_numbers_are_written_nowhere(day):
     file = day.folder / "docs" / "RETRO_w1.md"
     file.write_bytes(BEFORE + AFTER)
-    assert retro.fill([facts(day)]) == []
+    assert week_retro.fill([facts(day)]) == []
     assert file.read_bytes() == BEFORE + AFTER
 
 

@@ -8,7 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from robo47 import panda, window
+from labkit.inspector import native_viewer
+from robo47 import panda
 
 pytestmark = pytest.mark.kit
 
@@ -17,7 +18,7 @@ def test_no_display_is_an_obstacle_on_linux(monkeypatch):
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    assert "no display" in str(window.obstacle())
+    assert "no display" in str(native_viewer.obstacle())
 
 
 @pytest.mark.parametrize(
@@ -26,17 +27,17 @@ def test_no_display_is_an_obstacle_on_linux(monkeypatch):
 def test_with_a_display_a_child_process_finds_out(monkeypatch, code, expected):
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setenv("DISPLAY", ":0")
-    monkeypatch.setattr(window, "_PROBE", f"raise SystemExit({code})")
-    found = window.obstacle()
+    monkeypatch.setattr(native_viewer, "_PROBE", f"raise SystemExit({code})")
+    found = native_viewer.obstacle()
     assert found is None if expected is None else expected in str(found)
 
 
 def test_a_display_that_hangs_is_an_obstacle(monkeypatch):
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setenv("DISPLAY", ":0")
-    monkeypatch.setattr(window, "_PROBE", "import time; time.sleep(60)")
-    monkeypatch.setattr(window, "PROBE_SECONDS", 0.5)
-    assert "does not answer" in str(window.obstacle())
+    monkeypatch.setattr(native_viewer, "_PROBE", "import time; time.sleep(60)")
+    monkeypatch.setattr(native_viewer, "PROBE_SECONDS", 0.5)
+    assert "does not answer" in str(native_viewer.obstacle())
 
 
 def test_macos_is_told_of_mjpython(monkeypatch):
@@ -44,16 +45,16 @@ def test_macos_is_told_of_mjpython(monkeypatch):
 
     monkeypatch.setattr(sys, "platform", "darwin")
     monkeypatch.setattr(mujoco.viewer, "_MJPYTHON", None, raising=False)
-    assert "mjpython scripts/view_panda.py --native" in str(window.obstacle())
+    assert "mjpython scripts/view_panda.py --native" in str(native_viewer.obstacle())
     monkeypatch.setattr(mujoco.viewer, "_MJPYTHON", object())
-    assert window.obstacle() is None
+    assert native_viewer.obstacle() is None
 
 
 @pytest.mark.parametrize("source", ["real_panda", "twin"])
 def test_the_arm_starts_at_ready_and_does_not_sag(request, source):
     request.getfixturevalue(source)
     model = panda.load("scene")
-    data = window.at_ready(model)
+    data = native_viewer.at_ready(model)
     np.testing.assert_array_equal(data.qpos[:7], panda.READY_Q)
     np.testing.assert_array_equal(data.ctrl[:7], panda.READY_Q)
     start = data.qpos.copy()
@@ -92,8 +93,10 @@ def test_the_window_is_closed_and_given_a_second_before_the_end(
             happened.append("closed")
 
     monkeypatch.setattr(mujoco.viewer, "launch_passive", launch_passive)
-    monkeypatch.setattr(window.time, "sleep", lambda s: happened.append(round(s, 3)))
-    assert window.show() == 0
+    monkeypatch.setattr(
+        native_viewer.time, "sleep", lambda s: happened.append(round(s, 3))
+    )
+    assert native_viewer.show() == 0
     assert happened[-2:] == ["closed", 1.0]
     assert happened.count("shown") == (0 if ctrl_c else 2)
     assert handle.cam.distance == 2.6

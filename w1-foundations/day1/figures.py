@@ -9,10 +9,11 @@ import numpy as np
 from day1_transforms import READY_Q, SEED, Rz, compose_fk, inverse, make_T
 from PIL import Image
 
-from robo47 import figures, kinematics, panda, verify
-from robo47.figures import errorplot, portrait, sheet
-from robo47.figures.scene import Camera, Ghost, Scene
-from robo47.lesson.day import find_day
+from labkit import figures
+from labkit.figures import errorplot, portrait, sheet
+from labkit.figures.scene import Camera, Ghost, Scene
+from labkit.lesson.day import find_day
+from robo47 import kinematics, panda, verify
 
 LIMIT = find_day(1).limit
 T_EXTRA = make_T(Rz(np.pi / 4), np.array([0.1, 0.0, 0.0]))  # as in step 4

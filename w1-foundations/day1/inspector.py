@@ -3,13 +3,13 @@
 import mujoco
 import numpy as np
 
+from labkit.inspector.arm import END
+from labkit.inspector.ghost import Ghost
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
+from labkit.judge.exchange import Model, Path
 from robo47 import se3
-from robo47.checker.replies import Model, Path
 from robo47.checks import Array
-from robo47.inspector.arm import END
-from robo47.inspector.ghost import Ghost
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 # From the world outwards: each body, and the joint that turns it.
 LINKS = (("link0", None), *((f"link{i}", f"joint{i}") for i in range(1, 8)))

@@ -5,10 +5,7 @@ The truth comes from MuJoCo and `robo47.se3`, never from the lab script.
 
 import numpy as np
 
-from robo47 import se3, verify
-from robo47.checker.replies import Path
-from robo47.checks import Array
-from robo47.diagnose import (
+from labkit.judge import (
     Ask,
     Case,
     Finding,
@@ -21,8 +18,11 @@ from robo47.diagnose import (
     Slip,
     draw,
 )
-from robo47.diagnose.compare import difference
-from robo47.diagnose.matrices import pose
+from labkit.judge.compare import difference
+from labkit.judge.exchange import Path
+from labkit.judge.matrices import pose
+from robo47 import se3, verify
+from robo47.checks import Array
 
 from .mistakes import factors, order, places
 from .mistakes.arm import Arm, whole

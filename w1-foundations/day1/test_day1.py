@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script
+from labkit.log import read_rows
 from robo47 import panda, se3, verify
-from robo47.metrics import read_rows
 
 SCRIPT = "w1-foundations/src/day1_transforms.py"
 
@@ -138,8 +138,8 @@ def test_no_log_leaves_the_file_alone(run, tmp_path):
 
 def test_a_failing_check_is_named_recorded_and_exits_1(monkeypatch, tmp_path, capsys):
     failing = load_lab()
-    monkeypatch.setattr("robo47.lesson.lab.METRICS_CSV", tmp_path / "m.csv")
-    monkeypatch.setattr("robo47.metrics.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr("labkit.lesson.lab.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr("labkit.log.METRICS_CSV", tmp_path / "m.csv")
     monkeypatch.setattr(sys, "argv", ["day1"])
     monkeypatch.setattr(failing, "LIBRARY_TRIALS", 10)
     monkeypatch.setattr(failing, "quat_to_R", lambda q: se3.quat_to_R(np.roll(q, -1)))
@@ -216,7 +216,7 @@ def test_a_wrong_chain_cannot_record_a_small_number(name, monkeypatch, tmp_path)
         "Rz_swapped": ("Rz", lambda theta: Rz(np.pi / 2 - theta)),
     }
     monkeypatch.setattr(wrong, *changes[name])
-    monkeypatch.setattr("robo47.metrics.METRICS_CSV", tmp_path / "m.csv")
+    monkeypatch.setattr("labkit.log.METRICS_CSV", tmp_path / "m.csv")
     monkeypatch.setattr(sys, "argv", ["day1"])
     monkeypatch.setattr(wrong, "LIBRARY_TRIALS", 10)
     assert wrong.main() == 1

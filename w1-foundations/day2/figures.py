@@ -10,11 +10,11 @@ import numpy as np
 from day2_screws import FRANKA_DH, LINKS, SEED, exp_rotation, joint_screws
 from PIL import Image
 
+from labkit.figures import client, portrait
+from labkit.figures.overlay import HALO, INK, Layer
+from labkit.figures.scene import Camera, Scene
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
-from robo47.figures import client, portrait
-from robo47.figures.overlay import HALO, INK, Layer
-from robo47.figures.scene import Camera, Scene
 
 from .roulette import READINGS, distances
 

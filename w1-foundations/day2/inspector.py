@@ -8,13 +8,13 @@ row of Franka's DH table and the file's pos and quat of the same link.
 import mujoco
 import numpy as np
 
+from labkit.inspector import words
+from labkit.inspector.arm import END
+from labkit.inspector.ghost import Ghost
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
 from robo47 import kinematics, panda, screws, se3
 from robo47.checks import Array
-from robo47.inspector import words
-from robo47.inspector.arm import END
-from robo47.inspector.ghost import Ghost
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 from .questions import FRANKA
 from .roulette import READINGS, distances

@@ -8,8 +8,8 @@ from functools import cache
 
 import numpy as np
 
+from labkit.judge import Ask, Matrix, Pose, Probe, Rotation, Twist, draw
 from robo47 import kinematics, panda, screws, se3
-from robo47.diagnose import Ask, Matrix, Pose, Probe, Rotation, Twist, draw
 
 from .mistakes import halves, places
 from .mistakes.brackets import SKEW

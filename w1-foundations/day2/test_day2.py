@@ -16,11 +16,11 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script, need
+from labkit.judge.compare import degrees
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
+from labkit.log import read_rows
 from robo47 import panda, screws, se3, verify
-from robo47.diagnose.compare import degrees
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
-from robo47.metrics import read_rows
 
 SCRIPT = "w1-foundations/src/day2_screws.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day2-lab.md").read_text("utf-8").split())
@@ -361,7 +361,7 @@ def test_bad_input_is_named(arm, call, says):
 
 
 def test_the_tab_applies_one_exponential_at_a_time():
-    for module in ("viser", "robo47.inspector.tab"):
+    for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(DAY, "inspector")
     model = panda.load("panda_nohand")

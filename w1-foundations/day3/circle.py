@@ -7,12 +7,12 @@ Both arms are the library's, and so are the numbers; step 5 of the lab draws you
 
 import numpy as np
 
+from labkit.inspector import words
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
 from robo47 import jacobian, kinematics, panda
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.inspector import words
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 CENTRE = np.array([0.28, -0.06, 0.55])
 START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])

@@ -8,13 +8,13 @@ while the hand stands still.
 
 import numpy as np
 
+from labkit.inspector import words
+from labkit.inspector.arm import END
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
+from labkit.judge.exchange import Reply
 from robo47 import jacobian, panda, screws, verify
-from robo47.checker.replies import Reply
 from robo47.checks import Array
-from robo47.inspector import words
-from robo47.inspector.arm import END
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 from .circle import Circle
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from labkit.judge import Scalar, Twist, Vector
+from labkit.judge.kinds import Kind
 from robo47.checks import Array
-from robo47.diagnose import Scalar, Twist, Vector
-from robo47.diagnose.kinds import Kind
 
 
 @dataclass(frozen=True)

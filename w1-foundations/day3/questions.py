@@ -6,15 +6,9 @@ Pinocchio and the textbook; `solve_ik` is judged by where its answers bring the 
 
 import numpy as np
 
+from labkit.judge import Ask, HeldOut, Jacobian, Vector, draw
 from robo47 import jacobian, screws, se3
 from robo47.checks import Array
-from robo47.diagnose import (
-    Ask,
-    HeldOut,
-    Jacobian,
-    Vector,
-    draw,
-)
 
 from . import targets
 from .kinds import Gap, Number, Numbers

@@ -9,9 +9,9 @@ from functools import cache
 
 import numpy as np
 
+from labkit.judge import Finding, draw
 from robo47 import jacobian, panda, screws
 from robo47.checks import Array
-from robo47.diagnose import Finding, draw
 
 from .mistakes import loops
 

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script, need
+from labkit.judge.exchange import Reply
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
-from robo47.checker.replies import Reply
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
 
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").split())
 # What Pinocchio and the textbook's own package said, their rows swapped to (omega; v).
@@ -233,7 +233,7 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
 
 @pytest.fixture
 def tab():
-    for module in ("viser", "robo47.inspector.tab"):
+    for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(find_day(3), "inspector")
     page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())

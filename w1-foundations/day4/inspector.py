@@ -8,10 +8,10 @@ on gravity compensation, or floating and pushed.
 import mujoco
 import numpy as np
 
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
 from robo47 import panda, simulate
 from robo47.checks import Array
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 JOINTS = 7
 NAMES = [f"joint{i}" for i in range(1, JOINTS + 1)]

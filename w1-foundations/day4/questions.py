@@ -9,10 +9,10 @@ from functools import cache
 
 import numpy as np
 
+from labkit.judge import Ask, Matrix, Symmetric, Vector, draw
+from labkit.judge.kinds import Kind
+from labkit.judge.mistake import each
 from robo47 import dynamics, panda, screws
-from robo47.diagnose import Ask, Matrix, Symmetric, Vector, draw
-from robo47.diagnose.kinds import Kind
-from robo47.diagnose.mistake import each
 
 from .mistakes.bias import BIAS_TORQUE
 from .mistakes.bodies import SPATIAL_INERTIA

@@ -9,9 +9,9 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, screws, simulate, verify
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")

@@ -6,8 +6,8 @@ they can be typed.
 
 import numpy as np
 
+from labkit.judge import draw
 from robo47 import panda, verify
-from robo47.diagnose import draw
 
 TIMES = np.array([0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5])
 MIXED = np.array([0.1, 0.3, 0.15, 0.5, 0.2, 0.4, 0.25, 0.35])

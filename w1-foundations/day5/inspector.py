@@ -9,11 +9,11 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
 from robo47 import control, kinematics, panda, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 from robo47.panda import READY_Q
 
 SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"

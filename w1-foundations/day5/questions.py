@@ -3,9 +3,9 @@
 The truth comes from `robo47.control`, never from the lab script.
 """
 
+from labkit.judge import Ask, HeldOut, Scalar, Vector
+from labkit.judge.mistake import each
 from robo47 import control
-from robo47.diagnose import Ask, HeldOut, Scalar, Vector
-from robo47.diagnose.mistake import each
 
 from . import inputs
 from .mistakes import gains, motors, pid, response, springs, torque, where

@@ -10,6 +10,9 @@ from functools import cache
 import mujoco
 import numpy as np
 
+from labkit.inspector import words
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
 from robo47 import (
     control,
     jacobian,
@@ -21,9 +24,6 @@ from robo47 import (
     touch,
 )
 from robo47.checks import Array
-from robo47.inspector import words
-from robo47.inspector.page import Page
-from robo47.inspector.tab import Tab
 
 RATE, HZ = 100.0, 50.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # Nm/rad of the hand; Nm s/rad of the elbow

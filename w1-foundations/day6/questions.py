@@ -9,8 +9,8 @@ from functools import cache
 
 import numpy as np
 
+from labkit.judge import Ask, Scalar, Symmetric, Twist, Vector, Wrench, draw
 from robo47 import panda, task_space
-from robo47.diagnose import Ask, Scalar, Symmetric, Twist, Vector, Wrench, draw
 
 from .mistakes.accelerations import SITE_BIAS
 from .mistakes.impedance import IMPEDANCE_TORQUE

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from conftest import ROOT, load_script, need
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, scenes, simulate, task_space, touch, verify
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")

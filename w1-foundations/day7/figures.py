@@ -16,11 +16,11 @@ from day7_trajectory import A_MAX, GOAL_Q, READY_Q, V_MAX, profiles, quintic_dur
 from matplotlib.figure import Figure  # not pyplot, which may look for a display
 from PIL import Image
 
+from labkit.figures import client, portrait
+from labkit.figures.overlay import HALO, Layer
+from labkit.figures.scene import Box, Camera, Scene
 from robo47 import capstone, scenes, se3
 from robo47.checks import Array
-from robo47.figures import client, portrait
-from robo47.figures.overlay import HALO, Layer
-from robo47.figures.scene import Box, Camera, Scene
 
 from . import letters
 

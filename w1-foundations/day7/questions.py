@@ -6,8 +6,8 @@ textbook's examples), never from the lab script. Arrays and floats only.
 
 import numpy as np
 
+from labkit.judge import Ask, Matrix, Pose, Scalar, Slip, Vector, draw
 from robo47 import se3, trajectory
-from robo47.diagnose import Ask, Matrix, Pose, Scalar, Slip, Vector, draw
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
 from .mistakes.cubes import CUBE

@@ -14,9 +14,9 @@ from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
 from conftest import ROOT, load_script, need
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 from robo47 import capstone, panda, scenes, se3, simulate, trajectory
-from robo47.lesson import folder
-from robo47.lesson.day import find_day
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -227,7 +227,7 @@ def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
 
 
 def _plan():
-    for module in ("viser", "robo47.inspector.tab"):
+    for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(DAY, "inspector")
     page = MagicMock(model=panda.load("panda"), q=np.append(panda.READY_Q, [0.0, 0.0]))

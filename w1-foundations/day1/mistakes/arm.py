@@ -14,9 +14,9 @@ from itertools import chain
 import mujoco
 import numpy as np
 
+from labkit.judge.chain import product
 from robo47 import panda
 from robo47.checks import Array
-from robo47.diagnose.chain import product
 
 from .factors import link, turn
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge.matrices import pose, rigid_inverse, split, transposed
+from labkit.judge.mistake import Mistake
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
-from robo47.diagnose.mistake import Mistake
 
 from .arm import Arm
 

@@ -6,11 +6,11 @@ tasks 1.1 to 1.4 are lifted here. `redo` of the lifted ones is the whole functio
 
 import numpy as np
 
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose
+from labkit.judge.mistake import Mistake, applied, lifted
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.matrices import pose
-from robo47.diagnose.mistake import Mistake, applied, lifted
 
 from .poses import MAKE_T
 from .rotations import QUAT_TO_R, RZ

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge.chain import product
+from labkit.judge.matrices import pose, split, times
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.chain import product
-from robo47.diagnose.matrices import pose, split, times
-from robo47.diagnose.mistake import Mistake
 
 from .arm import Arm, base, inertial_frames
 from .factors import link

@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import split, times, transposed
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import split, times, transposed
-from robo47.diagnose.mistake import Mistake
 
 # From (R_a, t_a, R_b, t_b), the parts of both factors, to the translation of a @ b.
 Half = Callable[[Array, Array, Array, Array], Array]

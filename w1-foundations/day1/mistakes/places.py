@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge import Case, Finding, Mistake, Pose
+from labkit.judge.chain import Factor, first_wrong, one_place, steady
+from labkit.judge.compare import matches, rigid
+from labkit.judge.matrices import rigid_inverse
 from robo47.checks import Array
-from robo47.diagnose import Case, Finding, Mistake, Pose
-from robo47.diagnose.chain import Factor, first_wrong, one_place, steady
-from robo47.diagnose.compare import matches, rigid
-from robo47.diagnose.matrices import rigid_inverse
 
 from .arm import Arm, whole
 from .ends import wrong_ends, wrong_lengths

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose, rigid_inverse, split, times, transposed
+from labkit.judge.mistake import Mistake, applied
 from robo47.checks import Array
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.matrices import pose, rigid_inverse, split, times, transposed
-from robo47.diagnose.mistake import Mistake, applied
 
 MAKE_T = [
     Mistake(

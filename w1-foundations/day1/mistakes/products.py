@@ -8,10 +8,10 @@ from functools import reduce
 
 import numpy as np
 
+from labkit.judge.chain import product
+from labkit.judge.finished import of_a_pose
+from labkit.judge.mistake import Mistake, applied, lifted
 from robo47.checks import Array
-from robo47.diagnose.chain import product
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.mistake import Mistake, applied, lifted
 from robo47.panda import READY_Q
 
 from .arm import Arm

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.finished import OF_A_ROTATION
+from labkit.judge.mistake import Mistake, applied
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.finished import OF_A_ROTATION
-from robo47.diagnose.mistake import Mistake, applied
 
 
 def _from_cos_sin(rows: Callable[[Array, Array], list[list[Any]]]) -> Callable:

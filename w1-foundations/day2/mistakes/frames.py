@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import pose, rigid_inverse, split, transposed
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .brackets import SKEW
 from .moves import skew, without

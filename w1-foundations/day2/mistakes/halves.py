@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from labkit.judge import Case, Finding
+from labkit.judge.compare import difference
+from labkit.judge.matrix_kinds import few_entries
 from robo47.checks import Array
-from robo47.diagnose import Case, Finding
-from robo47.diagnose.compare import difference
-from robo47.diagnose.matrix_kinds import few_entries
 
 
 def which_half(case: Case) -> Finding | None:

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import rigid_inverse, times, transposed
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.matrices import rigid_inverse, times, transposed
-from robo47.diagnose.mistake import Mistake, lifted
 
 
 def screw(axis: Array, point: Array) -> Array:

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose
+from labkit.judge.mistake import Mistake, applied
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.matrices import pose
-from robo47.diagnose.mistake import Mistake, applied
 
 from .moves import Function
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge.finished import of_a_pose
+from labkit.judge.mistake import Mistake, applied, lifted
 from robo47.checks import Array
-from robo47.diagnose.finished import of_a_pose
-from robo47.diagnose.mistake import Mistake, applied, lifted
 
 from .brackets import OF_A_UNIT_VECTOR
 from .moves import motion, rotation, skew, travel, without

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import pose, times
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose, times
-from robo47.diagnose.mistake import Mistake
 
 Function = Callable[..., Any]
 

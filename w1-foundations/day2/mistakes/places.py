@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from labkit.judge import Case, Finding, Pose
+from labkit.judge.chain import Factor, one_place
+from labkit.judge.compare import difference, matches, rigid
 from robo47.checks import Array
-from robo47.diagnose import Case, Finding, Pose
-from robo47.diagnose.chain import Factor, one_place
-from robo47.diagnose.compare import difference, matches, rigid
 
 from .links import DH_LINK, link
 from .motions import OF_A_HINGE

@@ -8,10 +8,10 @@ from functools import reduce
 
 import numpy as np
 
+from labkit.judge.chain import product
+from labkit.judge.matrices import pose, rigid_inverse, split, transposed
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.chain import product
-from robo47.diagnose.matrices import pose, rigid_inverse, split, transposed
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .angles import in_the_angles
 from .frames import adjoint

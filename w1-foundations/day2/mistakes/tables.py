@@ -5,9 +5,9 @@
 
 import numpy as np
 
+from labkit.judge.chain import product
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.chain import product
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .links import DH_LINK, link
 from .moves import Function, factors, without

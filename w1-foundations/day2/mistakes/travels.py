@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge.matrices import pose, times
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import pose, times
-from robo47.diagnose.mistake import Mistake
 
 from .moves import Function, motion, rest, rotation, travel, versine
 from .turns import SMALL

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, lifted
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .brackets import OF_A_UNIT_VECTOR, outer
 from .moves import rotation, sine, skew, versine, without

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge import Case, Finding
+from labkit.judge.compare import difference
 from robo47.checks import Array
-from robo47.diagnose import Case, Finding
-from robo47.diagnose.compare import difference
 
 BY_PI, BY_0 = 0.02, 0.02  # radians: "near pi" and "near 0" begin here
 OFF = 1e-5

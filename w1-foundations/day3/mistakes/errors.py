@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import rigid_inverse, split, times, transposed
+from labkit.judge.mistake import Mistake, lifted
 from robo47 import jacobian
 from robo47.checks import Array
-from robo47.diagnose.matrices import rigid_inverse, split, times, transposed
-from robo47.diagnose.mistake import Mistake, lifted
 from robo47.screws import skew
 
 from .logs import LOG, roll_pitch_yaw

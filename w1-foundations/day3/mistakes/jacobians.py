@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import rigid_inverse, split, transposed
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import rigid_inverse, split, transposed
-from robo47.diagnose.mistake import Mistake
 from robo47.screws import adjoint, exp_screw, skew
 
 Function = Callable[..., Any]

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake, each
 from robo47 import jacobian, se3
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake, each
 
 Function = Callable[..., Any]
 

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake
 from robo47 import jacobian
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake
 from robo47.panda import READY_Q
 from robo47.screws import adjoint, fk_space, skew
 

@@ -5,12 +5,12 @@
 
 import numpy as np
 
+from labkit.judge import Case, Finding
+from labkit.judge.compare import difference
+from labkit.judge.kinds import one_factor
+from labkit.judge.matrices import times, transposed
+from labkit.judge.mistake import Mistake, each
 from robo47.checks import Array
-from robo47.diagnose import Case, Finding
-from robo47.diagnose.compare import difference
-from robo47.diagnose.kinds import one_factor
-from robo47.diagnose.matrices import times, transposed
-from robo47.diagnose.mistake import Mistake, each
 
 from .steps import damped
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.matrices import times, transposed
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import times, transposed
-from robo47.diagnose.mistake import Mistake
 
 Function = Callable[..., Any]
 

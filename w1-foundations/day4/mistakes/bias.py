@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake
 from robo47.screws import ad
 
 from .forces import SHARED, plain

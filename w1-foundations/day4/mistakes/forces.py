@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .brackets import AD
 from .gravity import OTHER_GRAVITY

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
 
 
 def _solved(M: Array, net: Array) -> Array:

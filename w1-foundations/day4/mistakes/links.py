@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake, lifted
 from robo47.screws import skew
 
 from .bodies import RIGHT, SPATIAL_INERTIA

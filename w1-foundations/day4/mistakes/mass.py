@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake
 
 
 def cut(keep: Callable[[int, int], bool]) -> Array:

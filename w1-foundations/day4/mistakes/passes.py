@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
 from robo47.screws import ad
 
 Pass = Callable[[Array], Array]

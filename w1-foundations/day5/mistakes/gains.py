@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
 
 
 def _two(first: Array, second: Array) -> Array:

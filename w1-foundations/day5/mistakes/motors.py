@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
 from robo47 import control
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
 
 PANDA = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
 

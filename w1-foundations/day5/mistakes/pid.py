@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, each
 from robo47 import control
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, each
 
 
 class _Call(NamedTuple):

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
 from robo47 import control
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
 
 from .where import masks
 

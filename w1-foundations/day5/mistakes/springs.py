@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, lifted
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, lifted
 
 
 def wrapped(angle: Array) -> Array:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
 from robo47.checks import Array
-from robo47.diagnose.ask import Case
-from robo47.diagnose.mistake import Finding
 
 CASES = ("zeta = 1", "zeta under 1", "zeta over 1")
 NAMES = ("acceleration", "integral")

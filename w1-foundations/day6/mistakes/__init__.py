@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, each
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, each
 
 
 def named(slug: str, says: str, redo: Callable[..., Any], redone: str) -> Mistake:

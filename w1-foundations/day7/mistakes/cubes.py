@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from robo47.diagnose.mistake import Mistake
+from labkit.judge.mistake import Mistake
 
 G = 9.81
 CUBE = [

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.ask import Case, HeldOut
+from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
-from robo47.diagnose.ask import Case, HeldOut
-from robo47.diagnose.mistake import Finding, Mistake
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
 

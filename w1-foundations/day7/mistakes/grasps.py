@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
 from robo47 import se3
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake
 
 DOWN = np.diag([1.0, -1.0, -1.0])
 QUARTER = np.pi / 2

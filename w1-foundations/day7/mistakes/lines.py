@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Mistake, each
 from robo47 import jacobian, screws, se3, trajectory
 from robo47.checks import Array
-from robo47.diagnose.matrices import transposed
-from robo47.diagnose.mistake import Mistake, each
 
 Turn = Callable[[Array, Array, float], Array]
 

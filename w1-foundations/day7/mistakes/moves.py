@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, lifted
 from robo47 import trajectory
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, lifted
 
 from .scalings import SCALING
 

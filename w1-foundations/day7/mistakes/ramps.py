@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake, each
 from robo47.checks import Array
-from robo47.diagnose.mistake import Mistake, each
 
 
 def _top(L: float, v: float, a: float) -> float:

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from labkit.judge.ask import Case
+from labkit.judge.compare import difference
+from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
-from robo47.diagnose.ask import Case
-from robo47.diagnose.compare import difference
-from robo47.diagnose.mistake import Finding, Mistake
 
 QUINTIC = (0.0, 0.0, 0.0, 10.0, -15.0, 6.0)
 Time = Callable[[Array, Array], Array]

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding, Mistake, each
 from robo47 import trajectory
 from robo47.checks import Array
-from robo47.diagnose.ask import Case
-from robo47.diagnose.mistake import Finding, Mistake, each
 
 POWERS = np.arange(6)
 CONDITIONS = tuple(

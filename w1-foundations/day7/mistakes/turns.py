@@ -6,9 +6,9 @@ another mistake too hears of that one first.
 
 import numpy as np
 
+from labkit.judge import HeldOut, draw
 from robo47 import se3, trajectory
 from robo47.checks import Array
-from robo47.diagnose import HeldOut, draw
 
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])

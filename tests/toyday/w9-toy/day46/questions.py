@@ -2,17 +2,8 @@
 
 import numpy as np
 
+from labkit.judge import Ask, Finding, Matrix, Mistake, Robot, Scalar, Vector, draw
 from robo47 import se3
-from robo47.diagnose import (
-    Ask,
-    Finding,
-    Matrix,
-    Mistake,
-    Robot,
-    Scalar,
-    Vector,
-    draw,
-)
 
 HAND = Robot("panda")
 

@@ -1,0 +1,1 @@
+"""The machine that checks, records, shows and grades; it names no day."""

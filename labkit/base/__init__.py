@@ -1,0 +1,1 @@
+"""The ground: command lines, words, git, child processes."""

@@ -1,0 +1,139 @@
+"""What every command of the kit does the same way: help, colour, errors, the end."""
+
+from __future__ import annotations  # the doctor runs on old Pythons too
+
+import argparse
+import contextlib
+import errno
+import functools
+import os
+import shutil
+import sys
+import textwrap
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TextIO
+
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+WIDTH = 80  # columns that everything the kit prints fits in
+EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
+_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
+_PAINT = {"good": "32", "bad": "31", "note": "33"}  # green, red, yellow
+
+
+def parser(about: str | None) -> argparse.ArgumentParser:
+    """Return the parser of a script whose docstring is its help.
+
+    Args:
+        about: the docstring; its indented lines are kept as they are.
+    """
+    summary, *paragraphs = (about or "").strip().split("\n\n")
+    return argparse.ArgumentParser(
+        description=wrapped(" ".join(summary.split())),
+        epilog="\n\n".join(
+            text if "\n  " in "\n" + text else wrapped(" ".join(text.split()))
+            for text in paragraphs
+        ),
+        formatter_class=functools.partial(
+            argparse.RawDescriptionHelpFormatter, width=WIDTH - 1
+        ),
+    )
+
+
+def paint(text: str, mood: str, stream: TextIO | None = None) -> str:
+    """Return text in the colour of its mood, or as it is where no colour is wanted.
+
+    Args:
+        text: a verdict, such as "PASS" or "to do".
+        mood: "good", "bad" or "note".
+        stream: where it will be printed; standard output by default.
+    """
+    if not wants_colour(stream or sys.stdout):
+        return text
+    return f"\x1b[{_PAINT[mood]}m{text}\x1b[0m"
+
+
+def wants_colour(stream: TextIO) -> bool:
+    """Return whether to paint: a terminal, and nobody said NO_COLOR."""
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return stream.isatty() and not plain
+
+
+def wrapped(text: str, indent: str = "") -> str:
+    """Return text in lines that fit; its own line breaks stay.
+
+    Args:
+        text: a sentence or more.
+        indent: put before each line but the first.
+    """
+    columns = min(WIDTH, shutil.get_terminal_size().columns) - 1
+    return "\n".join(
+        textwrap.fill(
+            line,
+            max(columns, 20),
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for line in text.splitlines()
+    )
+
+
+def complain(text: str) -> None:
+    """Print what went wrong: wrapped on a terminal, one line for a program to read."""
+    print(wrapped(text) if sys.stderr.isatty() else text, file=sys.stderr)
+
+
+@contextlib.contextmanager
+def busy(what: str) -> Iterator[None]:
+    """Say on a terminal that something is going on, and take it back at the end."""
+    shown = sys.stderr.isatty()
+    if shown:
+        print(f"{what} ...", end="\r", file=sys.stderr, flush=True)
+    try:
+        yield
+    finally:
+        if shown:
+            print(" " * (len(what) + 4), end="\r", file=sys.stderr, flush=True)
+
+
+def print_nowhere() -> None:
+    """Let Python, at its end, print what is left where nobody reads any more."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def run(main: Callable[[], int]) -> None:
+    """Run a command's `main` and exit with its code, never with a traceback.
+
+    Args:
+        main: returns the exit code: 0 all well, 1 something to fix, 2 could not run.
+    """
+    warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
+    try:
+        code = main()
+        sys.stdout.flush()
+    except Robo47Error as error:
+        complain(f"error: {error}")
+        code = EXIT_CANNOT_RUN
+    except NotImplementedError as gap:  # a task of a starter that is still to do
+        complain(f"to do: {gap}")
+        code = EXIT_FAILED
+    except BrokenPipeError:  # `... | head` closed early: nobody is left to tell
+        print_nowhere()
+        code = EXIT_OK
+    except OSError as error:  # the machine's no, not a mistake of ours
+        full = error.errno == errno.ENOSPC and not error.filename  # where we print
+        if not full and (error.errno not in _REFUSALS or not error.filename):
+            raise
+        if full:
+            print_nowhere()  # else Python fails once more at its end
+        where = "the output" if full else shown(Path(error.filename).absolute())
+        complain(f"error: {where}: {error.strerror}. Fix that and run this again.")
+        code = EXIT_CANNOT_RUN
+    except KeyboardInterrupt:
+        print("\nstopped", file=sys.stderr)
+        code = 130
+    sys.exit(code)

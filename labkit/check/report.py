@@ -1,0 +1,202 @@
+"""How a check reads: a line per task and deliverable, what is next, how far it is."""
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from labkit.check.tasks import TaskResult
+from labkit.lesson.day import Day, Task
+
+if TYPE_CHECKING:
+    from labkit.handin import Item
+
+WIDTH = 80
+_LABEL = {
+    "passed": "passed",
+    "todo": "to do",
+    "wrong": "WRONG",
+    "close": "CLOSE",
+    "unjudged": "not judged",  # the file does not load
+}
+_COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
+_INDENT = 7  # where a message starts
+
+
+@dataclass(frozen=True)
+class Report:
+    """One check of a day.
+
+    Attributes:
+        day: from the manifest.
+        tasks: one result per task that was checked.
+        items: one per deliverable; empty when one task alone was checked.
+    """
+
+    day: Day
+    tasks: Sequence[TaskResult]
+    items: Sequence["Item"] = ()
+
+    @property
+    def counted(self) -> list[TaskResult]:
+        """The tasks that count: a side quest does only where it alone was checked."""
+        required = [r for r in self.tasks if not r.task.optional]
+        return required or list(self.tasks)
+
+    @property
+    def done(self) -> int:
+        """How many tasks and deliverables passed."""
+        tasks = sum(result.passed for result in self.counted)
+        return tasks + sum(item.passed for item in self.items)
+
+    @property
+    def total(self) -> int:
+        """How many there are."""
+        return len(self.counted) + len(self.items)
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.done == self.total
+
+    @property
+    def problem(self) -> str:
+        """Why the student's file does not load; "" where it does."""
+        verdict = self.tasks[0].verdict
+        return verdict.message if verdict.mistake == "does-not-load" else ""
+
+    def next_step(self) -> str:
+        """Return the next thing to do, in one sentence."""
+        if self.problem:
+            return "fix that line, then check again."
+        for result in self.tasks:
+            if not result.passed and not result.task.optional:
+                task = result.task
+                return f"{_named(task)}. Stuck? make hint TASK={task.id}"
+        for item in self.items:
+            if not item.passed:
+                return f"the {item.name}."
+        if self.items:
+            return "nothing is left to do here. Well done."
+        return f"the whole day: make check DAY={self.day.number}"
+
+
+def _named(task: Task) -> str:
+    return f"task {task.id}, {' and '.join(task.functions)}"
+
+
+def as_json(report: Report) -> dict[str, Any]:
+    """Return a report for tools.
+
+    Args:
+        report: of one check.
+
+    Returns:
+        "day", "passed", "done", "total", "problem", "next", and "entries": per task or
+        deliverable "id", "kind", "title", "status", "mistake", "message", "measured".
+    """
+    tasks = [
+        {
+            "id": result.task.id,
+            "kind": "task",
+            "title": result.task.title,
+            "status": result.verdict.status,
+            "mistake": result.verdict.mistake,
+            "message": result.verdict.message,
+            "follows": result.verdict.follows,
+            "measured": list(result.verdict.measured),
+        }
+        for result in report.tasks
+    ]
+    items = [
+        {
+            "id": item.name,
+            "kind": "deliverable",
+            "title": item.name,
+            "status": item.status,
+            "mistake": "",
+            "message": item.message,
+            "measured": [],
+        }
+        for item in report.items
+    ]
+    return {
+        "day": report.day.number,
+        "passed": report.passed,
+        "done": report.done,
+        "total": report.total,
+        "problem": report.problem,
+        "next": report.next_step(),
+        "entries": tasks + items,
+    }
+
+
+def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> str:
+    """Return a report for people, in 80 columns.
+
+    Args:
+        report: of one check.
+        explain: add what was measured and what the student's functions printed.
+        colour: paint the states; they read well without.
+    """
+    day = report.day
+    lines = [f"Day {day.number}: {day.title}", ""]
+    if report.problem:
+        lines += [*_wrapped(report.problem, 2), ""]
+    for result in report.tasks:
+        task, verdict = result.task, result.verdict
+        name = ", ".join(task.functions) + (" (side quest)" if task.optional else "")
+        status = "unjudged" if report.problem else verdict.status
+        lines.append(_line(f"{task.id}  {name}", status, colour))
+        if not report.problem and verdict.mistake != "unwritten":
+            lines += _wrapped(_said(report, result, explain), _INDENT)
+        if explain:
+            for line in verdict.measured:
+                lines += _wrapped(f"- {line}", _INDENT, hanging=2)
+            lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
+    if report.items:
+        lines.append("")
+    code_stands = all(result.passed for result in report.tasks)
+    for item in report.items:
+        lines.append(_line(item.name, item.status, colour))
+        if code_stands or explain or item.status == "wrong":
+            lines += _wrapped(item.message, _INDENT)
+    share = 100 * report.done // report.total
+    lines += ["", f"{report.done} of {report.total} done, {share} % of the day."]
+    if len(report.tasks) < len(day.tasks):
+        lines[-1] = f"{report.done} of {report.total} done."
+    lines += _wrapped(f"Next: {report.next_step()}", 0)
+    return "\n".join(lines)
+
+
+def _said(report: Report, result: TaskResult, explain: bool) -> str:
+    """Return what to say of a task: a mistake once, what follows from it in short."""
+    verdict = result.verdict
+    shown = {other.task.id for other in report.tasks if not other.passed}
+    if verdict.follows in shown and not explain:
+        word = "Follows from" if verdict.status == "close" else "Builds on"
+        return f"{word} {verdict.follows}: first that one."
+    if verdict.follows and verdict.status != "todo":
+        also = f"It builds on task {verdict.follows}, which is not right yet either."
+        return f"{verdict.message} {also}"
+    return verdict.message
+
+
+def _line(name: str, status: str, colour: bool) -> str:
+    state = _LABEL[status]
+    if colour:
+        state = f"\x1b[{_COLOUR.get(status, '33')}m{state}\x1b[0m"
+    return f"  {name:24}  {state}"
+
+
+def _wrapped(text: str, indent: int, hanging: int = 0) -> list[str]:
+    """Return text as lines of at most 79 columns; its own line breaks stay."""
+    pad = " " * indent
+    wrapper = textwrap.TextWrapper(
+        WIDTH - 1,
+        initial_indent=pad,
+        subsequent_indent=pad + " " * hanging,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return [line for part in text.splitlines() for line in wrapper.wrap(part)]

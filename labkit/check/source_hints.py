@@ -1,0 +1,58 @@
+"""What the text of a student's function shows, not its answers: names, first slips."""
+
+import ast
+
+from labkit.lesson.starter import function_lines
+
+
+def arguments(source: str, function: str) -> tuple[str, ...]:
+    """Return the names of a function's arguments; () where they cannot be read.
+
+    Args:
+        source: the student's file.
+        function: its name.
+    """
+    _, definition = _definition(source, function)
+    return tuple(arg.arg for arg in definition.args.args) if definition else ()
+
+
+def unfinished(source: str, function: str) -> str:
+    """Return what keeps a function from doing anything yet, in a sentence, or "".
+
+    Args:
+        source: the student's file.
+        function: its name.
+    """
+    start, definition = _definition(source, function)
+    body = definition.body if definition else []
+    if (
+        body
+        and isinstance(body[0], ast.Expr)
+        and isinstance(body[0].value, ast.Constant)
+    ):
+        body = body[1:]  # the docstring
+    gaps = [node for node in body if _is_gap(node)]
+    rest = [node for node in body if not _is_gap(node)]
+    if gaps and rest:
+        line = start + gaps[0].lineno
+        return (
+            f"Your code is there, but line {line}, `raise NotImplementedError(...)`, "
+            "still stops it: delete that line."
+        )
+    if body and all(isinstance(node, ast.Pass) for node in body):
+        return "Its body is `pass`, which does nothing: write what it should return."
+    return ""
+
+
+def _definition(source: str, function: str) -> tuple[int, ast.FunctionDef | None]:
+    """Return the index of a function's first line, and the function."""
+    start, _, lines = function_lines(source, function)
+    try:
+        found = ast.parse("\n".join(lines)).body[0]
+    except (SyntaxError, IndexError, ValueError):
+        return start, None
+    return start, found if isinstance(found, ast.FunctionDef) else None
+
+
+def _is_gap(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Raise) and "NotImplementedError" in ast.dump(node)

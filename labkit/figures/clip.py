@@ -1,0 +1,155 @@
+"""Short clips, drawn without a display: the arm moving, another arm beside it.
+
+    frames = arm_clip(there_and_back(q0, q1, 40), ghost_of, caption_of)
+    save_clip(frames, Path("arm.gif"))
+
+GIF for what shows nothing else, WebP for a third of the size.
+"""
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+from PIL import Image, ImageDraw, ImageFont
+from tqdm import tqdm
+
+from labkit.figures import client
+from labkit.figures.portrait import LINKS, link_frames, with_fingers
+from labkit.figures.scene import Camera, Ghost, Scene
+from robo47 import se3
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+
+SIZE, SECONDS = (480, 420), 5.0  # of a clip
+LARGEST = 1_000_000  # bytes: what a page shows at once
+PIXELS = 0.75  # each try that is too large is followed by one this much smaller
+GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
+Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
+
+
+def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
+    """Return a soft move to a configuration and back, without a jump at its end.
+
+    Args:
+        q_from: (nq,).
+        q_to: (nq,).
+        count: of configurations.
+
+    Returns:
+        (count, nq).
+    """
+    start, end = np.asarray(q_from, dtype=float), np.asarray(q_to, dtype=float)
+    s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
+    return start + s[:, None] * (end - start)
+
+
+def arm_clip(
+    qs: ArrayLike,
+    ghost_of: Callable[[Array], Mapping[str, Array]] = lambda q: {},
+    caption_of: Callable[[Array], Caption] = lambda q: ("", None),
+    camera: Camera | None = None,
+) -> list[Image.Image]:
+    """Return one picture of the Panda per configuration.
+
+    Args:
+        qs: the arm's configurations, (n, 7).
+        ghost_of: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
+            link7 carries the hand along.
+        caption_of: what stands below.
+        camera: by default the portraits', a little further away.
+
+    Raises:
+        Robo47Error: nothing draws here; the line names what to install.
+    """
+    seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
+    pictures = []
+    for q in tqdm(
+        np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
+    ):
+        full = with_fingers(q)
+        true = link_frames(full)
+        ghosts = tuple(
+            Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
+            for link, T in ghost_of(q).items()
+            if link in LINKS
+        )
+        scene = Scene(full, SIZE, seen_from, ghosts, fast=True)
+        pictures.append(_captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
+    return pictures
+
+
+def save_clip(
+    frames: Sequence[Image.Image],
+    path: Path,
+    seconds: float = SECONDS,
+    largest: int = LARGEST,
+) -> int:
+    """Write a clip that repeats for ever, smaller and smaller until it fits.
+
+    Args:
+        frames: of one size.
+        path: ends in .gif or .webp.
+        seconds: that one round takes.
+        largest: bytes.
+
+    Returns:
+        Its size, bytes.
+
+    Raises:
+        Robo47Error: another ending.
+    """
+    kind = kind_of(path)
+    each = round(1000 * seconds / len(frames))
+    some = list(frames)
+    while True:
+        made = _encoded(some, kind, each)
+        if len(made) <= largest:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(made)
+            return len(made)
+        size = tuple(max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
+        some = [frame.resize(size, Image.Resampling.LANCZOS) for frame in some]  # type: ignore[arg-type]
+
+
+def kind_of(path: Path) -> str:
+    """Return "gif" or "webp".
+
+    Raises:
+        Robo47Error: another ending.
+    """
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in ("gif", "webp"):
+        raise Robo47Error(f"{path.name}: a clip ends in .gif or .webp")
+    return kind
+
+
+def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
+    """Return a clip's bytes, `each` milliseconds a frame."""
+    buffer = io.BytesIO()
+    if kind == "gif":  # one palette, no dither: what stands still costs nothing
+        sheet = frames[len(frames) // 2].quantize(96)
+        none = Image.Dither.NONE
+        frames = [frame.quantize(palette=sheet, dither=none) for frame in frames]
+    first, *rest = frames
+    first.save(
+        buffer, kind.upper(), save_all=True, append_images=rest, duration=each, loop=0,
+        **({"quality": 70} if kind == "webp" else {}),
+    )  # fmt: skip
+    return buffer.getvalue()
+
+
+def _captioned(picture: Image.Image, caption: Caption) -> Image.Image:
+    """Return a picture with words below it."""
+    words, good = caption
+    if not words:
+        return picture
+    font = ImageFont.load_default(15)
+    band = 26
+    sheet = Image.new("RGB", (picture.width, picture.height + band), "white")
+    sheet.paste(picture, (0, 0))
+    colour = INK if good is None else GOOD if good else BAD
+    middle = (picture.width / 2, picture.height + band / 2)
+    ImageDraw.Draw(sheet).text(middle, words, colour, font, anchor="mm")
+    return sheet

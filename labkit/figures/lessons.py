@@ -1,0 +1,37 @@
+"""The pictures of a day's lesson: what `w*/dayN/figures.py` offers in FIGURES."""
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def lesson_figures(number: int) -> dict[str, Callable[[], Any]]:
+    """Return what draws each picture of a day.
+
+    Args:
+        number: of the day.
+
+    Returns:
+        {"dayN_name": function that returns a PIL image, ...}; {} where the day has
+        no pictures of its own.
+
+    Raises:
+        Robo47Error: no such day, or its figures.py offers no FIGURES.
+    """
+    day = find_day(number)
+    if not folder.has(day, "figures"):
+        return {}
+    source = str(day.source.parent)
+    if source not in sys.path:  # pictures are drawn with the lab's own functions
+        sys.path.insert(0, source)
+    found = getattr(folder.load(day, "figures"), "FIGURES", None)
+    if not isinstance(found, dict):
+        raise Robo47Error(
+            f"{shown(day.own)}/figures.py has no FIGURES: {{name: function}}"
+        )
+    return {f"day{number}_{name}": draw for name, draw in found.items()}

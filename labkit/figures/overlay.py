@@ -1,0 +1,245 @@
+"""Frames drawn over a picture: a red, green and blue triad each, and their names.
+
+A triad is x red, y green, z blue. It is drawn where the camera sees its pose, in front
+of everything: a link's frame sits inside the link, where nobody would see it.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from labkit.figures.scene import Camera
+from robo47.checks import Array
+
+X, Y, Z = (224, 49, 49), (47, 158, 68), (28, 100, 242)  # the axes' colours
+INK, LEADER, HALO = (33, 37, 41), (134, 142, 150), (255, 255, 255)
+SMOOTH = 3  # lines are drawn this many times larger, then shrunk: no jagged edges
+AXIS, SECOND = 0.115, 0.7  # metres; a frame on top of another is drawn shorter
+
+Pixel = tuple[float, float]
+
+
+def draw_frames(
+    picture: Image.Image, camera: Camera, frames: Mapping[str, Array]
+) -> Image.Image:
+    """Return the picture with frames drawn over it, named at its sides.
+
+    Args:
+        picture: of a scene seen by the camera.
+        camera: the same camera.
+        frames: {name: T_world_frame (4, 4)}.
+    """
+    layer = Layer(picture.size)
+    if not frames:
+        return picture
+    seen = {
+        name: camera.project(axis_ends(T, length), picture.size)
+        for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True)
+    }
+    for ends in seen.values():
+        layer.triad(ends)
+    widths = {name: layer.width(name) for name in seen}
+    places = place_labels(seen, widths, layer.text_height, picture.size)
+    for name, at in places.items():  # over the triads: a leader ends at its origin
+        layer.label(name, at, (float(seen[name][0, 0]), float(seen[name][0, 1])))
+    first, *_, last = [*seen.values()] * 2
+    for ends in (first, last):
+        layer.letters(ends)
+    layer.legend()
+    return layer.over(picture)
+
+
+def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
+    """Return how long to draw each frame's axes: shorter where another sits already.
+
+    Args:
+        frames: {name: T_world_frame (4, 4)}.
+    """
+    origins = np.array([T[:3, 3] for T in frames.values()])
+    return [
+        AXIS * SECOND ** int((np.linalg.norm(origins[:i] - p, axis=1) < 1e-3).sum())
+        for i, p in enumerate(origins)
+    ]
+
+
+def axis_ends(T_world_frame: Array, length: float = AXIS) -> Array:
+    """Return a frame's origin and the tips of its axes in the world, (4, 3).
+
+    Args:
+        T_world_frame: (4, 4).
+        length: of an axis, metres.
+    """
+    origin, R = T_world_frame[:3, 3], T_world_frame[:3, :3]
+    return np.vstack([origin, origin + length * R.T])
+
+
+def place_labels(
+    seen: Mapping[str, Array],
+    widths: Mapping[str, float],
+    height: float,
+    size: tuple[int, int],
+) -> dict[str, Pixel]:
+    """Return where each name goes: at the nearer side, level with its frame.
+
+    Names that would overlap move apart, in the order of their frames.
+
+    Args:
+        seen: {name: pixels of the origin and the tips, (4, 3)}.
+        widths: {name: of the written name, pixels}.
+        height: of a line of text, pixels.
+        size: of the picture.
+
+    Returns:
+        {name: the end of its leader (x, y)}.
+    """
+    x = {name: float(ends[0, 0]) for name, ends in seen.items()}
+    low, high, margin = min(x.values()), max(x.values()), 0.14 * size[0]
+    left = [name for name in seen if x[name] < (low + high) / 2]
+    right = [name for name in seen if name not in left]
+    places = {}
+    for names in (left, right):
+        names.sort(key=lambda name: seen[name][0, 1])
+        wanted = np.array([seen[name][0, 1] for name in names])
+        for name, y in zip(names, spread(wanted, 1.5 * height), strict=True):
+            room = widths[name] + height  # the name, and its distance to both sides
+            if names is left:
+                places[name] = (max(low - margin, room), float(y))
+            else:
+                places[name] = (min(high + margin, size[0] - room), float(y))
+    return places
+
+
+def spread(wanted: Array, gap: float) -> Array:
+    """Return increasing numbers at least `gap` apart, near the wanted ones.
+
+    Args:
+        wanted: increasing, (n,).
+        gap: the least difference of neighbours.
+    """
+    # Without their gaps the numbers only have to increase: average where they do not.
+    slack = wanted - gap * np.arange(len(wanted))
+    blocks: list[list[float]] = []
+    for value in slack:
+        blocks.append([value])
+        while len(blocks) > 1 and np.mean(blocks[-2]) > np.mean(blocks[-1]):
+            blocks[-2:] = [blocks[-2] + blocks[-1]]
+    level = np.concatenate([np.full(len(block), np.mean(block)) for block in blocks])
+    return level + gap * np.arange(len(wanted))
+
+
+class Layer:
+    """A transparent sheet to draw on, enlarged so that its edges become smooth."""
+
+    def __init__(self, size: tuple[int, int]) -> None:
+        """Take a clean sheet.
+
+        Args:
+            size: of the picture that it will lie on.
+        """
+        self.size = size
+        self.text_height = size[1] / 27
+        self.sheet = Image.new("RGBA", (size[0] * SMOOTH, size[1] * SMOOTH))
+        self.pen = ImageDraw.Draw(self.sheet)
+        self.font = ImageFont.load_default(self.text_height * SMOOTH)
+        self.unit = SMOOTH * size[1] / 800  # one pixel of a picture 800 high
+
+    def line(self, ends: list[Pixel], colour: tuple[int, ...], width: float) -> None:
+        """Draw a line with round ends.
+
+        Args:
+            ends: pixels of the picture.
+            colour: red, green, blue.
+            width: in pixels of a picture 800 high.
+        """
+        points = [(x * SMOOTH, y * SMOOTH) for x, y in ends]
+        self.pen.line(points, colour, round(width * self.unit))
+        for point in points:
+            self.dot(point, colour, width / 2)
+
+    def dot(self, at: Pixel, colour: tuple[int, ...], radius: float) -> None:
+        """Draw a disc at a pixel of the sheet."""
+        r = radius * self.unit
+        self.pen.ellipse((at[0] - r, at[1] - r, at[0] + r, at[1] + r), colour)
+
+    def triad(self, ends: Array) -> None:
+        """Draw a frame's axes, the nearest last.
+
+        Args:
+            ends: pixels of the origin and the three tips, and their depth, (4, 3).
+        """
+        origin, *tips = ((float(x), float(y)) for x, y, _ in ends)
+        axes = sorted(zip(ends[1:, 2], tips, (X, Y, Z), strict=True), reverse=True)
+        for _, tip, colour in axes:
+            self.arrow(origin, tip, HALO, 4)
+            self.arrow(origin, tip, colour, 0)
+        self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
+
+    def letters(self, ends: Array) -> None:
+        """Write x, y and z at a frame's tips: red and green are one hue to many eyes.
+
+        Args:
+            ends: pixels of the origin and the three tips, and their depth, (4, 3).
+        """
+        for name, tip in zip("xyz", ends[1:, :2], strict=True):
+            away = tip - ends[0, :2]
+            away = away / max(float(np.linalg.norm(away)), 1e-9)
+            x, y = (tip + 0.6 * self.text_height * away) * SMOOTH
+            self.text((float(x), float(y)), name, "mm")
+
+    def arrow(
+        self, start: Pixel, tip: Pixel, colour: tuple[int, ...], more: float
+    ) -> None:
+        """Draw an arrow; `more` widens it, for a halo."""
+        a, b = np.array(start), np.array(tip)
+        length = float(np.linalg.norm(b - a))
+        along = (b - a) / max(length, 1e-9)
+        across = np.array([-along[1], along[0]])
+        unit = self.unit / SMOOTH
+        head = min(15 * unit, length)
+        neck = b - head * along
+        self.line([start, (neck[0], neck[1])], colour, 5 + more)
+        half = 0.45 * head + more / 2 * unit
+        back, front = neck - more / 2 * unit * along, b + more / 2 * unit * along
+        corners = [front, back + half * across, back - half * across]
+        self.pen.polygon([(x * SMOOTH, y * SMOOTH) for x, y in corners], colour)
+
+    def label(self, name: str, at: Pixel, origin: Pixel) -> None:
+        """Draw a name beside the end of its leader line.
+
+        Args:
+            name: of the frame.
+            at: pixel of the leader's end.
+            origin: pixel of the frame's origin.
+        """
+        left = at[0] < origin[0]
+        self.line([at, origin], HALO, 4)
+        self.line([at, origin], LEADER, 1.5)
+        self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
+        gap = 8 * self.unit * (-1 if left else 1)
+        self.text((at[0] * SMOOTH + gap, at[1] * SMOOTH), name, "rm" if left else "lm")
+
+    def width(self, words: str) -> float:
+        """Return how wide words are, in pixels of the picture."""
+        return self.font.getlength(words) / SMOOTH
+
+    def text(self, at: Pixel, words: str, anchor: str) -> None:
+        """Write at a pixel of the sheet, on a white halo."""
+        self.pen.text(
+            at, words, INK, self.font, anchor,
+            stroke_width=round(3 * self.unit), stroke_fill=HALO,
+        )  # fmt: skip
+
+    def legend(self) -> None:
+        """Say which colour is which axis, in the lower left corner."""
+        x, y = 0.03 * self.size[0], self.size[1] - 1.3 * self.text_height
+        for name, colour in zip("xyz", (X, Y, Z), strict=True):
+            self.line([(x, y), (x + self.text_height, y)], colour, 5)
+            x += 1.4 * self.text_height
+            self.text((x * SMOOTH, y * SMOOTH), name, "lm")
+            x += 1.2 * self.text_height
+
+    def over(self, picture: Image.Image) -> Image.Image:
+        """Return the picture under this sheet."""
+        sheet = self.sheet.resize(self.size, Image.Resampling.LANCZOS)
+        return Image.alpha_composite(picture.convert("RGBA"), sheet).convert("RGB")

@@ -1,0 +1,88 @@
+"""Pictures of the Panda: MuJoCo draws the robot, we draw the frames."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+from PIL import Image
+
+from labkit.figures import client, overlay
+from labkit.figures.scene import Camera, Scene
+from robo47 import checks, kinematics, panda
+from robo47.checks import Array
+
+LINKS = [f"link{i}" for i in range(8)]
+REACH = 0.12  # metres: how far the arm's shapes go beyond their frames' origins
+OPEN = (0.04, 0.04)  # the fingers of a configuration that is the arm's alone, metres
+
+
+def portrait(
+    qpos: ArrayLike,
+    size: tuple[int, int],
+    frames: bool,
+    fast: bool,
+    camera: Camera | None,
+) -> Image.Image:
+    """Return a picture of the Panda; see `labkit.figures.render_panda`."""
+    q = with_fingers(qpos)
+    poses = link_frames(q)
+    if camera is None:
+        camera = Camera().stepped_back(corners(poses), size)
+    return draw(Scene(q, size, camera, fast=fast), poses if frames else {})
+
+
+def draw(scene: Scene, frames: Mapping[str, Array]) -> Image.Image:
+    """Return the picture of a scene with frames over it.
+
+    Args:
+        scene: what MuJoCo draws.
+        frames: {name: T_world_frame (4, 4)}, what we draw.
+
+    Raises:
+        Robo47Error: nothing draws here; the line names what to install.
+    """
+    picture = Image.fromarray(client.draw(scene))
+    return overlay.draw_frames(picture, scene.camera, frames) if frames else picture
+
+
+def with_fingers(qpos: ArrayLike) -> Array:
+    """Return a configuration of the Panda with its hand, (9,).
+
+    Args:
+        qpos: the arm's joints (7,), or those and the fingers' (9,).
+
+    Raises:
+        ValueError: another size, or not finite.
+    """
+    q = np.asarray(qpos, dtype=np.float64)
+    if q.shape == (len(panda.READY_Q),):
+        q = np.concatenate([q, OPEN])
+    return checks.array(q, "qpos", (len(panda.READY_Q) + len(OPEN),))
+
+
+def link_frames(qpos: Array) -> dict[str, Array]:
+    """Return the pose of every link's frame and of the end effector's.
+
+    They come from `robo47.kinematics`. `ee` is the frame whose matrix the lessons
+    print, `attachment_site`: the hand's origin, turned by 180 degrees about z.
+
+    Args:
+        qpos: (9,).
+
+    Returns:
+        {"link0": T_world_link0, ..., "ee": T_world_ee}.
+    """
+    poses = kinematics.fk_all(panda.load("panda_nohand"), qpos[: len(panda.READY_Q)])
+    found = {name: poses[f"body:{name}"] for name in LINKS}
+    return {**found, "ee": poses[panda.END_FRAME["panda_nohand"]]}
+
+
+def corners(poses: Mapping[str, Array]) -> Array:
+    """Return points that the whole arm lies between, (n, 3), metres.
+
+    Args:
+        poses: {name: T_world_frame (4, 4)}.
+    """
+    origins = np.array([T[:3, 3] for T in poses.values()])
+    sides = REACH * np.vstack([np.eye(3), -np.eye(3)])
+    return (origins[:, None] + sides).reshape(-1, 3)

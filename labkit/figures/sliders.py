@@ -1,0 +1,114 @@
+"""Joint sliders for a notebook: move a joint, see the arm and both matrices."""
+
+import io
+from collections.abc import Callable
+
+import ipywidgets
+import mujoco
+import numpy as np
+
+from labkit.figures import portrait
+from labkit.figures.scene import Camera, Scene
+from robo47 import kinematics, panda, se3
+from robo47.checks import Array
+
+AGREES = 1e-8
+SIZE = (720, 540)  # pixels of the preview
+CAMERA = Camera((0.1, 0.0, 0.5), 3.2)  # has the whole reach of the arm in view
+FRAME = panda.END_FRAME["panda_nohand"]
+
+ForwardKinematics = Callable[[mujoco.MjModel, Array], Array]
+
+
+def joint_sliders(by_hand: ForwardKinematics | None = None) -> ipywidgets.HBox:
+    """Return seven sliders, a picture that follows them, and T_world_ee twice.
+
+    Args:
+        by_hand: takes the model and q (7,), radians, and returns T_world_ee (4, 4);
+            its answer is shown and drawn as `ee`. By default the library's.
+
+    Raises:
+        Robo47Error: nothing draws here; the line names what to install.
+    """
+    model = panda.load("panda_nohand")
+    joints = [model.joint(i) for i in range(model.njnt)]
+    sliders = [
+        ipywidgets.FloatSlider(
+            value, min=joint.range[0], max=joint.range[1], step=0.01,
+            description=f"{joint.name}, rad", readout_format=".2f",
+        )
+        for joint, value in zip(joints, panda.READY_Q, strict=True)
+    ]  # fmt: skip
+    picture, numbers = ipywidgets.Image(format="jpeg"), ipywidgets.HTML()
+
+    def follow(_change: object = None) -> None:
+        q = np.array([slider.value for slider in sliders])
+        T_world_ee = (by_hand or library_fk)(model, q)
+        who = by_hand.__name__ if by_hand else "robo47.kinematics"
+        picture.value = draw(q, T_world_ee)
+        numbers.value = compare(T_world_ee, who, mujoco_fk(model, q))
+
+    for slider in sliders:
+        slider.observe(follow, "value")
+    follow()
+    return ipywidgets.HBox([ipywidgets.VBox([*sliders, numbers]), picture])
+
+
+def draw(q: Array, T_world_ee: Array) -> bytes:
+    """Return a picture of the arm as a JPEG, with `ee` where the matrix says.
+
+    Args:
+        q: the arm's configuration, (7,), radians.
+        T_world_ee: (4, 4).
+    """
+    scene = Scene(portrait.with_fingers(q), SIZE, CAMERA, fast=True)
+    frames = {**portrait.link_frames(scene.qpos), "ee": np.asarray(T_world_ee)}
+    file = io.BytesIO()
+    portrait.draw(scene, frames).save(file, "JPEG", quality=90)
+    return file.getvalue()
+
+
+def library_fk(model: mujoco.MjModel, q: Array) -> Array:
+    """Return T_world_ee from `robo47.kinematics`, (4, 4).
+
+    Args:
+        model: "panda_nohand".
+        q: the arm's configuration, (7,), radians.
+    """
+    return kinematics.fk(kinematics.chain_to(model, FRAME), q)
+
+
+def mujoco_fk(model: mujoco.MjModel, q: Array) -> Array:
+    """Return T_world_ee from MuJoCo, (4, 4).
+
+    Args:
+        model: "panda_nohand".
+        q: the arm's configuration, (7,), radians.
+    """
+    data = mujoco.MjData(model)
+    data.qpos[:] = q
+    mujoco.mj_kinematics(model, data)  # fills site_xpos and site_xmat
+    site = data.site(FRAME.removeprefix("site:"))
+    return se3.make_T(site.xmat.reshape(3, 3), site.xpos)
+
+
+def compare(T_world_ee: Array, who: str, T_mujoco: Array) -> str:
+    """Return both matrices, and how far apart they are, as HTML.
+
+    Args:
+        T_world_ee: to be compared, (4, 4).
+        who: the name of what computed it.
+        T_mujoco: MuJoCo's, (4, 4).
+    """
+    off = float(np.abs(T_world_ee - T_mujoco).max())
+    colour = "green" if off < AGREES else "crimson"
+    return (
+        f"<pre>T_world_ee, {who}\n{as_rows(T_world_ee)}\n"
+        f"T_world_ee, MuJoCo (last column in metres)\n{as_rows(T_mujoco)}\n"
+        f"<b style='color:{colour}'>largest |{who} - MuJoCo|: {off:.1e}</b></pre>"
+    )
+
+
+def as_rows(T: Array) -> str:
+    """Return a matrix in four lines, without "-0.0000"."""
+    return "\n".join(" ".join(f"{x:8.4f}" for x in row) for row in np.round(T, 4) + 0.0)

@@ -1,0 +1,206 @@
+"""The process that draws: reads scenes from stdin, writes pictures to stdout.
+
+    python -m labkit.figures.studio     started by labkit.figures.client, not by hand
+
+A process of its own, since MuJoCo takes its OpenGL backend once and for all when it is
+imported, and since a broken driver ends the process that called it.
+"""
+
+import os
+import pickle
+import sys
+from functools import lru_cache
+
+import mujoco
+import numpy as np
+
+from labkit.figures.scene import FOVY, Box, Camera, Ghost, Scene
+from robo47 import panda
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+
+WHITE, FLOOR, GRID = (1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89)
+GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
+WRONG_COLOUR = np.array([0.85, 0.16, 0.16, 0.5], dtype=np.float32)
+VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collision)
+
+
+def light_up(spec: mujoco.MjSpec) -> None:
+    """Put a robot into a light room: a white sky, a pale floor, soft shadows.
+
+    Args:
+        spec: the robot alone, edited in place.
+    """
+    _add_sky_and_floor(spec)
+    for light in spec.lights:  # the Panda brings one that would glare
+        light.active = False
+    spec.worldbody.add_light(
+        pos=[1.7, -1.6, 4.0], dir=[-1.4, 1.6, -3.6], cutoff=60, exponent=0,
+        diffuse=[0.42] * 3, specular=[0.1] * 3,
+    )  # fmt: skip
+    look = spec.visual
+    look.headlight.ambient, look.headlight.diffuse = [0.42] * 3, [0.25] * 3
+    look.headlight.specular = [0.0] * 3
+    # Above 1 the haze would reach the robot and cover its ghosts.
+    look.rgba.haze, look.map.haze = [*WHITE, 1.0], 0.92
+    look.map.shadowscale = 0.3  # spend the shadow map on the robot, not the room
+
+
+def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
+    texture, flat = mujoco.mjtTexture, mujoco.mjtBuiltin.mjBUILTIN_FLAT
+    spec.add_texture(
+        name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=flat,
+        rgb1=WHITE, rgb2=WHITE, width=8, height=48,
+    )  # fmt: skip
+    spec.add_texture(
+        name="floor", type=texture.mjTEXTURE_2D, builtin=flat, width=512, height=512,
+        mark=mujoco.mjtMark.mjMARK_EDGE, rgb1=FLOOR, rgb2=FLOOR, markrgb=GRID,
+    )  # fmt: skip
+    material = spec.add_material(
+        name="floor", texuniform=True, texrepeat=[4, 4], emission=0.36
+    )
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    spec.worldbody.add_geom(
+        name="floor", type=plane, size=[0, 0, 0.05], material="floor"
+    )
+
+
+@lru_cache(maxsize=2)
+def renderer_for(size: tuple[int, int], fast: bool) -> mujoco.Renderer:
+    """Return a renderer, kept for the next picture of the same kind.
+
+    Args:
+        size: width and height, pixels.
+        fast: without multisampling.
+    """
+    model = panda.load("panda", meshes=True, edit=light_up)
+    model.vis.global_.offwidth, model.vis.global_.offheight = size
+    model.vis.global_.fovy = np.degrees(FOVY)
+    model.vis.quality.offsamples = 0 if fast else 8
+    model.vis.quality.shadowsize = 4096
+    return mujoco.Renderer(model, size[1], size[0])
+
+
+def draw(scene: Scene) -> Array:
+    """Return the picture of a scene, (height, width, 3), bytes.
+
+    Args:
+        scene: what to draw.
+    """
+    renderer = renderer_for(scene.size, scene.fast)
+    model = renderer.model
+    data = mujoco.MjData(model)
+    data.qpos[:] = scene.qpos
+    mujoco.mj_forward(model, data)  # lights and cameras too; before it all is black
+    option = mujoco.MjvOption()
+    option.geomgroup[:] = [group in VISIBLE for group in range(6)]
+    renderer.update_scene(data, free_camera(scene.camera), option)
+    for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION):
+        renderer.scene.flags[flag] = not scene.fast
+    renderer.scene.flags[mujoco.mjtRndFlag.mjRND_HAZE] = True
+    for ghost in scene.ghosts:
+        add_ghost(renderer.scene, model, ghost)
+    for box in scene.boxes:
+        add_box(renderer.scene, box)
+    return renderer.render()
+
+
+def free_camera(camera: Camera) -> mujoco.MjvCamera:
+    """Return MuJoCo's camera for ours.
+
+    Args:
+        camera: ours, in radians.
+    """
+    theirs = mujoco.MjvCamera()
+    mujoco.mjv_defaultCamera(theirs)
+    theirs.lookat[:] = camera.lookat
+    theirs.distance = camera.distance
+    theirs.azimuth, theirs.elevation = np.degrees([camera.azimuth, camera.elevation])
+    return theirs
+
+
+def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> None:
+    """Add translucent copies of the shapes that a body carries.
+
+    Args:
+        scene: already filled with the robot.
+        model: the robot.
+        ghost: which body, and where to.
+    """
+    R, t = ghost.T_world_moved[:3, :3], ghost.T_world_moved[:3, 3]
+    carrier = model.body(ghost.body).id
+    for original in list(scene.geoms[: scene.ngeom]):
+        body = model.geom_bodyid[original.objid]
+        if body != carrier and (ghost.alone or not carries(model, carrier, body)):
+            continue
+        copy = scene.geoms[scene.ngeom]
+        mujoco.mjv_initGeom(
+            copy, original.type, original.size, R @ original.pos + t,
+            (R @ original.mat).ravel(), WRONG_COLOUR if ghost.wrong else GHOST_COLOUR,
+        )  # fmt: skip
+        # What mjv_initGeom leaves as it was in memory, and drawing depends on.
+        copy.objtype, copy.objid, copy.segid = original.objtype, original.objid, -1
+        copy.category, copy.transparent = mujoco.mjtCatBit.mjCAT_DECOR, 1
+        copy.dataid, copy.camdist = original.dataid, original.camdist
+        scene.ngeom += 1
+
+
+def add_box(scene: mujoco.MjvScene, box: Box) -> None:
+    """Add a box to what is drawn.
+
+    Args:
+        scene: already filled with the robot.
+        box: where, how large, in which colour.
+    """
+    shape, R, t = (
+        scene.geoms[scene.ngeom],
+        box.T_world_box[:3, :3],
+        box.T_world_box[:3, 3],
+    )
+    mujoco.mjv_initGeom(
+        shape, mujoco.mjtGeom.mjGEOM_BOX, np.array(box.half), t, R.ravel(),
+        np.array(box.colour, dtype=np.float32),
+    )  # fmt: skip
+    # What mjv_initGeom leaves as it was in memory, and drawing depends on.
+    shape.objtype, shape.objid, shape.segid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1, -1
+    shape.category, shape.transparent, shape.dataid = (
+        mujoco.mjtCatBit.mjCAT_DECOR,
+        0,
+        -1,
+    )
+    scene.ngeom += 1
+
+
+def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:
+    """Return whether a body is the carrier or hangs from it.
+
+    Args:
+        model: the robot.
+        carrier: id of a body.
+        body: id of a body.
+    """
+    while body not in (0, carrier):
+        body = model.body_parentid[body]
+    return body == carrier
+
+
+def serve() -> None:
+    """Answer each pickled Scene with its picture or an error, until stdin ends."""
+    replies = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # drivers print to stdout; they shall not garble the pictures
+    while True:
+        try:
+            scene = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        try:
+            reply: Array | Robo47Error = draw(scene)
+        except Robo47Error as error:
+            reply = error
+        pickle.dump(reply, replies)
+        replies.flush()
+
+
+if __name__ == "__main__":
+    serve()

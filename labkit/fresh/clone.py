@@ -1,0 +1,135 @@
+"""A clone of the last commit, set up from nothing, as somebody else would have it."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from labkit.base import git
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, menagerie_root
+
+GIT_SECONDS = 120.0
+# What would lead the clone's Python back to this folder.
+_OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
+
+
+@dataclass(frozen=True)
+class Clone:
+    """A clone that can run labs.
+
+    Attributes:
+        root: its folder.
+        python: runs its labs.
+        environment: with these variables.
+    """
+
+    root: Path
+    python: str
+    environment: Mapping[str, str]
+
+
+def head_of(root: Path = ROOT) -> str:
+    """Return the hash of the last commit.
+
+    Raises:
+        Robo47Error: there is none, or no git.
+    """
+    return _git("rev-parse", "--verify", "HEAD", folder=root).strip()
+
+
+def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
+    """Clone a commit: nothing comes along that is not in it.
+
+    Args:
+        sha: of the commit.
+        into: a folder that is not there yet.
+        root: the clone to clone.
+
+    Raises:
+        Robo47Error: git cannot; says why in git's words.
+    """
+    _git("clone", "--quiet", "--no-checkout", str(root), str(into), folder=into.parent)
+    _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
+
+
+def set_up(root: Path, *, anew: bool = True) -> Clone:
+    """Make a clone ready to run; the robot that is on this machine serves it too.
+
+    Args:
+        root: of the clone.
+        anew: make it an environment of its own; else this Python's packages serve.
+
+    Raises:
+        Robo47Error: it cannot be set up; says what the set-up said.
+    """
+    environment = {k: v for k, v in os.environ.items() if k not in _OURS}
+    robot = menagerie_root()
+    if robot.is_dir():
+        environment["MENAGERIE_ROOT"] = str(robot.absolute())
+    if not anew:
+        environment["PYTHONPATH"] = str(root)
+        return Clone(root, sys.executable, environment)
+    done = _script(root, environment, sys.executable, "scripts/setup_env.py")
+    if done.returncode != 0:
+        says = " ".join((done.stdout + done.stderr).split())[-400:]
+        raise Robo47Error(f"the clone could not be set up: {says}")
+    own = ("Scripts", "python.exe") if os.name == "nt" else ("bin", "python")
+    python = str(root.joinpath(".venv", *own))
+    if not robot.is_dir():  # without a network the embedded twin serves
+        _script(root, environment, python, "scripts/fetch_menagerie.py", "--daily")
+    return Clone(root, python, environment)
+
+
+def uncommitted(root: Path = ROOT) -> dict[str, str]:
+    """Return what the last commit lacks, by path: "not committed" or "changed since".
+
+    Args:
+        root: the clone.
+    """
+    listed = _git("status", "--porcelain", "--no-renames", "-z", "-uall", folder=root)
+    found = {}
+    for entry in filter(None, listed.split("\0")):
+        code, path = entry[:2], entry[3:]
+        new = code == "??" or "A" in code
+        found[path] = "not committed" if new else "changed since the commit"
+    return found
+
+
+def ignored_by(path: str, root: Path = ROOT) -> str:
+    """Return the line that makes git ignore a file, ".gitignore, line 3", or ""."""
+    try:
+        found = _git("check-ignore", "-v", "--", path, folder=root)
+    except Robo47Error:  # git says no with its exit code
+        return ""
+    source, line, *_ = found.split(":")
+    return f"{source}, line {line}"
+
+
+def _script(
+    root: Path, environment: Mapping[str, str], python: str, *words: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [python, *words],
+        cwd=root,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+
+
+def _git(*arguments: str, folder: Path) -> str:
+    try:
+        done = git.run(*arguments, folder=folder, seconds=GIT_SECONDS)
+    except git.GitError as error:
+        raise Robo47Error(f"{error}.") from None
+    if done.returncode != 0:
+        says = " ".join(done.stderr.split())[-300:] or "no"
+        raise Robo47Error(f"git {arguments[0]}: {says}")
+    return done.stdout

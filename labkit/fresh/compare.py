@@ -1,0 +1,66 @@
+"""A clone's numbers beside the committed ones.
+
+A number at the level of rounding differs between two processors, and should: it must
+be within its limit again. A physical one must be the same within a factor of two.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from labkit.handin.handin import read_handin
+from labkit.handin.rows import own_rows
+from labkit.lesson.day import Metric
+from labkit.lesson.lab import number_of
+from labkit.log.rows import Row
+from labkit.report.week_labs import Ran, name_of
+from robo47.errors import Robo47Error
+
+ROUNDING = 1e-9
+FACTOR = 2.0
+
+
+def faults(ran: Ran, clone: Path) -> list[str]:
+    """Return what is not as it was committed, a line each.
+
+    Args:
+        ran: what became of a day's lab in the clone.
+        clone: its folder.
+    """
+    day = ran.day
+    if ran.why:
+        return [f"day {day.number}, the lab does not pass: {ran.why}"]
+    try:
+        rows = own_rows(day, read_handin(day, clone)) if ran.mine else {}
+    except Robo47Error as error:
+        return [f"day {day.number}: {error}"]
+    found = []
+    for metric in day.metrics:
+        why = _fault(metric, ran, rows)
+        found += [f"day {day.number}, {name_of(day, metric)}: {why}"] if why else []
+    return found
+
+
+def _fault(metric: Metric, ran: Ran, rows: Mapping[tuple[str, str], Row]) -> str:
+    value = ran.value(metric)
+    if value is None:
+        return "the lab recorded no such number"
+    if not ran.passes(metric):
+        return f"{number_of(value)} in the clone; it must be {metric.limit}"
+    if not ran.mine:
+        return ""  # the kit's own: nobody committed a row
+    row = rows.get((metric.check, metric.metric))
+    before = row["value"] if row else None
+    if not isinstance(before, int | float):
+        return "no committed row of this file; make run, then commit the log"
+    return "" if same(float(before), value) else _differs(float(before), value)
+
+
+def same(before: float, now: float) -> bool:
+    """Return whether a number within its limit is the committed one."""
+    if abs(before) < ROUNDING:
+        return True
+    return 1 / FACTOR <= now / before <= FACTOR
+
+
+def _differs(before: float, now: float) -> str:
+    return f"{number_of(now)} in the clone, {number_of(before)} in the committed log"

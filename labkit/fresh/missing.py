@@ -1,0 +1,127 @@
+"""What a clone of the last commit lacks, or what would not work in it."""
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from labkit.base.words import count
+from labkit.fresh.clone import ignored_by, uncommitted
+from labkit.handin.handin import day_files
+from labkit.lesson.day import Day
+from labkit.report.week_retro import no_numbers
+from robo47.paths import ROOT
+
+# Two parts at least: "/" alone, or "/s" in a unit, is no path.
+_ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
+_LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
+# A line of a template that nobody has replaced.
+_BLANK = re.compile(
+    r"^\s*(?:\d+\.\s+)?\*\(your (?:words|drawing|answer)\)\*\s*$", re.MULTILINE
+)
+
+
+def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
+    """Return what the last commit lacks, a line each.
+
+    Args:
+        days: of the clone, whose files are looked at.
+        clone: its folder.
+        root: what it is a clone of.
+    """
+    weeks = sorted({day.folder.name for day in days})
+    lacks = dict(_unfinished(days, clone)) | _only_here(days, weeks, clone, root)
+    found = [f"{name}: {why}" for name, why in sorted(lacks.items())]
+    return found + [line for week in weeks for line in _absolute(clone / week, clone)]
+
+
+def _only_here(
+    days: Sequence[Day], weeks: Sequence[str], clone: Path, root: Path
+) -> dict[str, str]:
+    """Return what is in the student's folder and not in the commit, with the reason."""
+    lacks = uncommitted(root)
+    for name in sorted({n for day in days for n in day_files(day).values()}):
+        here, there = (root / name).is_file(), (clone / name).is_file()
+        if here and not there and name not in lacks:
+            rule = ignored_by(name, root)
+            lacks[name] = f"ignored by git ({rule})" if rule else "not in the commit"
+    for script, module in (
+        m for week in weeks for m in _imports(clone / week / "work")
+    ):
+        for name in (f"{module}.py", f"{module}/__init__.py"):
+            path = script.parent.relative_to(clone) / name
+            if (root / path).is_file() and not (clone / path).is_file():
+                lacks[path.as_posix()] = f"{script.name} imports it; not in the commit"
+    return lacks
+
+
+def _unfinished(days: Sequence[Day], clone: Path) -> Iterator[tuple[str, str]]:
+    """Yield what the days that were begun hand in, and is not there or has blanks.
+
+    Whether what is written there is good, `make check` says.
+    """
+    for day in days:
+        files = day_files(day)
+        if not (clone / files["script"]).is_file():
+            continue
+        for what, name in files.items():
+            if not (clone / name).is_file():
+                yield name, f"not there; day {day.number} hands it in"
+            elif what == "worksheet":
+                yield from _blanks(clone / name, clone)
+        if day == days[-1]:  # which ends the week
+            for diary in sorted((clone / day.folder.name / "docs").glob("RETRO_*.md")):
+                yield from _blanks(diary, clone)
+
+
+def _blanks(sheet: Path, clone: Path) -> Iterator[tuple[str, str]]:
+    """Yield what nobody has filled in yet."""
+    text = sheet.read_text("utf-8", errors="replace")
+    name, blank = sheet.relative_to(clone).as_posix(), len(_BLANK.findall(text))
+    if no_numbers(text):
+        yield name, "its numbers are not filled in yet; make report"
+    elif blank:
+        yield name, f"{count(blank, 'place')} still to fill in"
+
+
+def _imports(work: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the modules that the student's files import, by file."""
+    for script, tree in _trees(work):
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                names = [node.module or ""]
+            else:
+                continue
+            yield from ((script, name.partition(".")[0]) for name in names if name)
+
+
+def _absolute(week: Path, clone: Path) -> Iterator[str]:
+    """Yield the lines that name a place which other machines do not have."""
+    for script, tree in _trees(week / "work"):
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+                continue
+            text = node.value
+            if _ABSOLUTE.match(text) and "\n" not in text:
+                yield _line(script, clone, node.lineno, text)
+    for sheet in sorted((week / "docs").glob("*.md")):
+        text = sheet.read_text("utf-8", errors="replace")
+        for number, line in enumerate(text.splitlines(), 1):
+            for link in _LINKED.finditer(line):
+                if _ABSOLUTE.match(target := link[1] or link[2]):
+                    yield _line(sheet, clone, number, target)
+
+
+def _line(path: Path, clone: Path, number: int, text: str) -> str:
+    name = path.relative_to(clone).as_posix()
+    return f"{name}, line {number}: {text[:60]!r} is a path of this machine alone"
+
+
+def _trees(work: Path) -> Iterator[tuple[Path, ast.AST]]:
+    for script in sorted(work.glob("*.py")):
+        try:
+            yield script, ast.parse(script.read_bytes())
+        except (SyntaxError, ValueError):  # its lab says so itself
+            continue

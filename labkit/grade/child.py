@@ -1,0 +1,146 @@
+"""The grader's process: packages come in on standard input, results go out as JSON.
+
+Run as `python -m labkit.grade.child FOLDER`, where FOLDER is its own and goes with
+it. A process of its own, so that a file that crashes the checker or keeps it busy for
+ever costs one student's grade and not the whole class's.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import pickle
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from labkit.base.text import visible
+from labkit.check import report
+from labkit.check.tasks import TaskResult, check_tasks
+from labkit.grade.package import Package, unpack
+from labkit.grade.result import Mark, Result, counted, ungraded
+from labkit.handin import check_files
+from labkit.handin.handin import day_files
+from labkit.handin.item import Item
+from labkit.judge import Verdict
+from labkit.lesson.day import Day, find_day
+from labkit.sandbox.sandbox import Sandbox
+from robo47.errors import FaultError
+
+MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
+LINES, LINE = 200, 400  # of a text, and characters of one
+# What is another at every run would make two grades of the same code differ.
+_ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
+_FOLDERS = re.compile(r"robo47-(?:check|grader?)-\w{1,40}[/\\]?")
+
+
+def main() -> None:
+    """Grade until standard input ends."""
+    folder = sys.argv[1]
+    out = os.fdopen(os.dup(1), "wb")
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)  # libraries may print
+    _limit_memory()
+    while True:
+        try:
+            package = pickle.load(sys.stdin.buffer)  # from our own parent
+        except EOFError:
+            break
+        day = find_day(package.day)
+        try:
+            answer = grade(package, day).to_json()
+        except (FaultError, OSError, MemoryError) as error:  # not the student's
+            name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
+            answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
+        except Exception as error:  # a hole in the checker costs one grade
+            why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
+            answer = ungraded(day, why).to_json()
+        out.write(json.dumps(answer).encode("ascii") + b"\n")
+        out.flush()
+    shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone
+
+
+def grade(package: Package, day: Day) -> Result:
+    """Return a package's result.
+
+    Args:
+        package: one submission.
+        day: from this kit's manifest.
+
+    Raises:
+        FaultError, OSError, MemoryError: the machine failed.
+    """
+    if package.problem:
+        return ungraded(day, package.problem)
+    with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
+        tasks, error = _tasks(package, day, Path(folder).resolve())
+    done = all(task.passed for task in tasks if task.task.id in counted(day))
+    items = check_files(day, package.handin, tasks_pass=done)
+    return _result(day, tasks, [*items, package.commit_item], error)
+
+
+def _tasks(package: Package, day: Day, folder: Path) -> tuple[list[TaskResult], str]:
+    """Return the tasks' results, and why there is nothing to run or ""."""
+    name, handin = day_files(day)["script"], package.handin
+    if name not in handin.files:
+        if name in handin.unread:
+            says = f"{name} {handin.unread[name]}."
+            verdict = Verdict("todo", "does-not-load", says)
+        else:
+            start = f"{name} is not there. Begin with: make start DAY={day.number}"
+            verdict = Verdict("todo", "not-started", start)
+        return [TaskResult(task, verdict) for task in day.tasks], verdict.message
+    # Nobody can know the hash of what they are writing, and it is the same tomorrow.
+    own = b"\0".join(data for _, data in sorted(package.modules().items()))
+    seed = int(hashlib.sha256(own).hexdigest()[:8], 16)
+    unpack(package, folder)
+    with Sandbox() as sandbox:
+        results = check_tasks(day, folder / day.script, sandbox, seed=seed)
+    loads = results[0].verdict.mistake != "does-not-load"
+    return results, "" if loads else results[0].verdict.message
+
+
+def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:
+    """Return the result with the words that `make check` has for it."""
+    marks = [
+        Mark(r.task.id, r.verdict.status, r.verdict.mistake, _tidy(r.verdict.message))
+        for r in tasks
+        if r.task.id in counted(day)
+    ]
+    refused = [what for r in tasks for what in r.refused]
+    return Result(
+        tuple(marks),
+        tuple(Mark(item.name, item.status, "", _tidy(item.message)) for item in items),
+        _tidy(report.as_text(report.Report(day, tasks, items))) + "\n",
+        _tidy(error),
+        tuple(dict.fromkeys(map(_tidy, refused)))[:20],
+    )
+
+
+def _tidy(text: str) -> str:
+    """Return a text whose lines are printable and the same at every run."""
+    root = f"{os.path.realpath(tempfile.gettempdir())}{os.sep}"
+    lines = text[: LINES * LINE].replace(root, "").split("\n")
+    clean = []
+    for line in lines[:LINES]:
+        line = line[: 2 * LINE]
+        indent = " " * (len(line) - len(line.lstrip(" ")))
+        plain = _ADDRESS.sub("0x...", _FOLDERS.sub("", line))
+        clean.append((indent + visible(plain, LINE)).rstrip())
+    return "\n".join(clean)
+
+
+def _limit_memory() -> None:
+    """A picture or a text that grows without end costs this process alone."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource  # not on Windows
+
+        if sys.platform.startswith("linux"):
+            hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, hard))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,152 @@
+"""Packages in, results out: on this machine's processors, or on a Dask cluster.
+
+Both are executors of the standard library's kind and run the same function. Only so
+many packages are under way at once, so a class of any size takes the same memory.
+"""
+
+import contextlib
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Executor,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
+from dataclasses import dataclass
+from typing import Any
+
+from labkit.grade.grader import close_graders, grade_behind_wall, grade_package, sweep
+from labkit.grade.package import Package
+from labkit.grade.result import Result
+from robo47.errors import FaultError, Robo47Error
+
+PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
+PATIENCE = 60.0  # seconds without any worker before giving up
+NO_DASK = (
+    "--dask needs the package distributed: python3 scripts/setup_env.py grade "
+    "(make grade does it)"
+)
+NO_CERTIFICATES = (
+    "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
+    "docs/cluster.md says how"
+)
+
+Key = tuple[int, str]  # of a package: the day and the student's folder
+
+
+@dataclass(frozen=True)
+class Engine:
+    """Where packages are graded.
+
+    Attributes:
+        executor: runs `grade`.
+        workers: returns how many packages can be graded at the same time now.
+        lost: the exception that a package brings back whose workers all died.
+        grade: what is run.
+    """
+
+    executor: Executor
+    workers: Callable[[], int]
+    lost: type[BaseException] = FaultError
+    grade: Callable[[Package], Result] = grade_package
+
+
+@contextlib.contextmanager
+def local(processes: int) -> Iterator[Engine]:
+    """Grade on this machine.
+
+    Args:
+        processes: how many submissions at a time.
+    """
+    sweep()
+    pool = ThreadPoolExecutor(processes)  # each thread waits for a process of its own
+    try:
+        yield Engine(pool, lambda: processes)
+    finally:
+        pool.shutdown(cancel_futures=True)
+        close_graders()
+
+
+@contextlib.contextmanager
+def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
+    """Grade on a Dask cluster; certificates come from Dask's own configuration.
+
+    Args:
+        address: of the scheduler, "tls://10.0.0.5:8786".
+        trusted: also on workers that nothing keeps the submissions from.
+
+    Raises:
+        Robo47Error: `distributed` is not installed, or no scheduler answers.
+    """
+    try:
+        from distributed import Client
+        from distributed.scheduler import KilledWorker
+        from distributed.security import Security
+    except ImportError:
+        raise Robo47Error(NO_DASK) from None
+    known = Security().get_connection_args("client")
+    if address.startswith("tls:") and not known.get("ssl_context"):
+        raise Robo47Error(NO_CERTIFICATES)
+    try:
+        client = Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TypeError, RuntimeError) as error:
+        why = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise Robo47Error(f"no Dask scheduler at {address}: {why}") from None
+    try:
+        grade = grade_package if trusted else grade_behind_wall
+        workers = _worker_count(client)
+        yield Engine(client.get_executor(), workers, KilledWorker, grade)
+    finally:
+        client.close()
+
+
+def _worker_count(client: Any) -> Callable[[], int]:
+    return lambda: sum(client.nthreads().values())
+
+
+def grade_all(
+    packages: Iterable[tuple[Key, Package]], engine: Engine
+) -> Iterator[tuple[Key, Package, Result | FaultError]]:
+    """Yield each package's result as it comes, in any order.
+
+    Args:
+        packages: key and package; taken from the iterable as there is room.
+        engine: where to grade.
+
+    Raises:
+        Robo47Error: no worker is left, or one cannot run this kit.
+    """
+    under_way: dict[Future[Result], tuple[Key, Package]] = {}
+    try:
+        for key, package in packages:
+            under_way[engine.executor.submit(engine.grade, package)] = (key, package)
+            while len(under_way) >= PER_WORKER * max(1, engine.workers()):
+                yield from _finished(under_way, engine)
+        while under_way:
+            yield from _finished(under_way, engine)
+    finally:
+        for future in under_way:
+            future.cancel()
+
+
+def _finished(
+    under_way: dict[Future[Result], tuple[Key, Package]], engine: Engine
+) -> Iterator[tuple[Key, Package, Result | FaultError]]:
+    """Wait for results and yield them."""
+    done, _ = wait(under_way, timeout=PATIENCE, return_when=FIRST_COMPLETED)
+    if not done and not engine.workers():
+        raise Robo47Error(
+            f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded is "
+            "kept: start workers and run the same command again"
+        )
+    for future in done:
+        key, package = under_way.pop(future)
+        try:
+            yield key, package, future.result()
+        except FaultError as error:
+            yield key, package, error
+        except engine.lost:
+            yield key, package, FaultError("the workers that graded it were lost")
+        except (ImportError, AttributeError) as error:  # an older commit's
+            raise Robo47Error(f"a worker cannot run this kit: {error}") from None

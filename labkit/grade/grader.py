@@ -1,0 +1,181 @@
+"""A process for the checker, from outside: one package after the other, with a limit.
+
+`grade_package` is what runs on this machine's threads and on Dask's workers alike;
+`grade_behind_wall` on workers that nobody spoke for.
+"""
+
+import atexit
+import contextlib
+import json
+import os
+import pickle
+import queue
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from labkit.base import processes
+from labkit.grade.package import Package, fingerprint
+from labkit.grade.result import Result, from_json
+from labkit.lesson.day import find_day
+from labkit.sandbox.wall import refusal, wall
+from robo47.errors import FaultError, Robo47Error
+from robo47.paths import ROOT
+
+# For one package. The sandbox stops a file after 100 s of its own, so only a machine
+# under load gets here.
+SECONDS = 240.0
+LEAVE_SECONDS = 5.0
+LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
+_FOLDER = "robo47-grader-"
+
+
+class Grader:
+    """One grading process and its folder, from start to end."""
+
+    def __init__(self) -> None:
+        """Start it."""
+        # The wall that was promised, or none of this: not what stands at that moment.
+        promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
+        self.folder = tempfile.mkdtemp(prefix=_FOLDER)
+        temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
+        try:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "labkit.grade.child", self.folder],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                cwd=self.folder,  # MuJoCo writes its warnings there
+                env={**os.environ, **temporary, **promised},
+                **processes.start_options(),  # type: ignore[call-overload]
+            )
+        except OSError:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+
+    def grade(self, package: Package, seconds: float = SECONDS) -> Result:
+        """Return a package's result.
+
+        Args:
+            package: one submission.
+            seconds: after so many the process is ended.
+
+        Raises:
+            FaultError: grading ended early, or the machine failed.
+        """
+        late = threading.Event()
+
+        def stop() -> None:
+            late.set()
+            processes.end(self.process)
+
+        timer = threading.Timer(seconds, stop)
+        timer.start()
+        try:
+            assert self.process.stdin is not None
+            assert self.process.stdout is not None
+            with contextlib.suppress(OSError):  # it died: the answer below is empty
+                pickle.dump(package, self.process.stdin)
+                self.process.stdin.flush()
+            answer = self.process.stdout.readline()
+        finally:
+            timer.cancel()
+        if answer.endswith(b"\n"):
+            found = json.loads(answer)
+            if "fault" in found:
+                raise FaultError(found["fault"])
+            return from_json(found, find_day(package.day))
+        self.close()
+        why = f"it took more than {seconds:.0f} s" if late.is_set() else "it was killed"
+        raise FaultError(f"grading it was stopped: {why}")
+
+    @property
+    def alive(self) -> bool:
+        """Whether it can take another package."""
+        return self.process.poll() is None
+
+    def close(self) -> None:
+        """End the process and remove its folder."""
+        for stream in (self.process.stdin, self.process.stdout):
+            with contextlib.suppress(OSError, AttributeError):
+                stream.close()  # type: ignore[union-attr]
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(LEAVE_SECONDS)
+        processes.end(self.process)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+_idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
+
+
+def grade_package(package: Package) -> Result:
+    """Return a package's result; any thread may call it, each call has its process.
+
+    Args:
+        package: one submission.
+
+    Raises:
+        Robo47Error: this machine has another kit than the one that sent it.
+        FaultError: the machine failed; the package is as good as new.
+    """
+    own = fingerprint(package.day)
+    if package.kit != own:
+        raise Robo47Error(
+            f"a worker's kit ({own}) is not the coordinator's "
+            f"({package.kit}); check out the same commit on both"
+        )
+    grader = None
+    try:
+        try:
+            grader = _idle.get_nowait()
+        except queue.Empty:
+            grader = Grader()
+        return grader.grade(package)
+    except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
+        raise FaultError(f"no process for it: {error}") from None
+    finally:
+        if grader and grader.alive:
+            _idle.put(grader)
+
+
+def grade_behind_wall(package: Package) -> Result:
+    """Return a package's result, where this machine keeps such code from itself.
+
+    Args:
+        package: one submission.
+
+    Raises:
+        Robo47Error: it does not, or has another kit.
+        FaultError: the machine failed; the package is as good as new.
+    """
+    if why := refusal():
+        raise Robo47Error(
+            f"a worker on {socket.gethostname()} refuses: {why}, run workers in a "
+            "container (docs/cluster.md), or add --i-know-them"
+        )
+    return grade_package(package)
+
+
+@atexit.register
+def close_graders() -> None:
+    """End the idle grading processes."""
+    while True:
+        try:
+            _idle.get_nowait().close()
+        except queue.Empty:
+            return
+
+
+def sweep() -> None:
+    """Remove what graders that were killed left behind, once it is a day old."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*"):
+        with contextlib.suppress(OSError):
+            facts = folder.lstat()
+            own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
+            if own and time.time() - facts.st_mtime > LEFT_BEHIND:
+                shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,162 @@
+"""Every result, kept as it comes: a line of JSON each, on the disk before the next.
+
+A run that was killed, even by a power cut, goes on from here. A line that was cut off,
+or that is no result of the day, is left out and its student graded again. A fault of
+the machine is no result and never written here.
+"""
+
+import contextlib
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from labkit.grade.package import Package
+from labkit.grade.result import Result, from_json
+from labkit.lesson.day import Day
+from labkit.log.lock import NO_LOCKS, try_lock
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+KIND = "robo47 grading"
+_LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
+
+
+class Journal:
+    """The results of one class, for one day or more.
+
+    Attributes:
+        reference: the time that "minutes since last commit" counts to, seconds since
+            1970.
+        deadline: whether that is the deadline, and not when the first run began.
+        odd: lines that are no result.
+        outdated: results that were not used, since another kit gave them.
+    """
+
+    def __init__(
+        self, path: Path, days: Sequence[Day], reference: int, *, deadline: bool
+    ) -> None:
+        """Open it for ourselves alone and read what is there.
+
+        Args:
+            path: the file.
+            days: what is graded; a journal of other days is refused.
+            reference: see above.
+            deadline: see above; any other reference gives way to one that is there.
+
+        Raises:
+            Robo47Error: the file cannot be written, is another day's, or somebody else
+                is grading into it.
+        """
+        self.path, self.reference, self.deadline = path, reference, deadline
+        self.odd = self.outdated = 0
+        self._days = {day.number: day for day in days}
+        self._results: dict[tuple[int, str], tuple[str, str, Result]] = {}
+        try:
+            self._file = path.open("a+b")
+        except OSError as error:
+            raise Robo47Error(
+                f"{shown(path)} cannot be written: {error.strerror}"
+            ) from None
+        try:
+            self._lock()
+            self._file.seek(0)
+            known = sum([self._takes(line) for line in self._file]) > 0
+        except BaseException:
+            self._file.close()
+            raise
+        if not known or (deadline and reference != self.reference):
+            self.reference, self.deadline = reference, deadline
+            head = {"reference": reference, "deadline": deadline}
+            self._append({"kind": KIND, "days": list(self._days), **head})
+
+    def find(self, folder: str, package: Package) -> Result | None:
+        """Return a student's result, unless what they hand in, or the kit, has changed.
+
+        Args:
+            folder: the student's.
+            package: what they hand in now.
+        """
+        known = self._results.get((package.day, folder))
+        if known is None or known[0] != package.fingerprint:
+            return None
+        self.outdated += known[1] != package.kit
+        return known[2] if known[1] == package.kit else None
+
+    def keep(self, folder: str, package: Package, result: Result) -> None:
+        """Write a result and wait until the disk has it."""
+        fingerprint = package.fingerprint
+        self._results[package.day, folder] = (fingerprint, package.kit, result)
+        self._append(
+            {
+                "day": package.day,
+                "folder": folder,
+                "package": fingerprint,
+                "kit": package.kit,
+                "result": result.to_json(),
+            }
+        )
+
+    def close(self) -> None:
+        """Close the file, which lets go of it."""
+        self._file.close()
+
+    def _lock(self) -> None:
+        try:
+            free = try_lock(self._file.fileno())
+        except OSError as error:
+            if error.errno not in NO_LOCKS:
+                raise
+            return
+        if not free:
+            raise Robo47Error(
+                f"{shown(self.path)}: another make grade is at work there. Wait for it,"
+                " or give this one a folder of its own with --out"
+            )
+
+    def _append(self, record: dict[str, Any]) -> None:
+        # The line break comes first, so that a cut line never swallows the next one.
+        try:
+            self._file.write(b"\n" + json.dumps(record).encode("ascii"))
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                self._file.close()
+            raise Robo47Error(
+                f"{shown(self.path)} cannot be written: {error.strerror}. What is "
+                "graded is kept; the same command goes on"
+            ) from None
+
+    def _takes(self, line: bytes) -> bool:
+        """Take over a line; return whether it is a header."""
+        if not line.strip():
+            return False
+        try:
+            return self._take(json.loads(line))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            self.odd += 1
+            return False
+
+    def _take(self, record: dict[str, Any]) -> bool:
+        if record.get("kind") == KIND:
+            reference, days = record["reference"], record["days"]
+            if days != list(self._days):
+                of = ", ".join(str(int(day)) for day in days)
+                raise Robo47Error(
+                    f"{shown(self.path)} holds day {of}: give each day a folder of its "
+                    "own, such as --out grades-dayN/grades.csv"
+                )
+            if type(reference) is not int or not 0 <= reference < _LATEST:
+                raise ValueError(reference)
+            self.reference, self.deadline = reference, record["deadline"] is True
+            return True
+        day = self._days[record["day"]]
+        facts = (record["folder"], record["package"], record["kit"])
+        if not all(isinstance(fact, str) for fact in facts):
+            raise TypeError(facts)
+        folder, *prints = facts
+        result = from_json(record["result"], day)
+        self._results[day.number, folder] = (prints[0], prints[1], result)
+        return False

@@ -1,0 +1,152 @@
+"""The class as one HTML file that needs nothing else: no script, no font, no net."""
+
+import time
+from collections.abc import Callable
+from html import escape
+
+from labkit.grade import overview
+from labkit.grade.charts import STATUS, STYLE, Row, chart, colour
+from labkit.grade.overview import Course, Diagnosis, Standing
+from labkit.grade.people import list_alike, list_people, list_refused, table
+from labkit.grade.sheet import printable
+
+CHARTED = 15  # diagnoses in the chart
+STATES = {  # heading, and what to say where it is nobody
+    "stuck": "Who is stuck",
+    "does not load": "Files that do not load",
+    "ungraded": "Could not be graded",
+    "not started": "Not started",
+    "under way": "Under way, without a mistake so far",
+}
+
+
+def render(course: Course) -> str:
+    """Return the whole page."""
+    day, class_ = course.day, course.class_
+    by_state = {
+        state: [g for g in class_ if overview.state(g) == state]
+        for state in (*STATES, "done")
+    }
+    title = f"Day {day.number}: {escape(day.title)}"
+    return printable(
+        "\n".join(
+            [
+                '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
+                # a student's text cannot become a script even if escaping failed
+                '<meta http-equiv="Content-Security-Policy" content="default-src'
+                " 'none'; style-src 'unsafe-inline'\">",
+                '<meta name="viewport" content="width=device-width, initial-scale=1">',
+                f"<title>{title}</title><style>{STYLE}</style></head><body>",
+                f'<h1>{title}</h1><p class="muted">{_about(course)}</p>',
+                _tiles(course, {state: len(some) for state, some in by_state.items()}),
+                _mistakes(overview.diagnoses(day, class_), len(class_)),
+                _standings(course),
+                *(list_people(STATES[s], by_state[s], course) for s in STATES),
+                list_alike(course),
+                list_refused(course),
+                table(course),
+                "</body></html>\n",
+            ]
+        )
+    )
+
+
+def _about(course: Course) -> str:
+    moment = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime(course.reference))
+    what = "deadline" if course.deadline else "first graded"
+    return (
+        f"{_students(len(course.class_))}; {what} {moment}. "
+        "Commit times are the students' own: whoever commits sets the clock."
+    )
+
+
+def _tiles(course: Course, count: dict[str, int]) -> str:
+    tiles = [
+        ("pass", count["done"], "all tasks passed"),
+        ("", count["under way"], "under way"),
+        ("fail" if count["stuck"] else "none", count["stuck"], "stuck"),
+        ("broken", count["does not load"], "do not load"),
+        ("none", count["not started"], "not started"),
+        ("limit" if count["ungraded"] else "none", count["ungraded"], "not graded"),
+        ("", len(course.alike), "groups alike"),
+    ]
+    cells = "".join(
+        f'<div class="tile"><b class="{role}">{number:,}</b>'
+        f'<span class="muted">{label}</span></div>'
+        for role, number, label in tiles
+    )
+    return f'<div class="tiles">{cells}</div>'
+
+
+def _mistakes(found: list[Diagnosis], size: int) -> str:
+    if not found:
+        return ""
+    shown = found[:CHARTED]
+    rows = [
+        Row(
+            f"{one.task}  {one.mistake}",
+            _students(len(one.who)),
+            [("line", len(one.who))],
+            len(shown[0].who),
+        )
+        for one in shown
+    ]
+    bars = chart(rows, "students by mistake, the most common first")
+    words = "".join(map(_diagnosis, shown))
+    if more := "".join(map(_diagnosis, found[CHARTED:])):
+        words += f"<details><summary>the others</summary>{more}</details>"
+    kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
+    rest = f", the {CHARTED} most common" if len(found) > CHARTED else ""
+    return (
+        "<section><h2>What to explain again tomorrow</h2>"
+        f'<div class="two"><div class="card"><h3>{kinds}{rest}</h3>'
+        '<p class="muted">Counted where they were made, once per student</p>'
+        f'{bars}</div><div class="card"><h3>In the words the students saw</h3>'
+        f"{words}</div></div></section>"
+    )
+
+
+def _diagnosis(one: Diagnosis) -> str:
+    who = ", ".join(map(escape, one.who))
+    return (
+        f"<details><summary>{escape(one.task)} <b>{escape(one.mistake)}</b>, "
+        f'{_students(len(one.who))}</summary><p class="says">{escape(one.example)}</p>'
+        f'<p class="muted">{who}</p></details>'
+    )
+
+
+def _standings(course: Course) -> str:
+    functions = {t.id: ", ".join(t.functions) for t in course.day.tasks}
+    tasks = overview.tasks_standing(course.class_)
+    legend = "".join(
+        f'<span><i style="background:{colour(role)}"></i>{word}</span>'
+        for role, _, word in STATUS.values()
+    )
+
+    def card(
+        heading: str, some: list[Standing], label: Callable[[Standing], str]
+    ) -> str:
+        rows = [_standing(one, label(one), len(course.class_)) for one in some]
+        return (
+            f'<div class="card"><h3>{heading}</h3><p class="legend muted">{legend}</p>'
+            f"{chart(rows, heading)}</div>"
+        )
+
+    items = overview.items_standing(course.class_)
+    return (
+        '<section><h2>Which tasks stop people</h2><div class="two">'
+        + card("Tasks", tasks, lambda one: f"{one.id}  {functions[one.id]}")
+        + card("Deliverables", items, lambda one: one.id)
+        + "</div></section>"
+    )
+
+
+def _standing(one: Standing, label: str, size: int) -> Row:
+    words = f"{one.counts['passed']} pass"
+    words += f", {one.stopped} stopped here" if one.stopped else ""
+    parts = [(role, one.counts[status]) for status, (role, *_) in STATUS.items()]
+    return Row(label, words, parts, size)
+
+
+def _students(number: int) -> str:
+    return "1 student" if number == 1 else f"{number:,} students"

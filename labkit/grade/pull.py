@@ -1,0 +1,121 @@
+"""Clone what is missing and update what we cloned, before grading.
+
+A clone that came as an archive brings its own git configuration, which may name
+programs to run: it is graded and never pulled. Which clones are ours stands in a file
+beside them, with what their configuration was.
+"""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+from labkit.base.git import GitError, run
+from labkit.base.text import visible
+from labkit.grade.roster import Student
+
+AT_ONCE = 8
+SECONDS = 300
+OURS = ".robo47-clones.json"  # beside the clones
+_SAFE = {
+    "core.fsmonitor": "false",
+    "core.hooksPath": os.devnull,
+    "submodule.recurse": "false",
+    "http.lowSpeedLimit": "1000",
+    "http.lowSpeedTime": "30",
+}
+_NOT_OURS = (
+    "make grade did not clone it, or its git configuration was changed since. Move the "
+    "folder away to have it cloned anew"
+)
+
+
+def pull_all(students: list[Student]) -> Iterator[tuple[Student, str]]:
+    """Clone or update each student's folder, several at a time.
+
+    Yields:
+        The student and what went wrong, "" where nothing did.
+    """
+    usable = [s for s in students if not s.problem]
+    if not usable:
+        return
+    marks = usable[0].path.parent / OURS
+    ours = _read(marks)
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        waiting = {pool.submit(pull, s, ours.get(s.folder)): s for s in usable}
+        for future in as_completed(waiting):
+            student = waiting[future]
+            mark, problem = future.result()
+            if mark != ours.get(student.folder):
+                ours[student.folder] = mark
+                _write(marks, ours)
+            yield student, problem
+
+
+def pull(student: Student, known: str | None) -> tuple[str | None, str]:
+    """Clone or update one folder.
+
+    Args:
+        student: whose.
+        known: the mark of our clone, or None.
+
+    Returns:
+        The mark from now on, and what went wrong, or "".
+    """
+    path = student.path
+    if not path.exists():
+        if not student.url:
+            return known, "there is no such folder, and the roster has no git URL"
+        problem = _git(path.parent, "clone", "-q", "--", student.url, path.name)
+        return (known, problem) if problem else (_mark(path), "")
+    if known is None or known != _mark(path):
+        return known, _NOT_OURS
+    return known, _git(path, "pull", "-q", "--ff-only", "--no-recurse-submodules")
+
+
+def _mark(clone: Path) -> str | None:
+    """Return what tells our clone from any other: a hash of its configuration."""
+    git = clone / ".git"
+    try:
+        if git.is_symlink() or (git / "config").is_symlink():
+            return None
+        if not (git / "config").is_file() or os.path.lexists(git / "commondir"):
+            return None
+        return hashlib.sha256((git / "config").read_bytes()).hexdigest()
+    except OSError:
+        return None
+
+
+def _read(marks: Path) -> dict[str, str | None]:
+    try:
+        found = json.loads(marks.read_bytes())
+        return found if isinstance(found, dict) else {}
+    except (OSError, ValueError, RecursionError):
+        return {}
+
+
+def _write(marks: Path, ours: dict[str, str | None]) -> None:
+    new = marks.with_name(marks.name + ".new")
+    new.write_text(json.dumps(ours, indent=1), "ascii")
+    new.replace(marks)
+
+
+def _git(folder: Path, *arguments: str) -> str:
+    """Run git; return the first line of what it complains of, or ""."""
+    settings = [word for pair in _SAFE.items() for word in ("-c", "=".join(pair))]
+    try:
+        done = run(
+            *settings,
+            *arguments,
+            folder=folder,
+            seconds=SECONDS,
+            GIT_LFS_SKIP_SMUDGE="1",
+        )
+    except GitError as error:
+        return str(error)
+    if done.returncode == 0:
+        return ""
+    lines = [ln for ln in done.stderr.splitlines() if ln.strip()]
+    return visible(lines[0], 200) if lines else f"git ended with {done.returncode}"

@@ -1,0 +1,135 @@
+"""What a grade consists of, and its form in the journal and on the wire."""
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+from labkit.handin import item_names
+from labkit.lesson.day import Day
+
+UNGRADED = "ungraded"  # the status of a task that nobody could look at
+STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
+# Names of what is only not there yet: nothing to explain again.
+NO_MISTAKES = ("", "unwritten", "waits", "not-started")
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How a task or a deliverable stands.
+
+    Attributes:
+        id: "1.4", or "figure".
+        status: one of STATUSES.
+        mistake: its name, "chain-reversed"; "" where nothing has one.
+        message: in the student's words.
+    """
+
+    id: str
+    status: str
+    mistake: str = ""
+    message: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.status == "passed"
+
+    @property
+    def is_mistake(self) -> bool:
+        """Whether something was written and is not right, or cannot be read."""
+        return not self.passed and self.mistake not in NO_MISTAKES
+
+
+@dataclass(frozen=True)
+class Result:
+    """One student's grade for one day.
+
+    Attributes:
+        tasks: those that count, in the manifest's order.
+        items: the deliverables.
+        text: what `make check` would have told the student.
+        error: why something could not be graded; "" where all was.
+        refused: what the code wanted and was refused, though its answers may be right.
+    """
+
+    tasks: tuple[Mark, ...]
+    items: tuple[Mark, ...]
+    text: str = ""
+    error: str = ""
+    refused: tuple[str, ...] = ()
+
+    @property
+    def stopped_at(self) -> Mark | None:
+        """The first task that is not passed, or None."""
+        return next((task for task in self.tasks if not task.passed), None)
+
+    @property
+    def first_mistake(self) -> Mark | None:
+        """The first task with a mistake in it, or None."""
+        return next((task for task in self.tasks if task.is_mistake), None)
+
+    @property
+    def does_not_load(self) -> bool:
+        """Whether there is a file that Python, or we, cannot read."""
+        return any(task.mistake == "does-not-load" for task in self.tasks)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as plain data."""
+        return asdict(self)
+
+    def lean(self) -> "Result":
+        """Return it with marks that others have too: a class has few different ones."""
+        marks, items = (tuple(map(_one, group)) for group in (self.tasks, self.items))
+        return replace(self, tasks=marks, items=items)
+
+
+@functools.lru_cache(4096)
+def _one(mark: Mark) -> Mark:
+    """Return the mark that was there first of all that are equal."""
+    return mark
+
+
+def from_json(data: Mapping[str, Any], day: Day) -> Result:
+    """Return a result from plain data.
+
+    Raises:
+        ValueError, KeyError, TypeError: it is no result of that day.
+    """
+    result = Result(
+        tuple(Mark(**mark) for mark in data["tasks"]),
+        tuple(Mark(**mark) for mark in data["items"]),
+        data["text"],
+        data["error"],
+        tuple(data["refused"]),
+    )
+    marks = (*result.tasks, *result.items)
+    if [mark.id for mark in marks] != [*counted(day), *item_names(day)]:
+        raise ValueError("other tasks than the day's")
+    texts = [result.text, result.error, *result.refused]
+    texts += [text for mark in marks for text in (mark.mistake, mark.message)]
+    if not all(isinstance(text, str) for text in texts):
+        raise TypeError("no text")
+    if not all(mark.status in STATUSES for mark in marks):
+        raise ValueError("no status")
+    return result.lean()
+
+
+def counted(day: Day) -> Sequence[str]:
+    """Return the ids of the tasks that a grade counts: none that is optional."""
+    return [task.id for task in day.tasks if not task.optional]
+
+
+def ungraded(day: Day, why: str) -> Result:
+    """Return the result of a submission that could not be graded.
+
+    Args:
+        day: from the manifest.
+        why: one sentence, for the student and the teacher.
+    """
+    return Result(
+        tuple(Mark(id, UNGRADED) for id in counted(day)),
+        tuple(Mark(name, UNGRADED) for name in item_names(day)),
+        f"Day {day.number}: {day.title}\n\nThis could not be graded: {why}\n",
+        why,
+    )

@@ -1,0 +1,164 @@
+"""Who is in the class: the folders of ROOT, or the rows of a roster.
+
+Names are data: they are shown, and a file that is named after one is named by us.
+"""
+
+import csv
+import hashlib
+import os
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from labkit.base.text import visible
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+_URL = ("git", "url", "git url", "git_url", "repo")
+_ID = ("id", "email", "username", "number")
+_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
+LONGEST = 100  # bytes of a file's name before its ending; systems allow 255
+_ASKED = "expected columns: name, folder and, for --pull, git"
+
+
+@dataclass(frozen=True)
+class Student:
+    """One row of the results.
+
+    Attributes:
+        name: to show, on one line.
+        folder: its name in ROOT; no two students have the same.
+        path: the folder.
+        url: where to clone it from; "" where the roster does not say.
+        problem: why the folder cannot be used; "" where it can.
+        id: what a learning platform knows the student by; "" where the roster has none.
+    """
+
+    name: str
+    folder: str
+    path: Path
+    url: str = ""
+    problem: str = ""
+    id: str = ""
+
+
+def find_students(root: Path, roster: Path | None = None) -> list[Student]:
+    """Return the class, in the roster's order or by folder name.
+
+    Args:
+        root: the folder with one clone per student.
+        roster: a CSV of name, folder and git URL; default `root/roster.csv` if there.
+
+    Raises:
+        Robo47Error: no such folder, nobody in it, or a roster that cannot be read.
+    """
+    if not root.is_dir():
+        raise Robo47Error(
+            f"{shown(root)} is no folder; expected one that holds a clone per student"
+        )
+    if (root / "w1-foundations").is_dir():
+        raise Robo47Error(
+            f"{shown(root)} is itself a clone; give the folder that holds the clones"
+        )
+    if roster or (root / "roster.csv").is_file():
+        students = _read_roster(roster or root / "roster.csv", root)
+    else:
+        with os.scandir(root) as entries:
+            folders = [e for e in entries if e.name[0] != "." and e.is_dir()]
+        names = sorted(entry.name for entry in folders)
+        students = [_student(name, name, root) for name in names]
+    if not students:
+        raise Robo47Error(
+            f"{shown(root)} has no folders; expected one clone per student, or a "
+            "roster.csv and --pull"
+        )
+    return students
+
+
+def file_names(folders: Iterable[str]) -> dict[str, str]:
+    """Return a file name for each student: none leaves its folder, no two are alike.
+
+    Args:
+        folders: the students' folders, whatever a roster says of them. One that any
+            system can have as a file's name is kept; others get a hash.
+    """
+    safe = {folder: _safe(folder) for folder in folders}
+    alike = Counter(_key(name) for folder, name in safe.items() if name == folder)
+    return {
+        folder: name
+        if name == folder and alike[_key(name)] == 1
+        else f"{name}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:12]}"
+        for folder, name in safe.items()
+    }
+
+
+def _safe(folder: str) -> str:
+    """Return a folder's last part without what a system may not have in a name."""
+    last = re.split(r"[/\\]", folder.rstrip("/\\"))[-1]
+    name = re.sub(r'[<>:"|?*]', "_", visible(last)).strip(". ")
+    name = name.encode()[:LONGEST].decode("utf-8", "ignore").strip(". ")
+    return f"_{name}" if not name or _DEVICES.match(name) else name
+
+
+def _key(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()  # some systems see no case
+
+
+def _student(
+    name: str, folder: str, root: Path, url: str = "", id: str = ""
+) -> Student:
+    path, problem = root / folder, ""
+    if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
+        path, problem = root, f"{folder!r} is no name of a folder"
+    elif path.is_symlink():
+        problem = "the folder is a link, which is not followed"
+    elif url.startswith("-"):
+        problem = f"{url!r} is no git URL"
+    shows = visible(
+        name or os.fsencode(folder).decode("utf-8", "backslashreplace"), 120
+    )
+    return Student(shows, folder, path, url, visible(problem), visible(id, 120))
+
+
+def _read_roster(path: Path, root: Path) -> list[Student]:
+    try:
+        text = path.read_text("utf-8-sig")
+    except OSError as error:
+        raise Robo47Error(
+            f"{shown(path)} cannot be read: {error.strerror or error}"
+        ) from None
+    except UnicodeDecodeError:
+        raise Robo47Error(
+            f"{shown(path)} is not in UTF-8: save it as 'CSV UTF-8'"
+        ) from None
+    head = text.partition("\n")[0]
+    delimiter = max(",;\t", key=head.count)  # a spreadsheet writes its country's own
+    rows = csv.reader(text.splitlines(), delimiter=delimiter)
+    try:
+        table = [(rows.line_num, row) for row in rows]
+    except csv.Error as error:
+        says = f"{shown(path)}, line {rows.line_num}: {error}; save it as CSV anew"
+        raise Robo47Error(says) from None
+    columns = [name.strip().lower() for name in table[0][1]] if table else []
+    if "folder" not in columns:
+        raise Robo47Error(f"{shown(path)} has no column folder; {_ASKED}")
+    students: dict[str, Student] = {}
+    for number, row in table[1:]:
+        cells = dict(zip(columns, map(str.strip, row), strict=False))
+        if not any(cells.values()):
+            continue
+        folder = cells.get("folder", "")
+        if folder in students:
+            raise Robo47Error(
+                f"{shown(path)}, line {number}: folder {folder!r} is listed "
+                "twice; expected one folder per student"
+            )
+        url, id = (
+            next((cells[name] for name in names if cells.get(name)), "")
+            for names in (_URL, _ID)
+        )
+        students[folder] = _student(cells.get("name", ""), folder, root, url, id)
+    return list(students.values())

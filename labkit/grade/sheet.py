@@ -1,0 +1,159 @@
+"""What is written: the table, one row per student, and a file for each of them."""
+
+import csv
+import io
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from labkit.base.text import visible
+from labkit.grade.result import Result, counted
+from labkit.grade.roster import Student
+from labkit.handin import item_names
+from labkit.lesson.day import Day
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+# A spreadsheet runs a text that begins like this as a formula.
+_FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
+_SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets split
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One student with all that the table and the page show.
+
+    Attributes:
+        student: from the roster.
+        result: the grade.
+        commit: the hash of the last commit, or "".
+        minutes: from there to the deadline, by the student's own clock, negative past
+            it; None without a commit.
+        note: what this run has to add to the result's error, such as a failed pull.
+        fault: whether this machine failed; the next run grades them.
+        feedback: the file's name in feedback/.
+    """
+
+    student: Student
+    result: Result
+    commit: str = ""
+    minutes: int | None = None
+    note: str = ""
+    fault: bool = False
+    feedback: str = ""
+
+    @property
+    def error(self) -> str:
+        """Why something could not be graded or updated; "" where all was."""
+        return "; ".join(filter(None, (self.result.error, self.note)))
+
+    @property
+    def tasks_passed(self) -> int:
+        """How many tasks are passed."""
+        return sum(task.passed for task in self.result.tasks)
+
+
+def columns(day: Day) -> list[str]:
+    """Return the table's columns."""
+    return [
+        "name",
+        "folder",
+        "tasks_passed",
+        *counted(day),
+        "deliverables_passed",
+        *item_names(day),
+        "first_mistake",
+        "what_it_says",
+        "minutes_since_commit_own_clock",
+        "commit_hash",
+        "refused",
+        "error",
+    ]
+
+
+def as_csv(day: Day, class_: Sequence[Graded]) -> bytes:
+    """Return the table.
+
+    Args:
+        day: from the manifest.
+        class_: everybody, in the order to show them.
+
+    Returns:
+        CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns(day))
+    writer.writerows(_cells(graded) for graded in class_)
+    return text.getvalue().encode("utf-8-sig")
+
+
+def _cells(graded: Graded) -> list[str | int]:
+    result, mistake = graded.result, graded.result.first_mistake
+    return [
+        plain(graded.student.name),
+        plain(printable(graded.student.folder)),
+        graded.tasks_passed,
+        *(_cell(graded, task.status) for task in result.tasks),
+        sum(item.passed for item in result.items),
+        *(item.status for item in result.items),
+        plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
+        plain(mistake.message if mistake else ""),
+        "" if graded.minutes is None else graded.minutes,
+        graded.commit[:10],
+        plain("; ".join(result.refused)),
+        plain(graded.error),
+    ]
+
+
+def _cell(graded: Graded, status: str) -> str:
+    """Return a task's status; a file that does not load is more than a task to do."""
+    if status == "todo" and graded.result.does_not_load:
+        return "does not load"
+    return status
+
+
+def plain(text: str) -> str:
+    """Return a text that any spreadsheet shows as it is, in one cell, on one line."""
+    line = visible(printable(text), 2000).translate(_SEPARATORS)
+    return f"'{line}" if _FORMULA.match(line) else line
+
+
+def printable(text: str) -> str:
+    """Return a text that UTF-8 can hold: a folder's name may be any bytes."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def write_feedback(folder: Path, graded: Graded) -> None:
+    """Write a student's file.
+
+    Raises:
+        Robo47Error: it cannot be written.
+    """
+    text = f"{graded.student.name}\n\n{graded.result.text}"
+    write(folder / f"{graded.feedback}.txt", printable(text).encode("utf-8"))
+
+
+def write(path: Path, content: bytes) -> None:
+    """Replace a file whole, or leave it as it was; nothing to do where it is equal.
+
+    Raises:
+        Robo47Error: it cannot be written.
+    """
+    try:
+        if path.is_file() and path.read_bytes() == content:
+            return
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial = path.with_name(path.name + ".new")
+        with partial.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+    except OSError as error:
+        raise Robo47Error(
+            f"{shown(path)} cannot be written: {error.strerror or error}. Close it "
+            "where it is open, or choose another place with --out"
+        ) from None

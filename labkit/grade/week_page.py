@@ -1,0 +1,107 @@
+"""A class over several days as one HTML page, with links to the pages of the days."""
+
+from collections.abc import Sequence
+from html import escape
+
+from labkit.base.words import count
+from labkit.grade.charts import STYLE as PAGE_STYLE
+from labkit.grade.charts import Row, chart, colour
+from labkit.grade.roster import Student
+from labkit.grade.sheet import printable
+from labkit.grade.week import STATES, Standing, Week, percent_of
+from labkit.lesson.day import Day
+
+ROLES = dict(
+    zip(STATES, ("pass", "line", "fail", "broken", "none", "dark"), strict=True)
+)
+STYLE = PAGE_STYLE + "td.n, th.n { text-align: right; }\n"
+
+
+def render(week: Week) -> str:
+    """Return the whole page."""
+    title = _title(week.days)
+    return printable(
+        "\n".join(
+            [
+                '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
+                # a student's text cannot become a script even if escaping failed
+                '<meta http-equiv="Content-Security-Policy" content="default-src'
+                " 'none'; style-src 'unsafe-inline'\">",
+                '<meta name="viewport" content="width=device-width, initial-scale=1">',
+                f"<title>{title}</title><style>{STYLE}</style></head><body>",
+                f'<h1>{title}</h1><p class="muted">{_about(week)}</p>',
+                _days(week),
+                _table(week),
+                "</body></html>\n",
+            ]
+        )
+    )
+
+
+def _title(days: Sequence[Day]) -> str:
+    first, last = days[0].number, days[-1].number
+    return f"Day {first}" if first == last else f"Days {first} to {last}"
+
+
+def _about(week: Week) -> str:
+    done = [s for s in week.students if all(d.state == "done" for d in week.of(s))]
+    return f"{count(len(week.students), 'student')}; {len(done):,} passed every task"
+
+
+def _days(week: Week) -> str:
+    rows = [_bar(week, day) for day in week.days]
+    legend = "".join(
+        f'<span><i style="background:{colour(role)}"></i>{escape(state)}</span>'
+        for state, role in ROLES.items()
+    )
+    mistakes = "".join(_mistakes(week, day) for day in week.days)
+    return (
+        '<section><h2>The days</h2><div class="two"><div class="card">'
+        f'<h3>How far the class is</h3><p class="legend muted">{legend}</p>'
+        f"{chart(rows, 'students by how they stand, day by day')}</div>"
+        '<div class="card"><h3>Which mistakes were common</h3>'
+        f"<ul>{mistakes}</ul></div></div></section>"
+    )
+
+
+def _bar(week: Week, day: Day) -> Row:
+    counts = week.counts(day)
+    parts = [(role, counts[state]) for state, role in ROLES.items()]
+    words = f"{counts['done']:,} of {len(week.students):,} done"
+    return Row(f"{day.number}  {day.title}", words, parts, len(week.students))
+
+
+def _mistakes(week: Week, day: Day) -> str:
+    words = ", ".join(
+        f"{escape(task)} <b>{escape(name)}</b> ({number})"
+        for task, name, number in week.mistakes[day.number]
+    )
+    return (
+        f'<li><div class="head"><a href="day{day.number}/class.html">'
+        f"Day {day.number}</a></div><p>{words or 'none'}</p></li>"
+    )
+
+
+def _table(week: Week) -> str:
+    head = "".join(
+        f'<th class=n><a href="day{day.number}/class.html">{day.number}</a></th>'
+        for day in week.days
+    )
+    rows = "".join(_row(week, student) for student in week.students)
+    return (
+        "<section><h2>Everybody <small>tasks that pass, by day</small></h2>"
+        '<div class="card scroll all"><table><tr><th>name</th>'
+        f"<th class=n>per cent</th>{head}</tr>{rows}</table></div></section>"
+    )
+
+
+def _row(week: Week, student: Student) -> str:
+    cells = "".join(map(_cell, week.of(student)))
+    share = percent_of(week.percent(student)) or "?"
+    return f"<tr><td>{escape(student.name)}</td><td class=n>{share}</td>{cells}</tr>"
+
+
+def _cell(one: Standing) -> str:
+    words = "?" if one.percent is None else f"{one.passed} of {one.tasks}"
+    role = ROLES[one.state] if one.state != "under way" else ""
+    return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

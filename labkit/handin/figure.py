@@ -1,0 +1,125 @@
+"""The student's picture: there, real, of a plausible size, and their own."""
+
+import math
+import struct
+import zlib
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from labkit.handin.handin import Handin, day_files
+from labkit.handin.item import Item
+from labkit.lesson.day import Day
+
+SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all
+DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one
+SAME = 0.5  # of 255: mean difference to a picture that was only saved again
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+# MuJoCo reads PNG for its textures, so the kit needs no imaging package.
+_TEXTURE = '<mujoco><asset><texture name="t" type="2d" file="f.png"/></asset></mujoco>'
+
+
+class FlawError(Exception):
+    """Not a picture that can be judged; its text says why."""
+
+
+def check_figure(day: Day, handin: Handin) -> Item:
+    """Check the day's figure.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+    """
+    name = day_files(day)["figure"]
+    data = handin.files.get(name)
+    if data is None:
+        command = f"make view DAY={day.number} ARGS=--screenshot"
+        says = f"Save your picture as {name}. One of the arm: {command}"
+        return Item("figure", "todo", says)
+    try:
+        picture = read_png(data)
+        _look(picture)
+        for kit in day.kit_figures:
+            if _is_copy(picture, day.folder / kit):
+                raise FlawError(f"it is {kit} of the kit; make one of your own")
+    except FlawError as error:
+        return Item("figure", "wrong", f"{name}: {error}.")
+    return Item("figure")
+
+
+def _look(picture: NDArray[np.uint8]) -> None:
+    """Raise FlawError for a picture that shows nothing."""
+    height, width = picture.shape[:2]
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        raise FlawError(
+            f"it is {width}x{height} pixels; at least "
+            f"{SMALLEST[0]}x{SMALLEST[1]} are wanted"
+        )
+    step = max(1, math.isqrt(width * height // 1_000_000))  # some pixels tell as much
+    some = picture[::step, ::step]
+    if some.max() < DARK:
+        raise FlawError("it is black; call mj_forward before rendering")
+    if some.std() < FLAT:
+        raise FlawError("it is one colour from edge to edge, without an arm")
+
+
+def read_png(data: bytes) -> NDArray[np.uint8]:
+    """Return the pixels of a PNG, (height, width, 3).
+
+    Args:
+        data: the file's content.
+
+    Raises:
+        FlawError: no PNG, a broken one, or one far too large.
+    """
+    if data[:3] == b"\xff\xd8\xff":
+        raise FlawError("it is a JPEG under the name of a PNG; save it as PNG")
+    if data[:8] != _SIGNATURE or len(data) < 33:
+        raise FlawError("it is no PNG picture")
+    width, height = struct.unpack(">II", data[16:24])
+    if width * height > LARGEST:  # before decoding: a small file can claim any size
+        raise FlawError(f"it claims {width}x{height} pixels: too many")
+    if not _inflates(data, width, height):
+        raise FlawError("the PNG is cut off or damaged")
+    try:
+        model = mujoco.MjModel.from_xml_string(_TEXTURE, {"f.png": data})
+    except ValueError:
+        raise FlawError("the PNG is cut off or damaged") from None
+    return model.tex_data.reshape(height, width, -1)
+
+
+def _inflates(data: bytes, width: int, height: int) -> bool:
+    """Return whether a PNG's data has no more bytes than its size asks for.
+
+    Counted piece by piece: a megabyte may claim to be a gigabyte.
+    """
+    most = 8 * (width + 8) * (height + 8) + 16 * height  # 64 bits a pixel, interlaced
+    unpack, at = zlib.decompressobj(), 8
+    try:
+        while at + 8 <= len(data):
+            size, kind = struct.unpack(">I4s", data[at : at + 8])
+            piece = data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""
+            while piece:
+                most -= len(unpack.decompress(piece, 1_000_000))
+                piece = unpack.unconsumed_tail
+                if most < 0:
+                    return False
+            at += size + 12
+    except zlib.error:
+        return False
+    return True
+
+
+def _is_copy(picture: NDArray[np.uint8], kits: Path) -> bool:
+    """Return whether a picture is one of the kit's, though it was saved again."""
+    if not kits.is_file():
+        return False
+    try:
+        other = read_png(kits.read_bytes())
+    except FlawError:
+        return False
+    if other.shape != picture.shape:
+        return False
+    return float(np.abs(other.astype(np.int16) - picture).mean()) < SAME

@@ -1,0 +1,109 @@
+"""The day's numbers in the metrics log: the student's own, and within their limits."""
+
+import hashlib
+import io
+import re
+
+from labkit.base.text import visible
+from labkit.handin.handin import Handin, day_files
+from labkit.handin.item import Item
+from labkit.lesson.day import Day, Metric
+from labkit.log.rows import Row
+from labkit.log.scan import scan_file
+from robo47.errors import Robo47Error
+
+# The lab ends the notes of each row with the script that wrote it, as it was then.
+_FILE = re.compile(r"\bfile ([0-9a-f]{8})$")
+
+
+def file_mark(script: bytes) -> str:
+    """Return what the notes of a script's rows end with: "file 1234abcd"."""
+    return f"file {hashlib.sha256(script).hexdigest()[:8]}"
+
+
+def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
+    """Check the latest row of each of the day's metrics.
+
+    Only rows count that the student's own file wrote after its last change.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+        tasks_pass: whether the day's tasks do; until then the file will change again.
+    """
+    run = f"make run DAY={day.number}"
+    try:
+        rows = _rows(day, handin)
+    except Robo47Error as error:
+        return Item("metrics", "wrong", visible(error))
+    own = marks_of(handin.files.get(day_files(day)["script"]))
+    latest = latest_of(rows, own)
+    missing = [m for m in day.metrics if (m.check, m.metric) not in latest]
+    if missing:
+        why = _why_missing(day, rows, own, missing)
+        return Item("metrics", "todo", f"{why}\nRun your lab: {run}")
+    for metric in day.metrics:
+        if fault := metric.fault(latest[metric.check, metric.metric]):
+            says = f"{metric.check}: {metric.metric} {fault}.\nFix it, then: {run}"
+            return Item("metrics", "wrong", says)
+    if not tasks_pass:
+        says = f"The rows count when your tasks pass; then again: {run}"
+        return Item("metrics", "todo", says)
+    return Item("metrics")
+
+
+def own_rows(day: Day, handin: Handin) -> dict[tuple[str, str], Row]:
+    """Return the latest rows of the student's file as it is, by check and metric.
+
+    Raises:
+        Robo47Error: the log cannot be read.
+    """
+    script = handin.files.get(day_files(day)["script"])
+    return latest_of(_rows(day, handin), marks_of(script))
+
+
+def latest_of(rows: list[Row], marks: set[str]) -> dict[tuple[str, str], Row]:
+    """Return the latest rows that one of these files wrote, by check and metric."""
+    own = (row for row in rows if mark_of(row) in marks)
+    return {(str(row["check"]), str(row["metric"])): row for row in own}
+
+
+def _rows(day: Day, handin: Handin) -> list[Row]:
+    """Return the log's rows of the day's metrics, oldest first."""
+    name = day_files(day)["log"]
+    lines = scan_file(io.BytesIO(handin.files.get(name, b"")), name)
+    rows = [line.row for line in lines if line.row is not None]
+    wanted = {(day.number, m.check, m.metric) for m in day.metrics}
+    return [r for r in rows if (r["day"], r["check"], r["metric"]) in wanted]
+
+
+def _why_missing(
+    day: Day, rows: list[Row], own: set[str], missing: list[Metric]
+) -> str:
+    """Return why no row of the student's own file is there."""
+    there = {(row["check"], row["metric"]): row for row in rows}
+    seen = [there[key] for m in missing if (key := (m.check, m.metric)) in there]
+    if not own or len(seen) < len(missing):
+        names = ", ".join(f"{m.check} ({m.metric})" for m in missing)
+        return f"No row yet for {names}."
+    source = day.source.read_bytes() if day.source.is_file() else None
+    marks = {mark_of(row) for row in seen}
+    if marks <= marks_of(source):
+        return "The kit's own run logged the rows that are there, not your file."
+    if "" in marks:
+        return "The rows that are there do not say that your file wrote them."
+    return "Your file has changed since it logged its rows."
+
+
+def mark_of(row: Row) -> str:
+    """Return the mark of the file that wrote a row, or ""."""
+    found = _FILE.search(str(row["notes"]))
+    return f"file {found[1]}" if found else ""
+
+
+def marks_of(script: bytes | None) -> set[str]:
+    """Return a file's mark with either line end: git may have changed them."""
+    if script is None:
+        return set()
+    unix = script.replace(b"\r\n", b"\n")
+    return {file_mark(data) for data in (script, unix, unix.replace(b"\n", b"\r\n"))}

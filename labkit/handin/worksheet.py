@@ -1,0 +1,230 @@
+"""The student's worksheet: definitions in their own words, drawings, checklist."""
+
+import re
+
+from labkit.base.text import visible
+from labkit.handin.handin import Handin, day_files, image_names, picture_path
+from labkit.handin.item import Item
+from labkit.lesson.day import Day
+
+FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # of a definition
+SHINGLE = 5  # words in a row that count as taken over
+TAKEN_OVER = 0.5  # share of a definition's shingles that may stand in the lab guide
+DRAWN_LINES = 3  # of a drawing made of text
+FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
+LONGEST = 2000  # characters of a line that are looked at
+
+# Searched in one line, without the spaces around it: no search takes long.
+_FENCE = re.compile(r"```|~~~")
+_QUESTION = re.compile(r"\d+[.)]\s+\S")
+_BOX = re.compile(r"[-*+]\s+\[\s{0,9}([xX]?)\s{0,9}\]\s*(.*)")
+# A template's own words: quoted instructions, those in italics and brackets, and lines
+# to write on. What somebody types between the template's asterisks is theirs.
+_PROMPT = re.compile(r">.*|\*\([^*]*\)\*|_\([^_]*\)_|[._\s…]*|TODO.*")
+# Where people put no spaces between words, a letter counts as one.
+_ALONE = "\u0e00-\u0eff\u1000-\u109f\u1780-\u17ff\u3040-\u30ff\u3400-\u9fff"
+_WORD = re.compile(f"[{_ALONE}]|[^\\W_{_ALONE}]+")
+
+
+def check_worksheet(day: Day, handin: Handin) -> list[Item]:
+    """Check the day's worksheet: definitions, drawings and checklist.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+    """
+    where = day_files(day)["worksheet"]
+    names = ("definitions", "drawings", "checklist")
+    data = handin.files.get(where)
+    if data is None:
+        return [Item(name, "todo", f"{where} is not there.") for name in names]
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        says = f"{where} cannot be read as text in UTF-8."
+        return [Item(name, "wrong", says) for name in names]
+    sections = split_sections(_without_comments(text))
+    try:
+        guide = (day.folder / day.guide).read_text("utf-8")
+    except OSError:
+        guide = ""
+    return [
+        _in_words(sections, day, guide, where),
+        _drawings(sections, day, handin, where),
+        _checklist(sections, where),
+    ]
+
+
+def _without_comments(text: str) -> str:
+    """Return Markdown without its comments; one that is never closed stays."""
+    kept, at = [], 0
+    while (start := text.find("<!--", at)) >= 0:
+        end = text.find("-->", start)
+        if end < 0:
+            break
+        kept.append(text[at:start])
+        at = end + 3
+    return "".join([*kept, text[at:]])
+
+
+def split_sections(text: str) -> dict[str, str]:
+    """Return {heading in lower case: the text below it, with its subsections}.
+
+    Args:
+        text: Markdown. A `#` inside a fenced block is no heading.
+    """
+    sections: dict[str, list[str]] = {}
+    open_now: list[tuple[int, str]] = []
+    fenced = False
+    for line in text.splitlines():
+        line = line[:LONGEST]
+        if _FENCE.match(line.strip()):
+            fenced = not fenced
+        level = len(line) - len(line.lstrip("#"))
+        if not fenced and 1 <= level <= 6 and line[level : level + 1].isspace():
+            name = line.strip("# \t").strip(" *_`").lower()
+            open_now = [(depth, other) for depth, other in open_now if depth < level]
+            open_now.append((level, name))
+            sections.setdefault(name, [])
+        else:
+            for _, name in open_now:
+                sections[name].append(line)
+    return {name: "\n".join(lines) for name, lines in sections.items()}
+
+
+def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
+    """Check what is written: the definitions, and then the answers."""
+    item = _definitions(sections, day.terms, guide, where)
+    open_ones = _unanswered(sections.get("can you explain?", ""), day.questions)
+    if not (open_ones and item.passed):
+        return item
+    numbers = ", ".join(map(str, open_ones))
+    says = f"All {len(day.terms)} are there. Can you explain? {numbers}: "
+    return Item("definitions", "todo", f"{says}answer below each question, in {where}.")
+
+
+def _unanswered(section: str, number: int) -> list[int]:
+    """Return the numbers of the questions without an answer in words.
+
+    A question ends with the last question mark of its first paragraph; what comes
+    after it is the answer.
+    """
+    found: list[list[str]] = []
+    for line in section.splitlines():
+        if _QUESTION.match(line.strip()):
+            found.append([])
+        if found:
+            found[-1].append("" if _PROMPT.fullmatch(line.strip()) else line)
+    answered = []
+    for lines in found:
+        first, _, rest = "\n".join(lines).partition("\n\n")
+        answer = first.rpartition("?")[2] if "?" in first else ""
+        answered.append(len(_words(f"{answer} {rest}")) >= FEWEST_ANSWER_WORDS)
+    answered += [False] * (number - len(answered))
+    return [i for i, done in enumerate(answered[:number], start=1) if not done]
+
+
+def _definitions(
+    sections: dict[str, str], terms: tuple[str, ...], guide: str, where: str
+) -> Item:
+    """Check that each term is defined, in a sentence, and not in the guide's words."""
+    given = _shingles(_words(guide))
+    empty, short, taken = [], [], []
+    for term in terms:
+        lines = sections.get(term.lower(), "").splitlines()
+        written = (ln for ln in lines if not _PROMPT.fullmatch(ln.strip()))
+        words = _words(" ".join(written))
+        own = _shingles(words)
+        if not words:
+            empty.append(term)
+        elif len(words) < FEWEST_WORDS or len(set(words)) < FEWEST_DIFFERENT:
+            short.append(term)
+        elif own and len(own & given) > TAKEN_OVER * len(own):
+            taken.append(term)
+    if not (empty or short or taken):
+        return Item("definitions")
+    done = len(terms) - len(empty) - len(short) - len(taken)
+    says = [f"{done} of {len(terms)} in {where}."]
+    if empty:
+        says.append(f"Still empty: {', '.join(empty)}.")
+    if short:
+        says.append(f"Say it in a sentence ({FEWEST_WORDS} words): {', '.join(short)}.")
+    if taken:
+        says.append(f"The guide's words, not yours: {', '.join(taken)}.")
+    untouched = len(empty) == len(terms)
+    return Item("definitions", "todo" if untouched else "wrong", " ".join(says))
+
+
+def _drawings(sections: dict[str, str], day: Day, handin: Handin, where: str) -> Item:
+    """Check that each drawing is an image of the student's, or drawn as text."""
+    number = day.drawings
+    states: dict[str, list[str]] = {"missing": [], "broken": [], "kits": [], "done": []}
+    for index in range(1, number + 1):
+        start = rf"drawing {index}\b"  # "Drawing 1: the hand's frame"
+        named = (body for name, body in sections.items() if re.match(start, name))
+        states[_drawing(next(named, ""), handin, where)].append(str(index))
+    missing, broken, kits, done = states.values()
+    if len(done) == number:
+        return Item("drawings")
+    says = [f"{len(done)} of {number} in {where}."]
+    if missing:
+        says.append(
+            f"Drawing {', '.join(missing)}: add ![](photo.jpg), or draw it as text, "
+            f"of {DRAWN_LINES} lines or more, between two lines of ```."
+        )
+    if broken:
+        says.append(
+            f"Drawing {', '.join(broken)}: its image file is not there. A picture is "
+            "a file of your own, such as ../figures/photo.jpg, and no web address."
+        )
+    if kits:
+        says.append(f"Drawing {', '.join(kits)}: the kit's picture; draw your own.")
+    untouched = len(missing) == number
+    return Item("drawings", "todo" if untouched else "wrong", " ".join(says))
+
+
+def _drawing(text: str, handin: Handin, where: str) -> str:
+    """Return how one drawing stands."""
+    if _is_drawn(text):
+        return "done"
+    addresses = image_names(text)
+    paths = [picture_path(address, where) for address in addresses]
+    kits = [handin.pictures[path] for path in paths if path in handin.pictures]
+    if kits:
+        return "kits" if all(kits) else "done"
+    return "broken" if addresses else "missing"
+
+
+def _checklist(sections: dict[str, str], where: str) -> Item:
+    """Check that every box is ticked."""
+    boxes = [
+        (bool(box[1]), box[2])
+        for line in sections.get("checklist", "").splitlines()
+        if (box := _BOX.fullmatch(line.strip()))
+    ]
+    if not boxes:
+        return Item("checklist", "wrong", f"{where} has no checklist: put it back.")
+    left = [text for ticked, text in boxes if not ticked]
+    if not left:
+        return Item("checklist")
+    says = f"{len(boxes) - len(left)} of {len(boxes)} ticked in {where}."
+    return Item("checklist", "todo", f"{says} Next: {visible(left[0], 120)}")
+
+
+def _is_drawn(text: str) -> bool:
+    """Return whether a fenced block holds a drawing made of characters."""
+    fenced, lines = False, 0
+    for line in text.splitlines():
+        if _FENCE.match(line.strip()):
+            fenced = not fenced
+        elif fenced and line.strip():
+            lines += 1
+    return lines >= DRAWN_LINES
+
+
+def _words(text: str) -> list[str]:
+    return _WORD.findall(text.lower())
+
+
+def _shingles(words: list[str]) -> set[tuple[str, ...]]:
+    return {tuple(words[i : i + SHINGLE]) for i in range(len(words) - SHINGLE + 1)}

@@ -1,0 +1,72 @@
+"""The inspector: the arm, its frames, the student's own code, in a browser.
+
+    make view DAY=2
+
+The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.py`:
+
+    from labkit.inspector.ghost import Ghost
+    from labkit.inspector.page import Page
+    from labkit.inspector.tab import Tab
+
+    GHOST = Ghost("fk_space", FRAMES, ask)    # the function that draws the ghost arm
+
+    class Screws(Tab):
+        title = "Screws"
+
+        def __init__(self, page: Page) -> None:    # the tab was opened
+            super().__init__(page)
+            self.axes = page.draw.lines(ends, "purple")
+            self.scale = page.slider("length", 0, 1, 0.5, self.changed, unit="m")
+            page.buttons(["let go"], self.let_go)
+
+        def on_move(self, q: Array) -> None:       # the arm is at q; also at the start
+            self.axes.points = ...
+
+        def close(self) -> None:                   # left; whatever `page` made is gone
+            ...
+
+    TABS = [Screws]
+
+Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
+frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
+GHOST, no ghost arm is drawn.
+
+What a tab has in `page` (`robo47/inspector/page.py` says the arguments):
+
+    model, arm, q, pose(name)   the robot, its numbers, the configuration, MuJoCo's pose
+    move(q)                     moves the arm, in every browser
+    draw                        arrow(s), lines, curve, sphere, ellipsoid, frame, label,
+                                ghost (a second arm), target (a pose to drag)
+    slider, buttons, choice, tick    each with a callback; sliders take "pi/2", "90 deg"
+    html, say, matrix           text, a line, a pose
+    bars, plot                  numbers per joint against limits; curves over time
+    animate(step, hz)           a loop in real time: start(), stop(), `running`
+    ask(function, args, done)   one call of the student's own function, in the sandbox
+    light(chosen, shown)        which frames are drawn, and which one stands out
+    gui, scene                  viser's own, for what is missing here
+
+Everything a tab makes vanishes when the tab is left: its widgets, its drawings, its
+loops. Make everything anew in `__init__`; keep on the class what should outlive the
+tab. Callbacks run one after the other on the server's event loop: keep them under 20 ms
+and never wait in one. `wide = True` on the class hides the two matrices at the top.
+
+The modules, from the numbers to the page:
+
+    arm       MuJoCo's pose, the library's, the chain's factors
+    ghost     the student's poses against MuJoCo's, as one sentence
+    student   the student's file in the checker's sandbox, reloaded on save
+    checks    the verdicts of `make check`, in the background
+    words     numbers as HTML;  typed  numbers as people type them
+    shapes    what MuJoCo's model looks like, as triangle meshes
+    triad, skin, scene, draw, hover    what is in the picture
+    history   the wanted configuration, and the way back;  address  it, in the URL
+    controls, client            sliders, buttons and tabs as HTML, and their script
+    page, tab, animate          what a tab gets, what it is, and its loops
+    joints, chain, tasks        the tabs that every day has
+    app       the page as a whole
+    guard     who may talk to it: who has its address, on this machine
+    serve     listens until Ctrl-C
+
+`arm`, `ghost`, `words` and `typed` need nothing new, `shapes` needs trimesh, and the
+rest viser, which brings trimesh (the extra `view`).
+"""

@@ -1,0 +1,192 @@
+"""What the inspector shows, as numbers: one configuration seen by two judges.
+
+Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
+`robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robo47 import panda
+from robo47.checks import Array, array
+from robo47.kinematics import Chain, Joint, Link, chain_to, fk, fk_all, frame_names
+from robo47.verify import mujoco_poses, random_q
+
+AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
+END = "ee"  # what the end effector's frame is called in T_world_ee
+
+
+class Step(NamedTuple):
+    """One factor of the chain: after = before @ factor.
+
+    Attributes:
+        link: the body that the factor leads to, or turns; short name.
+        joint: the joint that turns it; "" for the pose that the file gives.
+        name: of the factor.
+        q: the joint's value; 0 for a pose of the file.
+        before: T_world_... so far, (4, 4).
+        factor: (4, 4).
+        after: (4, 4); T_world_link once the link's own joint is in.
+        moves: which entries of the factor depend on q, (4, 4) of bool.
+    """
+
+    link: str
+    joint: str
+    name: str
+    q: float
+    before: Array
+    factor: Array
+    after: Array
+    moves: NDArray[np.bool_]
+
+
+class Arm:
+    """One arm in one configuration, with every frame's pose from both judges."""
+
+    def __init__(self, model: mujoco.MjModel, end_frame: str) -> None:
+        """Start at the handout's `home_q`.
+
+        Args:
+            model: a Panda, see `robo47.panda.load`.
+            end_frame: full name of the frame that is called `ee`.
+        """
+        self.model = model
+        self.chain = chain_to(model, end_frame)
+        self.names = _short_names(model, self.chain)
+        home = panda.home_q(model)
+        ready = np.concatenate([panda.READY_Q, home[len(panda.READY_Q) :]])
+        self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
+        self.joints = [model.joint(j).name for j in range(model.njnt)]
+        self.move(ready)
+
+    def move(self, q: ArrayLike) -> None:
+        """Take a configuration and compute every frame twice.
+
+        Args:
+            q: radians and metres, (nq,); it may be out of limits.
+
+        Raises:
+            ValueError: wrong shape, or a number that is not finite.
+        """
+        self.q = array(q, "q", (self.model.nq,)).copy()
+        self.by_mujoco = {
+            name: T[0] for name, T in mujoco_poses(self.model, self.q[None]).items()
+        }
+        self.by_library = fk_all(self.model, self.q)
+
+    def pose(self, name: str) -> Array:
+        """Return MuJoCo's T_world_NAME, (4, 4).
+
+        Args:
+            name: short name of the frame, a key of `names`.
+        """
+        return self.by_mujoco[self.names[name]]
+
+    def poses_at(self, q: Array) -> dict[str, Array]:
+        """Return MuJoCo's pose of every frame at a configuration, by short name.
+
+        Args:
+            q: (nq,); the arm stays where it is.
+        """
+        if np.array_equal(q, self.q):
+            return {name: self.pose(name) for name in self.names}
+        poses = mujoco_poses(self.model, np.asarray(q)[None])
+        return {name: poses[full][0] for name, full in self.names.items()}
+
+    def body_pose(self, body: str) -> Array:
+        """Return MuJoCo's pose of any body, (4, 4), whether it has a triad or not."""
+        return self.by_mujoco[f"body:{body}"]
+
+    def random_q(self, seed: int) -> Array:
+        """Return a configuration within the limits, to the sliders' four decimals.
+
+        Args:
+            seed: the same seed gives the same configuration.
+        """
+        return np.round(random_q(self.model, 1, seed)[0], 4)
+
+    def difference(self, name: str, T: Array | None = None) -> float:
+        """Return the largest difference of any entry between MuJoCo's pose and another.
+
+        Args:
+            name: short name of the frame, a key of `names`.
+            T: the other pose, (4, 4); the library's unless given.
+        """
+        full = self.names[name]
+        ours = self.by_library[full] if T is None else T
+        return float(np.abs(self.by_mujoco[full] - ours).max())
+
+    def limits(self, joint: str) -> tuple[float, float]:
+        """Return a joint's lowest and highest value.
+
+        Args:
+            joint: its name.
+        """
+        low, high = self.model.joint(joint).range
+        return float(low), float(high)
+
+    def out_of_limits(self) -> list[str]:
+        """Return one sentence for every joint that is outside its range."""
+        return [
+            f"{joint} = {q:.4f} is outside [{low:.4f}, {high:.4f}]"
+            for joint, q in zip(self.joints, self.q, strict=True)
+            for low, high in [self.limits(joint)]
+            if not low <= q <= high
+        ]
+
+    def steps(self) -> list[Step]:
+        """Return the chain's product, factor by factor, from the world to `ee`.
+
+        As the lab has it: one factor per link (what the file says of it) and one per
+        joint (what q adds).
+        """
+        so_far, steps = np.eye(4), []
+        previous = "world"
+        for i, link in enumerate(self.chain.links):
+            last = i == len(self.chain.links) - 1
+            name = END if last else link.name.partition(":")[2]
+            T_link = link.T_parent_link
+            if last:  # the last body leads on to the frame
+                T_link = T_link @ self.chain.T_link_frame
+            fixed = Step(
+                name, "", f"T_{previous}_{name}", 0.0, so_far, T_link,
+                so_far @ T_link, np.zeros((4, 4), dtype=bool),
+            )  # fmt: skip
+            steps.append(fixed)
+            so_far, previous = fixed.after, name
+            for joint in link.joints:
+                steps.append(self._joint_step(link, joint, name, so_far))
+                so_far = steps[-1].after
+        return steps
+
+    def _joint_step(self, link: Link, joint: Joint, name: str, before: Array) -> Step:
+        """Return the factor of one joint."""
+        one = Link(link.name, np.eye(4), (joint,))
+        alone = replace(self.chain, links=(one,), T_link_frame=np.eye(4))
+        elsewhere = self.q.copy()
+        elsewhere[joint.qpos_adr] += 0.3
+        factor = fk(alone, self.q)
+        return Step(
+            name, joint.name, f"T(q of {joint.name})", float(self.q[joint.qpos_adr]),
+            before, factor, before @ factor, factor != fk(alone, elsewhere),
+        )  # fmt: skip
+
+
+def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:
+    """Return {short name: full frame name}, `ee` first, the world left out.
+
+    A body that is only there to carry the end's site (`attachment`) shares its pose
+    with `ee` and would hide it.
+    """
+    carrier = chain.links[-1].name
+    bodies = [
+        full
+        for full in frame_names(model)
+        if full.startswith("body:") and full not in ("body:world", carrier)
+    ]
+    names = {END: chain.frame}
+    return names | {full.partition(":")[2]: full for full in bodies}

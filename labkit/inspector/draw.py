@@ -1,0 +1,252 @@
+"""What a tab draws into the scene; all of it goes when the tab is left.
+
+Points are in the world, metres, unless `on` names a pose to draw in. A colour is a name
+of `COLOURS` or (r, g, b), 0 to 255. What is returned is viser's handle: `visible`,
+`position`, `points`, ... can be set, and the scene follows.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import count
+
+import numpy as np
+import viser
+from numpy.typing import ArrayLike
+
+from labkit.inspector.meshes import Skin
+from labkit.inspector.shapes import Shape
+from labkit.inspector.triad import Triad, place
+from robo47 import se3
+from robo47.checks import Array
+
+ROOT = "/tab"
+# The browser remembers the pose of a node that is gone: a name is never given again.
+_NUMBERS = count()
+# Told apart by lightness as well as by hue (Okabe and Ito, 2008).
+COLOURS = {
+    "x": (222, 70, 20),
+    "y": (0, 158, 115),
+    "z": (20, 100, 230),
+    "orange": (230, 159, 0),
+    "red": (190, 30, 45),
+    "blue": (0, 90, 180),
+    "green": (0, 120, 90),
+    "purple": (150, 70, 150),
+    "grey": (110, 118, 128),
+    "black": (30, 34, 40),
+}
+Colour = str | tuple[int, int, int]
+
+
+class Sketch:
+    """Draws for one tab."""
+
+    def __init__(self, server: viser.ViserServer, coarse: Sequence[Shape]) -> None:
+        """Take a clean sheet.
+
+        Args:
+            server: where to draw.
+            coarse: the arm's simple meshes, for ghosts.
+        """
+        self.server, self.coarse = server, list(coarse)
+        self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
+        self.root = server.scene.add_frame(ROOT, show_axes=False)
+
+    def clear(self) -> None:
+        """Remove everything that was drawn here."""
+        self.root.remove()
+
+    def path(self) -> str:
+        """Return a name in the scene tree for one more node of this tab."""
+        return f"{ROOT}/{next(_NUMBERS)}"
+
+    def arrow(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        colour: Colour = "blue",
+        radius: float = 0.006,
+    ) -> viser.ArrowsHandle:
+        """Draw one arrow; see `arrows`."""
+        return self.arrows(np.array([[start, end]]), colour, radius)
+
+    def arrows(
+        self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
+    ) -> viser.ArrowsHandle:
+        """Draw arrows; setting `points` moves them.
+
+        Args:
+            points: start and end of each, (n, 2, 3).
+            colour: of all.
+            radius: of the shafts.
+        """
+        return self.server.scene.add_arrows(
+            self.path(), np.asarray(points, dtype=np.float32), rgb(colour),
+            shaft_radius=radius, head_radius=2.4 * radius, head_length=6 * radius,
+        )  # fmt: skip
+
+    def lines(
+        self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
+    ) -> viser.LineSegmentsHandle:
+        """Draw line segments; setting `points` moves them.
+
+        Args:
+            points: the ends of each, (n, 2, 3).
+            colour: of all.
+            width: pixels.
+        """
+        return self.server.scene.add_line_segments(
+            self.path(), np.asarray(points, dtype=np.float32), rgb(colour),
+            thickness=width, thickness_units="screen",
+        )  # fmt: skip
+
+    def curve(
+        self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
+    ) -> viser.LineSegmentsHandle:
+        """Draw a line through points, (n, 3); see `lines`."""
+        p = np.asarray(points)
+        return self.lines(np.stack([p[:-1], p[1:]], axis=1), colour, width)
+
+    def sphere(
+        self, at: ArrayLike, radius: float, colour: Colour = "grey", opacity: float = 1
+    ) -> viser.IcosphereHandle:
+        """Draw a ball; setting `position` moves it.
+
+        Args:
+            at: its middle, (3,).
+            radius: metres.
+            colour: of it.
+            opacity: 0 to 1.
+        """
+        return self.server.scene.add_icosphere(
+            self.path(), radius, rgb(colour), opacity=opacity,
+            position=np.asarray(at, dtype=np.float64),
+        )  # fmt: skip
+
+    def ellipsoid(self, colour: Colour = "purple", opacity: float = 0.4) -> "Ellipsoid":
+        """Draw an ellipsoid; `show(matrix, at, scale)` gives it its shape.
+
+        Args:
+            colour: of it.
+            opacity: 0 to 1.
+        """
+        ball = self.server.scene.add_icosphere(
+            self.path(), 1.0, rgb(colour), opacity=opacity, visible=False
+        )
+        return Ellipsoid(ball)
+
+    def frame(self, name: str, T: Array | None = None) -> Triad:
+        """Draw a frame with its name; `place(T)` moves it, `show(...)` hides it.
+
+        Args:
+            name: beside it; "" for none.
+            T: its pose, (4, 4).
+        """
+        triad = Triad(self.server, self.path(), name)
+        if T is not None:
+            triad.place(T)
+        return triad
+
+    def label(self, text: str, at: ArrayLike) -> viser.LabelHandle:
+        """Write at a point, (3,); setting `position` or `text` changes it."""
+        return self.server.scene.add_label(
+            self.path(), text, position=np.asarray(at, dtype=np.float64),
+            font_screen_scale=0.8,
+        )  # fmt: skip
+
+    def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
+        """Draw another arm; `pose({body: T_world_body})` puts its links somewhere.
+
+        Args:
+            colour: of it.
+            opacity: 0 to 1.
+        """
+        skin = Skin(self.server, self.path())
+        skin.put_on(self.coarse, rgb(colour), opacity)
+        if not self.coarse:
+            self._bare.append(partial(skin.put_on, colour=rgb(colour), opacity=opacity))
+        return skin
+
+    def dress(self, coarse: Sequence[Shape]) -> None:
+        """Put the arm's simple meshes on the ghosts that were drawn before them."""
+        self.coarse = list(coarse)
+        while self._bare:
+            self._bare.pop()(self.coarse)
+
+    def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
+        """Draw a handle that can be dragged and turned with the mouse.
+
+        Args:
+            T: where it is at first, (4, 4).
+            on_drag: is given its new pose, (4, 4).
+        """
+        return Target(self.server.scene.add_transform_controls(
+            self.path(), scale=0.18, depth_test=False
+        ), T, on_drag)  # fmt: skip
+
+
+class Ellipsoid:
+    """The points p with p^T A^-1 p = 1, around a point."""
+
+    def __init__(self, ball: viser.IcosphereHandle) -> None:
+        """Keep the ball of radius 1 that is stretched."""
+        self.ball = ball
+
+    def show(self, A: ArrayLike, at: ArrayLike, scale: float = 1.0) -> None:
+        """Give it its shape.
+
+        Args:
+            A: symmetric, not negative, (3, 3): J J^T, or the inverse of an inertia.
+            at: its middle, metres, (3,).
+            scale: metres per unit of the half axes, which are sqrt(eigenvalues).
+        """
+        squares, axes = np.linalg.eigh(np.asarray(A, dtype=np.float64))
+        axes[:, 2] *= np.sign(np.linalg.det(axes))  # a rotation, not a reflection
+        half = scale * np.sqrt(np.maximum(squares, 0.0))
+        x, y, z = (float(max(h, 1e-4)) for h in half)
+        self.ball.scale = (x, y, z)
+        place(self.ball, se3.make_T(axes, at))
+        self.ball.visible = True
+
+
+class Target:
+    """A pose that the mouse moves."""
+
+    def __init__(
+        self,
+        handle: viser.TransformControlsHandle,
+        T: Array,
+        on_drag: Callable[[Array], None],
+    ) -> None:
+        """Put it somewhere and listen to it."""
+        self.handle = handle
+        self.place(T)
+
+        @handle.on_update
+        async def _(event: viser.TransformControlsEvent) -> None:
+            position, wxyz = np.array(handle.position), np.array(handle.wxyz)
+            if np.isfinite([*position, *wxyz]).all() and np.linalg.norm(wxyz) > 0.5:
+                on_drag(self.T)
+
+    @property
+    def T(self) -> Array:
+        """Where it is, (4, 4)."""
+        R = se3.quat_to_R(np.array(self.handle.wxyz))
+        return se3.make_T(R, np.array(self.handle.position))
+
+    def place(self, T: Array) -> None:
+        """Put it somewhere, (4, 4)."""
+        place(self.handle, T)
+
+
+def rgb(colour: Colour) -> tuple[int, int, int]:
+    """Return a colour's numbers.
+
+    Raises:
+        ValueError: no colour has that name.
+    """
+    if not isinstance(colour, str):
+        return colour
+    if colour not in COLOURS:
+        raise ValueError(f"no colour {colour!r}; there are {', '.join(COLOURS)}")
+    return COLOURS[colour]

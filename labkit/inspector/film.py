@@ -1,0 +1,83 @@
+"""A clip of the arm and of the student's own, drawn headless as the figures are."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from labkit.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
+from labkit.inspector import checker_calls
+from labkit.inspector.arm import Arm
+from labkit.inspector.ghost import Difference, Ghost, Seen, compare
+from labkit.inspector.student import poses_of
+from labkit.inspector.tab import day_tabs
+from labkit.judge.exchange import LoadError
+from labkit.lesson.day import Day
+from labkit.sandbox.sandbox import Sandbox
+from robo47 import panda
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+
+ENTRY, FRAMES = "panda_nohand", 40
+REACH_Q = np.array(
+    [0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6]
+)  # where the arm goes and back
+
+
+def film(path: Path, day: Day, file: Path | None = None) -> int:
+    """Write a clip; the arm of the student's code is red wherever it differs.
+
+    Args:
+        path: ends in .gif or .webp.
+        day: whose function draws the second arm.
+        file: the student's; the one in work/ unless given. Without it the arm is alone.
+
+    Returns:
+        Its size, bytes.
+
+    Raises:
+        Robo47Error: nothing draws here, or another ending.
+    """
+    kind_of(path)
+    arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
+    script = file or day.work
+    if file and not file.is_file():
+        raise Robo47Error(f"{file} is not there")
+    ghost = day_tabs(day).ghost
+    qs = there_and_back(panda.READY_Q, REACH_Q, FRAMES)
+    said: dict[bytes, Difference] = {}
+    if ghost is not None and script.is_file():
+        said = _differences(arm, ghost, day, script, qs)
+
+    def ghost_of(q: Array) -> dict[str, Array]:
+        return dict(said[q.tobytes()].drawn) if said else {}
+
+    def caption_of(q: Array) -> Caption:
+        if not said:
+            return "", None
+        apart = said[q.tobytes()]
+        return apart.sentence.rstrip("."), apart.good
+
+    return save_clip(arm_clip(qs, ghost_of, caption_of), path)
+
+
+def _differences(
+    arm: Arm, ghost: Ghost, day: Day, script: Path, qs: Array
+) -> dict[bytes, Difference]:
+    """Return how the student's arm differs at each configuration."""
+    found = {}
+    with Sandbox() as sandbox:
+        source = replace(
+            checker_calls.source_of(day, arm.model, sandbox), script=script
+        )
+        try:
+            asker = source.open(script)
+        except LoadError as error:
+            raise Robo47Error(source.explain(script, error.reply)) from None
+        for q in qs:
+            poses, problem = poses_of(asker, source, ghost, arm.model, q)
+            seen = Seen(q, poses, problem)
+            found[q.tobytes()] = compare(ghost, seen, arm.poses_at(q))
+            if not asker.alive:
+                raise Robo47Error(problem)
+    return found

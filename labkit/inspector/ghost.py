@@ -1,0 +1,160 @@
+"""The student's own forward kinematics, as poses to draw and as one sentence.
+
+A day says in its `inspector.py` which function is the chain and what to ask it:
+
+    GHOST = Ghost("fk", frames=("link0", ..., "ee"), questions=ask)
+
+What comes back is compared with MuJoCo here; the code that gave it ran in the checker's
+sandbox (`student`). Metres, radians.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from labkit.inspector.arm import AGREES
+from robo47.checks import Array
+
+Arguments = tuple[Any, ...]
+FARTHEST = 1e3  # metres; a frame further away is not drawn
+
+
+@dataclass(frozen=True)
+class Ghost:
+    """Which function of the student's draws the ghost arm, and how.
+
+    Attributes:
+        function: its name in the student's file.
+        frames: short names of the frames along the arm, the base first, the end last.
+        questions: `questions(model, q)` returns the function's arguments for each of
+            the frames, in that order; a `Model(0)` among them is the model.
+        whole: `whole(model, q)` returns the arguments for the last frame alone, asked
+            where the function answers none of the questions; None for never.
+    """
+
+    function: str
+    frames: tuple[str, ...]
+    questions: Callable[[mujoco.MjModel, Array], Sequence[Arguments]]
+    whole: Callable[[mujoco.MjModel, Array], Arguments] | None = None
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What the student's function said of one configuration.
+
+    Attributes:
+        q: the configuration, (nq,).
+        poses: {short name: T_world_frame (4, 4)}, as far as there are any.
+        problem: why there are none, or fewer than asked for; "".
+        milliseconds: from question to answer.
+    """
+
+    q: Array
+    poses: Mapping[str, Array] = field(default_factory=dict)
+    problem: str = ""
+    milliseconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How the student's poses differ from MuJoCo's.
+
+    Attributes:
+        sentence: in the student's name.
+        good: whether they agree everywhere.
+        drawn: {short name: a rigid pose, (4, 4)} of the frames that differ.
+    """
+
+    sentence: str
+    good: bool
+    drawn: Mapping[str, Array]
+
+
+def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
+    """Return how the student's arm differs from MuJoCo's.
+
+    Args:
+        ghost: whose function.
+        seen: its poses.
+        truth: {short name: MuJoCo's pose (4, 4)}, of the same configuration.
+    """
+    whose = f"YOUR {ghost.function}"
+    apart = {
+        name: float(np.abs(seen.poses[name] - truth[name]).max())
+        for name in ghost.frames
+        if name in seen.poses
+    }
+    wrong = [name for name, difference in apart.items() if not difference < AGREES]
+    drawn = {name: nearest_pose(seen.poses[name]) for name in wrong}
+    if wrong:
+        end = ghost.frames[-1] if ghost.frames[-1] in wrong else wrong[-1]
+        how = _how_far(seen.poses[end], truth[end])
+        says = f"{whose} is off by {how} at {end}; first frame that differs: {wrong[0]}"
+        if bent := [name for name in wrong if not is_rigid(seen.poses[name])]:
+            says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
+        return Difference(f"{says}. {seen.problem}".strip(), False, drawn)
+    if ghost.frames[-1] not in apart:
+        return Difference(seen.problem or f"{whose} gave no pose", False, {})
+    worst = max(apart.values())
+    where = "at every frame" if len(apart) == len(ghost.frames) else "here"
+    says = f"{whose} agrees with MuJoCo {where}: largest difference {worst:.1e}"
+    return Difference(f"{says}. {seen.problem}".rstrip(". "), True, {})
+
+
+def _how_far(T: Array, truth: Array) -> str:
+    """Return a distance, or an angle where the place is right."""
+    metres = float(np.linalg.norm(T[:3, 3] - truth[:3, 3]))
+    if metres >= 1e-3:
+        return f"{1000 * metres:.0f} mm"
+    R = nearest_pose(T)[:3, :3].T @ truth[:3, :3]
+    sine = np.linalg.norm([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    degrees = float(np.degrees(np.arctan2(sine, (np.trace(R) - 1) / 2)))
+    if degrees >= 0.05:
+        return f"{degrees:.1f} degrees"
+    return f"{float(np.abs(T - truth).max()):.1e} (largest entry)"
+
+
+def is_rigid(T: Array) -> bool:
+    """Return whether a matrix is a rigid transform, to six decimals."""
+    R = T[:3, :3]
+    rigid = np.allclose(R @ R.T, np.eye(3), atol=1e-6) and np.linalg.det(R) > 0
+    return bool(rigid and np.allclose(T[3], [0, 0, 0, 1], atol=1e-6))
+
+
+def nearest_pose(T: Array) -> Array:
+    """Return the rigid transform nearest to a matrix, for drawing it.
+
+    The rotation is the nearest in the least-squares sense (Kabsch 1976).
+
+    Args:
+        T: finite, (4, 4).
+    """
+    U, _, Vt = np.linalg.svd(T[:3, :3])
+    U[:, 2] *= np.sign(np.linalg.det(U @ Vt)) or 1.0
+    nearest = np.eye(4)
+    nearest[:3, :3], nearest[:3, 3] = U @ Vt, T[:3, 3]
+    return nearest
+
+
+def no_pose(function: str, value: Any) -> str:
+    """Return why a value cannot be drawn as a pose; "" where it can.
+
+    Args:
+        function: whose value.
+        value: as the sandbox gives it.
+    """
+    if not isinstance(value, np.ndarray):
+        got = "nothing" if value is None else type(value).__name__
+        return f"{function} returned {got}; a pose is an array of shape (4, 4)."
+    if value.dtype.kind not in "fiub":
+        return f"{function} returned {value.dtype}; a pose is made of real numbers."
+    if value.shape != (4, 4):
+        return f"{function} returned shape {value.shape}; a pose has shape (4, 4)."
+    if not np.isfinite(value).all():
+        return f"{function} returned numbers that are not finite."
+    if np.abs(value[:3, 3]).max() > FARTHEST:
+        return f"{function} returned a place over a kilometre away."
+    return ""

@@ -1,0 +1,222 @@
+"""Who may talk to the inspector: who has its address, on this machine, nobody else.
+
+viser is made for trusted networks. Left alone it listens on every interface, accepts
+WebSockets from any web page that the student has open (which could then move the
+arm), and opens a public share tunnel for whichever client asks. Here:
+
+- it listens on the loopback address alone;
+- the address holds a secret, new at every start (`http://127.0.0.1:8080/SECRET/`):
+  other users of the machine cannot know it. It stands in the path, so that the page,
+  its WebSocket and its requests carry it, and no cookie does;
+- a request must name this machine as its host (a page that rebinds its own DNS name
+  to 127.0.0.1 still says its own name), and a WebSocket must come from the very page
+  that this server served (same origin);
+- share requests are refused;
+- a client sets a widget's value and nothing else of it (viser sets any attribute).
+"""
+
+import contextlib
+import hmac
+import http
+import logging
+import re
+import secrets
+import urllib.parse
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import wraps
+from typing import Any
+
+import rich
+import viser
+import websockets.asyncio.server
+from viser import _messages
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from labkit.inspector.client import with_client
+from robo47.errors import Robo47Error
+
+LOOPBACK = "127.0.0.1"
+OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
+LONGEST = 2_000  # characters of a request's path
+Receive = Callable[[str, str], int]  # a control's name, what it says; its number
+PROTECTION = {
+    "Referrer-Policy": "no-referrer",  # the address is the secret
+    "X-Frame-Options": "DENY",
+    "X-Content-Type-Options": "nosniff",
+    "Cache-Control": "no-store",
+}
+
+
+class LocalServer(viser.ViserServer):
+    """A viser server for this machine's browsers alone."""
+
+    def __init__(self, port: int) -> None:
+        """Listen on 127.0.0.1, at this port or the next free one.
+
+        Args:
+            port: the wish; `get_port()` tells what it became.
+
+        Raises:
+            Robo47Error: this viser starts its web server in a way not known here, so
+                that its doors cannot be watched.
+        """
+        rich.get_console().quiet = True  # the script says where to look, once
+        # A broken client's message ends its connection; it is no news for the student.
+        logging.getLogger("websockets.server").setLevel(logging.CRITICAL + 1)
+        # Nor is what was still to be drawn when a page, or this server, was closed.
+        warnings.filterwarnings("ignore", "Queued a .* on a closed connection")
+        self.door = Door()
+        with _watched_doors(self.door) as watched:
+            super().__init__(host=LOOPBACK, port=port, verbose=False)
+        if not watched:
+            self.stop()
+            raise Robo47Error(
+                f"viser {viser.__version__} cannot be kept from answering other sites' "
+                "pages. Install the pinned one: python3 scripts/setup_env.py view"
+            )
+        _values_only(self)
+        self.gui.configure_theme(
+            show_share_button=False, show_logo=False, control_width="large"
+        )
+
+    @property
+    def url(self) -> str:
+        """The page's address, secret included."""
+        return f"http://{LOOPBACK}:{self.get_port()}/{self.door.secret}/"
+
+    def request_share_url(self, verbose: bool = True) -> str | None:
+        """Refuse, whoever asks: the arm is not put on the internet."""
+        return None
+
+
+class Door:
+    """What every request passes: refuses it, answers it, or hands it to viser."""
+
+    def __init__(self) -> None:
+        """Make a new secret."""
+        self.secret = secrets.token_urlsafe(12)
+        self.receive: Receive = lambda name, value: 0
+
+    def refusal(self, request: Request) -> str | None:
+        """Return why a request is refused, or None for one that may pass.
+
+        Args:
+            request: its path and headers.
+        """
+        if why := foreign(request.headers):
+            return why
+        given = request.path.partition("?")[0].strip("/").partition("/")[0]
+        if len(request.path) > LONGEST:
+            return "that address is too long"
+        if not hmac.compare_digest(given.encode(), self.secret.encode()):
+            return "open the whole address that `make view` printed"
+        return None
+
+    def answer(
+        self,
+        connection: ServerConnection,
+        request: Request,
+        viser_answers: Callable[[ServerConnection, Request], Response | None],
+    ) -> Response | None:
+        """Return the answer to a request; None opens a WebSocket.
+
+        Args:
+            connection: whose request.
+            request: what is asked for.
+            viser_answers: viser's own way.
+        """
+        if why := self.refusal(request):
+            return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
+        path, _, query = request.path.partition("?")
+        path = path.strip("/").removeprefix(self.secret)
+        if path == "/do":
+            return connection.respond(http.HTTPStatus.OK, str(self._do(query)))
+        plain = Headers(request.headers)
+        with contextlib.suppress(KeyError):
+            del plain["Accept-Encoding"]  # the page is changed below
+        response = viser_answers(
+            connection, replace(request, path=path or "/", headers=plain)
+        )
+        return response and _protected(response, page=not path)
+
+    def _do(self, query: str) -> int:
+        found = urllib.parse.parse_qs(query, keep_blank_values=True)
+        name, value = (found.get(key, [""])[0] for key in ("control", "value"))
+        return self.receive(name, value)
+
+
+def foreign(headers: Headers) -> str | None:
+    """Return why headers cannot be those of the inspector's own page, or None.
+
+    Args:
+        headers: of the request.
+    """
+    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+    if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
+        return "this address is not the inspector's; open http://127.0.0.1:PORT"
+    # Every browser sends Origin with a WebSocket; same port as well, since another
+    # program's page on this machine is another origin.
+    wanted = [f"http://{hosts[0]}"]
+    if origins != wanted and (origins or headers.get_all("Upgrade")):
+        return "only the inspector's own page may connect to it"
+    return None
+
+
+def _protected(response: Response, page: bool) -> Response:
+    """Return viser's response with our headers, and its page with our client."""
+    body = with_client(bytes(response.body)) if page else response.body
+    headers = Headers(response.headers)
+    for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
+        with contextlib.suppress(KeyError):
+            del headers[name]
+        headers[name] = value
+    return replace(response, headers=headers, body=body)
+
+
+@contextlib.contextmanager
+def _watched_doors(door: Door) -> Iterator[list[bool]]:
+    """Make any web server that is started meanwhile ask the door first."""
+    serve, watched = websockets.asyncio.server.serve, []
+
+    @wraps(serve)
+    def guarded(*args: Any, process_request: Any, **options: Any) -> Any:
+        watched.append(True)
+
+        def asked(connection: ServerConnection, request: Request) -> Response | None:
+            return door.answer(connection, request, process_request)
+
+        return serve(*args, process_request=asked, **options)
+
+    websockets.asyncio.server.serve = guarded  # type: ignore[assignment, misc]
+    try:
+        yield watched
+    finally:
+        websockets.asyncio.server.serve = serve  # type: ignore[misc]
+
+
+def _values_only(server: viser.ViserServer) -> None:
+    """Let a client's update through only where it is a value that the widget can have.
+
+    viser sets whatever attribute a message names, and believes a drop-down's value.
+    """
+    gui, kind = server.gui, _messages.GuiUpdateMessage
+    handle = gui._handle_gui_updates
+
+    async def checked(client_id: Any, message: _messages.GuiUpdateMessage) -> None:
+        widget = gui._gui_input_handle_from_uuid.get(message.uuid)
+        value = message.updates.get("value")
+        if widget is None or set(message.updates) != {"value"}:
+            return
+        options = getattr(widget, "options", None)
+        if options is not None and value not in options:
+            return
+        with contextlib.suppress(TypeError, ValueError, AssertionError, OverflowError):
+            await handle(client_id, message)
+
+    interface = gui._websock_interface
+    interface.unregister_handler(kind, handle)
+    interface.register_handler(kind, checked)

@@ -1,0 +1,127 @@
+"""The Panda in MuJoCo's own window, at ready and holding still.
+
+MuJoCo ends the whole process where it cannot open a window, so that is found out
+first, in a process that may die.
+"""
+
+import os
+import subprocess
+import sys
+import time
+
+import mujoco
+import numpy as np
+
+from labkit.base import cli
+from labkit.figures.scene import Camera
+from robo47 import panda
+
+FRAME_SECONDS = 1 / 60
+PROBE_SECONDS = 20
+# What MuJoCo's viewer needs: a GLFW window with an OpenGL context.
+_PROBE = (
+    "import glfw, sys; glfw.init() or sys.exit(1); "
+    "glfw.window_hint(glfw.VISIBLE, False); "
+    "w = glfw.create_window(64, 64, '', None, None); glfw.terminate(); "
+    "sys.exit(0 if w else 1)"
+)
+
+
+def obstacle() -> str | None:
+    """Return why no window can be opened from here, or None where one can."""
+    if sys.platform == "darwin":
+        import mujoco.viewer
+
+        if getattr(mujoco.viewer, "_MJPYTHON", None) is None:
+            return (
+                "on macOS MuJoCo's window needs its own Python: "
+                "mjpython scripts/view_panda.py --native"
+            )
+        return None
+    if sys.platform != "win32" and not (
+        os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    ):
+        return "there is no display (DISPLAY and WAYLAND_DISPLAY are not set)"
+    try:
+        probe = subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", _PROBE],
+            capture_output=True,
+            timeout=PROBE_SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return "the display does not answer"
+    return None if probe.returncode == 0 else "the display cannot open an OpenGL window"
+
+
+def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
+    """Return the arm at `panda.READY_Q`, its actuators set to hold it there.
+
+    That is the configuration whose matrices the lessons print; `home`, the model's own
+    key, is another one.
+
+    Args:
+        model: the Panda, any entry, with its servos.
+    """
+    data, joints = mujoco.MjData(model), len(panda.READY_Q)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)  # opens the fingers
+    data.qpos[:joints] = panda.READY_Q
+    data.ctrl[:joints] = panda.READY_Q  # with qpos alone the arm would sag at once
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def show() -> int:
+    """Open the window on `scene.xml` and simulate until it is closed.
+
+    Returns:
+        The exit code.
+    """
+    import mujoco.viewer
+
+    model = panda.load("scene", meshes=True)
+    data = at_ready(model)
+    model.vis.scale.framelength *= 0.6  # the default triads hide the arm
+    model.vis.scale.framewidth *= 0.4
+    print("window: the arm at ready; Shift+Tab shows its sliders, under Control")
+    print("        (Tab shows the options). Close it, or Ctrl-C here, to end")
+    try:
+        # Both of MuJoCo's panels would leave a small window no room for the arm.
+        with mujoco.viewer.launch_passive(
+            model, data, show_left_ui=False, show_right_ui=False
+        ) as viewer:
+            viewer.opt.frame = int(mujoco.mjtFrame.mjFRAME_BODY)
+            viewer.opt.label = int(mujoco.mjtLabel.mjLABEL_BODY)
+            look_at(viewer.cam, Camera(distance=2.6))
+            while viewer.is_running():
+                _advance(viewer, model, data)
+    except KeyboardInterrupt:
+        print("\nwindow closed")
+    finally:
+        # Its thread is still tidying up: without the wait most runs crashed at exit.
+        time.sleep(1.0)
+    return cli.EXIT_OK
+
+
+def look_at(theirs: mujoco.MjvCamera, camera: Camera) -> None:
+    """Turn MuJoCo's camera to where one of ours looks from.
+
+    Args:
+        theirs: the viewer's, changed in place.
+        camera: ours.
+    """
+    theirs.lookat[:] = camera.lookat
+    theirs.distance = camera.distance
+    theirs.azimuth = float(np.degrees(camera.azimuth))
+    theirs.elevation = float(np.degrees(camera.elevation))
+
+
+def _advance(
+    viewer: "mujoco.viewer.Handle", model: mujoco.MjModel, data: mujoco.MjData
+) -> None:
+    """Simulate and show one picture's worth of time, in real time."""
+    start = time.perf_counter()
+    with viewer.lock():
+        mujoco.mj_step(model, data, nstep=round(FRAME_SECONDS / model.opt.timestep))
+    viewer.sync()
+    time.sleep(max(0.0, start + FRAME_SECONDS - time.perf_counter()))

@@ -1,0 +1,174 @@
+"""Draws the arm: meshes where MuJoCo puts the bodies, triads where the library does.
+
+The triads are there at once; the meshes come later, first the simple ones that MuJoCo
+collides with, then those that one looks at. Metres.
+"""
+
+from collections.abc import Collection, Mapping
+
+import numpy as np
+import viser
+
+from labkit.inspector.arm import Arm
+from labkit.inspector.meshes import Colour, Skin
+from labkit.inspector.shapes import Shape
+from labkit.inspector.triad import Anchor, Triad
+from robo47.checks import Array
+
+# Seen from its right and front; aimed beside the arm, since the panel covers the
+# right third of the page.
+CAMERA, LOOK_AT, FOV = (1.75, -1.45, 0.95), (0.42, 0.24, 0.4), 0.72
+# For a page that is higher than wide: from further away, the arm above the panel.
+PHONE_CAMERA, PHONE_LOOK_AT = (2.7, -2.3, 1.2), (0.2, 0.0, -0.1)
+BACKDROP = (226, 230, 236)
+# Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
+ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
+SEE_THROUGH = 0.5  # opacity
+# What a see-through arm's colours are multiplied by: white would vanish before the
+# backdrop; it turns green where the student's own code puts every link.
+GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
+HIGHLIGHT = (255, 176, 0)
+GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.6
+
+
+class ArmScene:
+    """The arm on its floor with a triad per frame, and the student's as a ghost."""
+
+    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+        """Draw everything but the meshes; `update` only moves it.
+
+        Args:
+            server: where to draw.
+            arm: what to draw.
+        """
+        self.arm = arm
+        _set_stage(server)
+        self.triads = {
+            name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
+            for i, name in enumerate(arm.names)
+        }
+        Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
+        self.yours = Triad(server, "/yours_end", "yours", letters=True)
+        self.yours.show(visible=False, chosen=True)
+        self.way = _lines(server, "/way", HIGHLIGHT)
+        self.gap = _lines(server, "/gap", GHOST_COLOUR)
+        self.opaque, self.agrees = False, False
+        self.coarse: list[Shape] = []
+        self.update()
+
+    def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
+        """Put meshes on the arm.
+
+        Args:
+            shapes: of every body.
+            ghosts: draw the ghost with them, too.
+        """
+        self.skin.put_on(shapes)
+        self.paint()
+        if ghosts:
+            self.coarse = shapes
+            self.ghost.put_on(shapes, GHOST_COLOUR, GHOST_OPACITY)
+        self.update()
+
+    def update(self) -> None:
+        """Move everything to the arm's present configuration."""
+        self.skin.pose({name: self.arm.body_pose(name) for name in self.skin.bodies})
+        for name, triad in self.triads.items():
+            triad.place(self.arm.by_library[self.arm.names[name]])
+
+    def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
+        """Draw the student's arm where it is not the real one.
+
+        Args:
+            poses: {short name of a frame: its pose, where it differs}.
+            end: the frame from whose true place a line leads to the student's.
+        """
+        self.ghost.pose(poses)
+        there = poses.get(end)
+        self.yours.show(there is not None, chosen=True)
+        self.gap.visible = there is not None
+        if there is not None:
+            self.yours.place(there)
+            ends = [self.arm.pose(end)[:3, 3], there[:3, 3]]
+            self.gap.points = np.array([ends], dtype=np.float32)
+
+    def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
+        """Make one frame stand out.
+
+        Args:
+            chosen: its short name; None for no one.
+            shown: the frames that are drawn at all; None for every one.
+        """
+        for name, triad in self.triads.items():
+            triad.show(shown is None or name in shown, name == chosen)
+
+    def trace(self, origins: Array) -> None:
+        """Draw the way from the world through these origins, (n, 3); n = 0: none."""
+        joined = np.array([[0.0, 0.0, 0.0], *origins], dtype=np.float32)
+        self.way.visible = len(origins) > 0
+        if self.way.visible:
+            self.way.points = np.stack([joined[:-1], joined[1:]], axis=1)
+
+    def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
+        """Make the arm solid or see-through, and green or not.
+
+        Args:
+            opaque: None leaves it as it is.
+            agrees: whether the student's code puts every link here.
+        """
+        before = self.opaque, self.agrees
+        self.opaque = self.opaque if opaque is None else opaque
+        self.agrees = self.agrees if agrees is None else agrees
+        if before != (self.opaque, self.agrees):
+            self.paint()
+
+    def paint(self) -> None:
+        """Give the meshes their colours."""
+        if self.opaque:
+            self.skin.look(None)
+        else:
+            self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
+
+
+def _set_stage(server: viser.ViserServer) -> None:
+    """Set camera, backdrop and floor."""
+    # viser lights with a photograph of a sky and casts shadows: on a computer without a
+    # GPU half a minute before the first picture, and a sixth of the frames.
+    server.scene.configure_environment_map(None)
+    server.scene.configure_default_lights(cast_shadow=False)
+    server.scene.add_light_hemisphere("/sky", ground_color=(190, 195, 205), intensity=2)
+    camera = server.initial_camera
+    camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
+
+    @server.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        if client.camera.aspect < 1.0:
+            client.camera.position, client.camera.look_at = PHONE_CAMERA, PHONE_LOOK_AT
+
+    backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
+    server.scene.set_background_image(backdrop, format="png")
+    server.scene.add_grid(
+        "/floor",
+        2.0,
+        2.0,
+        cell_size=0.1,
+        section_size=0.5,
+        cell_thickness=0.5,
+        cell_color=(180, 187, 196),
+        section_thickness=0.8,
+    )
+
+
+def _lines(
+    server: viser.ViserServer, path: str, colour: Colour
+) -> viser.LineSegmentsHandle:
+    """Add line segments that have their points yet to come."""
+    return server.scene.add_line_segments(
+        path,
+        np.zeros((1, 2, 3), dtype=np.float32),
+        colour,
+        thickness=2.5,
+        thickness_units="screen",
+        visible=False,
+    )

@@ -1,0 +1,216 @@
+"""Serves the inspector on this machine until Ctrl-C, and says where to look.
+
+The page is there before the arm's meshes are: numbers and triads first, then simple
+meshes, then the fine ones.
+"""
+
+import asyncio
+import contextlib
+import getpass
+import os
+import signal
+import socket
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
+
+import mujoco
+import viser
+
+from labkit.base import cli
+from labkit.inspector import checker_calls
+from labkit.inspector.app import Inspector, Meshes
+from labkit.inspector.arm import Arm
+from labkit.inspector.checks import Checks
+from labkit.inspector.guard import LOOPBACK, LocalServer
+from labkit.inspector.shapes import COLLISION_GROUPS, shapes
+from labkit.inspector.student import Student
+from labkit.inspector.tab import day_tabs
+from labkit.lesson.day import Day
+from labkit.sandbox.sandbox import Sandbox
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+PORTS_TRIED = 100
+WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
+T = TypeVar("T")
+PATIENCE = 30.0  # seconds
+WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
+
+
+@dataclass(frozen=True)
+class Show:
+    """What to show.
+
+    Attributes:
+        day: whose tabs and whose file.
+        arm: without its looks; the numbers need none.
+        about: the line that says which robot this is.
+        dressed: loads the same model with its meshes; takes seconds.
+        simple: leave the fine meshes out, for a computer that draws without a GPU.
+    """
+
+    day: Day
+    arm: Arm
+    about: str
+    dressed: Callable[[], mujoco.MjModel]
+    simple: bool = False
+
+
+def serve(show: Show, port: int) -> int:
+    """Serve the page until Ctrl-C.
+
+    Args:
+        show: what to show.
+        port: the wish; the next free one is taken where it is busy.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        Robo47Error: no port is free, or the day's tabs do not load.
+    """
+    # A shell that starts a job with & has it ignore Ctrl-C; `kill` ends as well.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
+    tabs = day_tabs(show.day)
+    server = LocalServer(free_port(port))
+    with contextlib.ExitStack() as ends:
+        ends.callback(server.stop)
+        try:
+            server._websock_server.get_message_buffer().max_window_size = WINDOW
+            page = on_loop(
+                server, lambda: Inspector(server, show.arm, show.about, tabs)
+            )
+            server.door.receive = page.receive
+            print("\n".join(where_to_look(port, server)), flush=True)
+            if page.day.ghost is not None:
+                student = watch(page, show, ends)
+                ends.callback(student.close)
+            dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
+            dresser.start()
+            # Python must not end while MuJoCo is at work in another thread: it crashes.
+            ends.callback(dresser.join, PATIENCE)
+            while True:
+                time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
+        except KeyboardInterrupt:
+            print("\ninspector stopped")
+            return cli.EXIT_OK
+
+
+def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:
+    """Call something on the server's event loop, where the page lives."""
+
+    async def called() -> T:
+        return call()
+
+    return asyncio.run_coroutine_threadsafe(called(), server.get_event_loop()).result()
+
+
+def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
+    """Start the thread that asks the student's file, and the checks after a save.
+
+    Args:
+        page: where it is shown.
+        show: the day and the arm.
+        ends: what is to be closed in the end.
+    """
+    assert page.day.ghost is not None
+    sandbox = ends.enter_context(Sandbox())
+    checks = Checks(partial(checker_calls.verdicts, show.day), page.on_loop(page.judge))
+    ends.callback(checks.close)
+
+    def saved() -> None:
+        if show.day.work.is_file():
+            checks.again()
+
+    student = Student(
+        checker_calls.source_of(show.day, show.arm.model, sandbox), page.day.ghost,
+        show.arm.model, page.on_loop(page.hear), saved,
+    )  # fmt: skip
+
+    def begin() -> None:
+        page.panel.no_file = (
+            f"No {shown(show.day.work)} yet: make start DAY={show.day.number}. "
+            "Shown is the kit's library."
+        )
+        page.student = student
+        page.update()
+
+    on_loop(page.server, begin)
+    student.start()
+    return student
+
+
+def dress(page: Inspector, show: Show) -> None:
+    """Load the meshes and put them on: the simple ones, then the fine ones."""
+    try:
+        model = show.dressed()
+    except Robo47Error as error:
+        print(f"the arm stays without its meshes: {error}", flush=True)
+        return
+    put_on = page.on_loop(partial(page.dress, model))
+    coarse = [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
+    if coarse:
+        put_on(Meshes(coarse, True))
+    if not (coarse and show.simple):
+        put_on(Meshes(shapes(model), not coarse))
+
+
+def where_to_look(wish: int, server: LocalServer) -> list[str]:
+    """Return the lines that tell a person where the page is.
+
+    Args:
+        wish: the port that was asked for; 0 for any.
+        server: listening.
+    """
+    port = server.get_port()
+    moved = [f"port {wish} is taken; using {port}"] if wish not in (0, port) else []
+    return [
+        *moved,
+        f"inspector: {server.url}   (Ctrl-C here ends it)",
+        "From another computer: run this on it, then open the same address there.",
+        f"  {ssh_line(port)}",
+    ]
+
+
+def ssh_line(port: int) -> str:
+    """Return the command that makes the page reachable from another machine.
+
+    Args:
+        port: where it is on this one, and will be on the other.
+    """
+    try:
+        user = getpass.getuser()
+    except (OSError, KeyError, ImportError):  # a container's user without a name
+        user = "USER"
+    return f"ssh -L {port}:{LOOPBACK}:{port} {user}@{socket.gethostname()}"
+
+
+def free_port(wish: int) -> int:
+    """Return the first free port from the wish on.
+
+    viser would look for one too, but in silence, and past the last port for ever.
+
+    Args:
+        wish: 0 for whichever the system picks.
+
+    Raises:
+        Robo47Error: none of a hundred is free.
+    """
+    for port in range(wish, min(wish + PORTS_TRIED, 65536)):
+        with socket.socket() as probe:
+            if os.name == "posix":  # as asyncio: a port just closed is free again
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((LOOPBACK, port))
+                probe.listen()
+            except OSError:
+                continue
+            return port
+    raise Robo47Error(
+        f"no port from {wish} on can be used; choose another, such as --port 8900"
+    )

@@ -1,0 +1,145 @@
+"""What a tab is, and how the tabs of a day are found in its own folder."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from labkit.inspector.ghost import Ghost
+from labkit.lesson import folder
+from labkit.lesson.day import Day
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+if TYPE_CHECKING:
+    from labkit.inspector.page import Page
+
+FILE = "inspector"
+
+
+class Tab:
+    """One tab of the page; see `labkit.inspector` for what to write in it.
+
+    Attributes:
+        title: on the tab.
+        wide: the tab needs the room of the two matrices above it.
+    """
+
+    title = "a tab"
+    wide = False
+
+    def __init__(self, page: "Page") -> None:
+        """Open the tab: make its widgets and drawings.
+
+        Args:
+            page: what it makes them with.
+        """
+        self.page = page
+
+    def on_move(self, q: Array) -> None:
+        """Show the configuration that the arm has now.
+
+        Args:
+            q: radians and metres, (nq,).
+        """
+
+    def close(self) -> None:
+        """Leave the tab; what `page` made is removed after this."""
+
+
+class DayTabs:
+    """What a day brings to the page.
+
+    Attributes:
+        ghost: which function draws the student's arm; None for none.
+        tabs: in the day's order.
+    """
+
+    def __init__(self, ghost: Ghost | None, tabs: list[type[Tab]]) -> None:
+        """Keep both."""
+        self.ghost, self.tabs = ghost, tabs
+
+
+class Opened:
+    """The one tab that is open, among those that can be.
+
+    Attributes:
+        kinds: {title: class}, in the order of the row of tabs.
+        kind: of the open one.
+        tab: the open one; None where it failed to open.
+        page: what it made its widgets with.
+    """
+
+    def __init__(self, kinds: Sequence[type[Tab]]) -> None:
+        """Open none yet."""
+        self.kinds = {kind.title: kind for kind in kinds}
+        self.kind = kinds[0]
+        self.tab: Tab | None = None
+        self.page: Page | None = None
+
+    def enter(self, title: str, page: "Page") -> None:
+        """Open a tab.
+
+        Args:
+            title: a key of `kinds`.
+            page: what it makes its widgets and drawings with.
+        """
+        self.kind, self.page = self.kinds[title], page
+
+        def make() -> None:
+            self.tab = self.kind(page)
+
+        self._guarded(make)
+        self.tell(page.q)
+        page.end()
+
+    def leave(self) -> None:
+        """Close the open tab, and remove all that it made."""
+        if self.tab is not None:
+            self._guarded(self.tab.close)
+        if self.page is not None:
+            self.page.close()
+        self.tab = self.page = None
+
+    def tell(self, q: Array) -> None:
+        """Tell the open tab where the arm is."""
+        if self.tab is not None:
+            self._guarded(partial(self.tab.on_move, q.copy()))
+
+    def _guarded(self, call: Callable[[], None]) -> None:
+        """Call a day's code; where it fails the page says so and goes on."""
+        try:
+            call()
+        except Exception as error:
+            assert self.page is not None
+            what = f"{type(error).__name__}: {error}"
+            self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
+
+
+def day_tabs(day: Day) -> DayTabs:
+    """Return what the `inspector.py` of a day's folder brings; nothing where none is.
+
+    Args:
+        day: from its manifest.
+
+    Raises:
+        Robo47Error: it does not load, or TABS and GHOST are not what they should be.
+    """
+    if not folder.has(day, FILE):
+        return DayTabs(None, [])
+    where = f"{shown(day.own / FILE)}.py"
+    try:
+        module = folder.load(day, FILE)
+    except Exception as error:
+        raise Robo47Error(
+            f"{where} does not load: {type(error).__name__}: {error}"
+        ) from error
+    ghost, tabs = getattr(module, "GHOST", None), list(getattr(module, "TABS", []))
+    if ghost is not None and not isinstance(ghost, Ghost):
+        raise Robo47Error(f"{where}: GHOST is not a labkit.inspector.ghost.Ghost")
+    for tab in tabs:
+        if not (isinstance(tab, type) and issubclass(tab, Tab)):
+            raise Robo47Error(
+                f"{where}: {tab!r} in TABS is not a class of labkit.inspector.tab.Tab"
+            )
+    return DayTabs(ghost, tabs)

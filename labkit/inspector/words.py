@@ -1,0 +1,153 @@
+"""Numbers as HTML for the panel: aligned, in one type width, readable without colour.
+
+A matrix has its columns named x, y, z (the frame's axes in the world) and p (where its
+origin is); the colours are those of the triad. The style is in `client.css`.
+"""
+
+from html import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labkit.inspector.arm import AGREES, Arm, Step
+from labkit.inspector.ghost import Seen
+from robo47.checks import Array
+
+COLUMNS = "xyzp"
+
+
+def matrix(
+    name: str,
+    T: Array,
+    key: str,
+    marked: NDArray[np.bool_] | None = None,
+    mark: str = "off",
+) -> str:
+    """Return a pose as an aligned block under its name.
+
+    Args:
+        name: such as "T_world_ee".
+        T: (4, 4).
+        key: unique in the page, for who looks a matrix up there.
+        marked: entries to mark, (4, 4) of bool.
+        mark: how: "off" for wrong ones, "moves" for what q changes.
+    """
+    off = np.zeros((4, 4), dtype=bool) if marked is None else marked
+    head = "".join(f'<span class="{c} head">{c:>10}</span>' for c in COLUMNS)
+    rows = "\n".join(
+        "".join(_entry(row[j], COLUMNS[j], mark if bad[j] else "") for j in range(4))
+        for row, bad in zip(np.round(T, 6) + 0.0, off, strict=True)
+    )
+    return (
+        f'<div class="r47-matrix"><b>{escape(name)}</b><pre aria-hidden="true">{head}'
+        f'</pre><pre data-matrix="{escape(key)}">{rows}</pre></div>'
+    )
+
+
+def _entry(value: float, column: str, mark: str) -> str:
+    """Return one number, 10 wide; the mark covers the number alone."""
+    text = f"{value:.6f}"
+    space = " " * (10 - len(text))
+    return f'{space}<span class="{f"{column} {mark}".strip()}">{text}</span>'
+
+
+def line(text: str, key: str, kind: str = "") -> str:
+    """Return one line of text.
+
+    Args:
+        text: plain text.
+        key: unique in the page, for who looks the line up there.
+        kind: "", "good", "bad", or "quiet".
+    """
+    style = f" r47-{kind}" if kind else ""
+    return f'<div class="r47{style}" data-line="{escape(key)}">{escape(text)}</div>'
+
+
+def said(text: str, key: str, kind: str) -> str:
+    """Return a line that stands out, see `line`."""
+    return (
+        f'<div class="r47 r47-said r47-{kind}" data-line="{escape(key)}" role="status">'
+        f"{escape(text)}</div>"
+    )
+
+
+def verdict(difference: float, whose: str = "the library") -> str:
+    """Return how far a pose is from MuJoCo's.
+
+    Args:
+        difference: the largest of any entry.
+        whose: the other pose.
+    """
+    if difference < AGREES:
+        text = f"{whose}: largest difference {difference:.1e}, they agree"
+        return line(f"✓ {text}", "difference", "good")
+    text = f"{whose}: largest difference {difference:.1e}, THEY DIFFER"
+    return line(f"✗ {text} (limit {AGREES:.0e})", "difference", "bad")
+
+
+def proof(arm: Arm, name: str, seen: Seen | None) -> str:
+    """Return one frame's pose from MuJoCo and from the student's file.
+
+    Where there is no pose of the student's, the library's stands there, by its name.
+
+    Args:
+        arm: in its present configuration.
+        name: short name of the frame.
+        seen: what the student's function said, with a pose of this frame; or None.
+    """
+    parts = [matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")]
+    if seen is None:
+        library = arm.by_library[arm.names[name]]
+        parts.append(matrix(f"T_world_{name}, robo47.kinematics", library, "library"))
+        parts.append(verdict(arm.difference(name)))
+        return "".join(parts)
+    yours, truth = seen.poses[name], arm.poses_at(seen.q)[name]
+    off = ~(np.abs(yours - truth) < AGREES)
+    parts.append(matrix(f"T_world_{name}, YOURS", yours, "yours", off))
+    parts.append(verdict(float(np.abs(yours - truth).max()), "yours"))
+    return "".join(parts)
+
+
+def limits(arm: Arm) -> str:
+    """Return a warning where the configuration is out of limits, else nothing."""
+    broken = arm.out_of_limits()
+    if not broken:
+        return ""
+    text = "OUT OF LIMITS: " + "; ".join(broken) + ". The real arm cannot go there."
+    return line(text, "limits", "bad")
+
+
+def numpy_q(q: Array) -> str:
+    """Return a configuration as NumPy reads it, every digit of it."""
+    return f"np.array({[float(x) for x in q]!r})"
+
+
+def numpy_T(T: Array) -> str:
+    """Return a matrix as NumPy reads it, every digit of it."""
+    rows = ",\n    ".join(repr([float(x) for x in row]) for row in T)
+    return f"np.array([\n    {rows},\n])"
+
+
+def step(this: Step, number: int, of: int, whole: bool) -> str:
+    """Return one factor of the chain: what it is, and the three matrices.
+
+    Args:
+        this: the step.
+        number: its place in the chain, from 1.
+        of: how many there are.
+        whole: whether the link has no factor after this one.
+    """
+    if this.joint:
+        about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"
+    else:
+        about = f"pos and quat of {this.link} in the file, the same for every q"
+    product = f"T_world_{this.link}"
+    if not whole:
+        product += " with its joint still at 0"
+    parts = [
+        line(f"factor {number} of {of}, {this.name}: {about}", "step"),
+        matrix("so far", this.before, "before"),
+        matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves"),
+        matrix(f"= {product}", this.after, "product"),
+    ]
+    return "".join(parts)

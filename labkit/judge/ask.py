@@ -1,0 +1,169 @@
+"""What a day says of a function: how it is asked, and what a right answer is.
+
+A day's `questions.py` holds `QUESTIONS = {"exp_screw": Ask(...), ...}`, one row per
+function of the manifest.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from labkit.judge.kinds import Kind
+from labkit.judge.mistake import Finding, Mistake
+from robo47 import panda
+
+Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+ANY = None  # truth of a function that is judged by `accept`
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A model as an argument: student code gets plain data that reads like an MjModel.
+
+    Attributes:
+        entry: as `panda.load` names it.
+        change: is given the compiled model to alter, such as longer links.
+    """
+
+    entry: str = "panda_nohand"
+    change: Callable[[mujoco.MjModel], None] | None = None
+
+    @cached_property
+    def model(self) -> mujoco.MjModel:
+        """The compiled model; do not change it."""
+        model = panda.load(self.entry)
+        if self.change:
+            self.change(model)
+        return model
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Further questions to a right function: how did its answers come about?
+
+    Attributes:
+        slug: what is found where an answer is not right.
+        says: what to say then, a sentence or two.
+        inputs: as those of `Ask`.
+        truth: the right answers; None is the function's own truth.
+        mistaken: in place of `truth`: what is found are these very answers.
+        status: "wrong", "close", or "passed" for a remark only.
+    """
+
+    slug: str
+    says: str
+    inputs: Inputs
+    truth: Callable[..., Any] | None = None
+    mistaken: Callable[..., Any] | None = None
+    status: str = "wrong"
+
+
+@dataclass(frozen=True)
+class Probe:
+    """Questions whose replies only help to say where a wrong answer goes wrong.
+
+    Attributes:
+        inputs: as those of `Ask`; replies may be errors.
+    """
+
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A slip that ends in an exception whose own text does not help.
+
+    Attributes:
+        error: regular expression that the "Type: text" of the exception matches.
+        source: one that the student's file matches.
+        slug: its name.
+        says: what to say, a sentence or two.
+    """
+
+    error: str
+    source: str
+    slug: str
+    says: str
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a hook is given: all that was asked of one function, and what came back.
+
+    Attributes:
+        ask: the row of the function.
+        arguments: of the main questions, stacked, (n, ...) each; a Robot as its model.
+        S: the student's answers, (n, ...).
+        T: the right ones.
+        given: the inputs in words, one per question.
+        probes: per question of `Ask.probe` its arguments and the answer, or None.
+    """
+
+    ask: "Ask"
+    arguments: tuple[Any, ...]
+    S: Any
+    T: Any
+    given: Sequence[str]
+    probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
+
+
+@dataclass(frozen=True)
+class Ask:
+    """One function of a day.
+
+    Attributes:
+        inputs: from a seeded generator to the arguments of every call: the case of the
+            docstring first, drawn ones last, all calls' arguments of the same shapes.
+            Round what is drawn (`draw.rounded`), so that a student can type it.
+        kind: of the answer; a tuple of kinds where the function returns a tuple.
+        truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
+            takes them; an oracle, never the lab script.
+        accept: in place of `truth` where many answers are right: takes one call's
+            arguments and the answer, and returns what is wrong with it, or None.
+        mistakes: the named ones, the more general first; a function that returns them
+            where making them costs something.
+        fresh: how many of the drawn inputs, from the end, are drawn anew at each check.
+        tolerance: an answer is right up to this, in units of its kind's scale.
+        near: and nearly right up to this.
+        held_out: further questions to a right function.
+        probe: further questions that help a wrong one.
+        unnamed: says where an answer that no named mistake gives goes wrong.
+        near_miss: says why an answer is right to some digits only.
+        measured: adds lines for --explain.
+        slips: exceptions that have better words than their own.
+    """
+
+    inputs: Inputs
+    kind: Kind | tuple[Kind, ...]
+    truth: Callable[..., Any] | None = ANY
+    accept: Callable[..., Finding | str | None] | None = None
+    mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()
+    fresh: int = 2
+    tolerance: float = 1e-8
+    near: float = 1e-4
+    held_out: Sequence[HeldOut] = ()
+    probe: Probe | None = None
+    unnamed: Callable[[Case], Finding | None] | None = None
+    near_miss: Callable[[Case], Finding | None] | None = None
+    measured: Callable[[Case], Sequence[str]] | None = None
+    slips: Sequence[Slip] = field(default=())
+
+    def __post_init__(self) -> None:
+        """Refuse a row that has neither or both of truth and accept."""
+        if (self.truth is None) == (self.accept is None):
+            raise ValueError("an Ask has either truth or accept")
+
+    @property
+    def kinds(self) -> tuple[Kind, ...]:
+        """The kinds of the answer's parts; one where it is no tuple."""
+        return self.kind if isinstance(self.kind, tuple) else (self.kind,)
+
+    @cached_property
+    def named(self) -> list[Mistake]:
+        """The named mistakes, then those that any answer of the kind can have."""
+        own = self.mistakes() if callable(self.mistakes) else self.mistakes
+        return list(own)

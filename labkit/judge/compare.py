@@ -1,0 +1,110 @@
+"""How far apart two sets of answers are, as a number and in words."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from labkit.judge.matrices import transposed
+from robo47 import se3
+from robo47.checks import Array
+
+MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
+RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
+
+
+def difference(a: Array, b: Array) -> Array:
+    """Return the largest difference of any entry per case, (n,); one NaN is inf."""
+    with np.errstate(invalid="ignore"):
+        alike = (a == b) | (np.isnan(a) & np.isnan(b))  # inf equals inf, NaN NaN
+        gap = np.where(alike, 0.0, np.abs(a - b))
+    return (
+        np.nan_to_num(gap, nan=np.inf, posinf=np.inf).reshape(len(gap), -1).max(axis=1)
+    )
+
+
+def matches(a: Array, b: Array, scale: float = 1.0) -> bool:
+    """Return whether a is b at every case, within rounding of b's largest entry.
+
+    Args:
+        a: (n, ...).
+        b: the same.
+        scale: what an entry is like, where b's are all small.
+    """
+    if a.shape != b.shape:
+        return False
+    finite = np.abs(b[np.isfinite(b)])
+    return bool(difference(a, b).max() <= MATCHES * max(scale, finite.max(initial=0.0)))
+
+
+def rigid(M: Array) -> bool:
+    """Return whether all of M, (n, 3, 3) or (n, 4, 4), are rotations or poses."""
+    check = se3.is_rotation if M.shape[-1] == 3 else se3.is_pose
+    return M.shape[-1] == M.shape[-2] and check(M, RIGID)
+
+
+def millimetres(a: Array, b: Array) -> Array:
+    """Return the distance of points, (..., 3) in metres, as (...) in millimetres."""
+    return 1000.0 * np.linalg.norm(a - b, axis=-1)
+
+
+def degrees(R_a: Array, R_b: Array) -> Array:
+    """Return the angle between rotations, (..., 3, 3), as (...) in degrees.
+
+    By atan2 from R's skew part and trace: exact near 0, where arccos is not.
+    """
+    R = transposed(R_a) @ R_b
+    skew = R - transposed(R)
+    sine = np.sqrt(np.sum(skew**2, axis=(-2, -1)) / 8.0)
+    cosine = (np.trace(R, axis1=-2, axis2=-1) - 1.0) / 2.0
+    return np.rad2deg(np.arctan2(sine, cosine))
+
+
+def say_mm(mm: float) -> str:
+    """Return a length in words; "0" for what rounding leaves."""
+    return _say(mm, "mm", 1e-2)
+
+
+def say_degrees(deg: float) -> str:
+    """Return an angle in words; "0" for what rounding leaves."""
+    return _say(deg, "deg", 1e-3)
+
+
+def _say(value: float, unit: str, least: float) -> str:
+    if value < least:
+        return "0"
+    return (
+        f"{value:.0f} {unit}" if value >= 200 else f"{value:.{_digits(value)}f} {unit}"
+    )
+
+
+def _digits(value: float) -> int:
+    return 1 if value >= 10 else 2
+
+
+def say_value(value: float, unit: str, scale: float, entry: str) -> str:
+    """Return a number with its unit; "0" for what rounding leaves.
+
+    Args:
+        value: not negative.
+        unit: "" for none.
+        scale: what such a number is like.
+        entry: what to add where it is one entry of many.
+    """
+    if value < MATCHES * scale:
+        return "0"
+    return f"{value:.3g}{f' {unit}' if unit else ''}{entry}"
+
+
+def say_factor(factor: float) -> str:
+    """Return a factor as people write it: "1000", "-1", "pi / 180"."""
+    named = {np.pi / 180: "pi / 180", 180 / np.pi: "180 / pi", 2 * np.pi: "2 pi"}
+    for value, name in named.items():
+        if np.isclose(factor, value, rtol=1e-6):
+            return name
+    return f"{factor:.4g}"
+
+
+def say_range(values: Array, say: Callable[[float], str]) -> str:
+    """Return the least and the largest of values in words, once if they are alike."""
+    least, most = say(float(values.min())), say(float(values.max()))
+    return most if least == most else f"{least} to {most}"

@@ -1,0 +1,185 @@
+"""What is asked of the sandbox, and what comes back."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from labkit.base.text import visible, visible_lines
+
+MOST = 10  # entries of any list in a reply
+
+
+@dataclass(frozen=True)
+class Question:
+    """One call to make.
+
+    Attributes:
+        task: whose it is; a task that hangs is not asked again.
+        function: a name in the student's file.
+        args: floats, ints, float64 arrays, a `Model` or a `Path`.
+    """
+
+    task: str
+    function: str
+    args: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model in a question's arguments: its place in the list that `run` is given."""
+
+    index: int
+
+
+@dataclass(frozen=True)
+class Path:
+    """A path in a question's arguments: pairs of a body and its joint or None.
+
+    The function gets it as a list of tuples.
+    """
+
+    pairs: tuple[tuple[str, str | None], ...]
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What came of one question, which is asked twice, the second time much later.
+
+    All text in it is harmless: see `labkit.base.text.visible`.
+
+    Attributes:
+        value: an array, a tuple of arrays, or None.
+        error: "" or what went wrong, in words.
+        kind: "" where the function returned; the exception's name where it raised one;
+            "missing", "unsendable", "stopped" (time, memory, ended, channel), or
+            "waits" (not asked: it needs a task that was stopped).
+        line: of the student's file, or None.
+        callers: the lines of it that led there, the nearest first.
+        changed: names of the arguments that are no longer what they were.
+        refused: what the guard refused during the calls.
+        printed: what the function printed the first time.
+        again: the value of the second time; None where it was not asked twice.
+        again_error: "" or what went wrong the second time alone.
+        shares: what the answer shares its memory with: "another answer", or the name
+            of an argument.
+    """
+
+    value: Any = None
+    error: str = ""
+    kind: str = ""
+    line: int | None = None
+    callers: tuple[int, ...] = ()
+    changed: tuple[str, ...] = ()
+    refused: tuple[str, ...] = ()
+    printed: str = ""
+    again: Any = None
+    again_error: str = ""
+    shares: tuple[str, ...] = ()
+
+
+class LoadError(Exception):
+    """The student's file does not load; `reply` says why."""
+
+    def __init__(self, reply: Reply) -> None:
+        """Keep the reply."""
+        super().__init__(reply.error)
+        self.reply = reply
+
+
+def read(message: dict[str, Any]) -> Reply:
+    """Return a message as a reply, believing nothing in it.
+
+    Raises:
+        Exception: any, where somebody forged the message.
+    """
+    from labkit.sandbox.inside import wire  # NumPy, after the sandbox has begun
+
+    if message.get("missing"):
+        return Reply(kind="missing")
+    try:
+        value = wire.unpack_value(message.get("value"))
+    except ValueError as error:
+        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
+    told = {
+        name: read(message[name]) for name, read in _READ.items() if name in message
+    }
+    return Reply(value=value, **told)
+
+
+def twice(first: Reply, second: Reply) -> Reply:
+    """Return the first time's reply with what the second time adds to it."""
+    error = ""
+    if second.kind and not first.kind:
+        error = ": ".join(filter(None, (second.kind, second.error)))
+    return Reply(
+        **{
+            **vars(first),
+            "again": second.value,
+            "again_error": error,
+            "changed": _union(first.changed, second.changed),
+            "refused": _union(first.refused, second.refused),
+            "shares": _union(first.shares, second.shares),
+        }
+    )
+
+
+def stopped(why: str) -> Reply:
+    """Return the reply of a call that never came back."""
+    return Reply(error=why, kind="stopped")
+
+
+def pack(question: Question) -> dict[str, Any]:
+    """Return a question as JSON."""
+    return {
+        "function": question.function,
+        "args": [_pack_argument(arg) for arg in question.args],
+    }
+
+
+def _pack_argument(arg: Any) -> dict[str, Any]:
+    if isinstance(arg, Model):
+        return {"model": arg.index}
+    if isinstance(arg, Path):
+        return {"path": [list(pair) for pair in arg.pairs]}
+    if isinstance(arg, (int, float)):
+        return {"number": arg}
+    from labkit.sandbox.inside import wire
+
+    packed = wire.pack_value(arg)
+    assert isinstance(packed, dict), arg
+    return packed
+
+
+def _kind(told: Any) -> str:
+    return visible(told, 80)
+
+
+def _texts(told: Any) -> tuple[str, ...]:
+    return tuple(map(visible, told[:MOST])) if isinstance(told, list) else ()
+
+
+def _lines(told: Any) -> tuple[int, ...]:
+    """Return what may be numbers of lines in a file."""
+    numbers: Sequence[Any] = told[:MOST] if isinstance(told, list) else []
+    return tuple(n for n in numbers if type(n) is int and 0 < n < 10_000_000)
+
+
+def _line(told: Any) -> int | None:
+    return next(iter(_lines([told])), None)
+
+
+# How to read each part of a reply; what the sandbox has nothing to say of is left out.
+_READ: dict[str, Callable[[Any], Any]] = {
+    "error": visible,
+    "kind": _kind,
+    "line": _line,
+    "callers": _lines,
+    "changed": _texts,
+    "refused": _texts,
+    "printed": visible_lines,
+    "shares": _texts,
+}
+
+
+def _union(*some: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for names in some for name in names))[:MOST]

@@ -1,0 +1,253 @@
+"""Kinds of answers: the words for what is expected, and for what is wrong with it.
+
+The kind decides the words, not the shape: (2, 3) may be two points or a Jacobian. This
+module has numbers, vectors and points; `matrix_kinds` has matrices. Arrays of answers
+are stacked, (n, *shape); S is the student's, T the right one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from labkit.judge.compare import (
+    difference,
+    matches,
+    millimetres,
+    say_factor,
+    say_mm,
+    say_value,
+)
+from labkit.judge.mistake import Finding, Mistake, capitalised
+from robo47.checks import Array
+
+NEAR = 1e-4  # entries that differ by less are not called wrong
+
+
+def negated(answer: Array) -> Array:
+    """Return the answer with every sign turned over."""
+    return -answer
+
+
+NEGATED = Mistake("all-signs", "every sign is wrong", negated, "its negative")
+TRUNCATED = Mistake(
+    "whole-numbers",
+    "only whole numbers are left: an array of integers cuts off what is stored in it",
+    np.trunc,
+    "the right one cut to whole numbers",
+)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Any array of numbers; the base of the others.
+
+    Attributes:
+        shape: of one answer.
+        unit: of its entries, "" where they have none.
+        scale: what an entry is like; errors are judged in units of it.
+        called: what it is in a sentence, "the torque"; used where a tuple has several.
+    """
+
+    shape: tuple[int, ...] = ()
+    unit: str = ""
+    scale: float = 1.0
+    called: str = ""
+
+    @property
+    def expected(self) -> str:
+        """What is expected, with its article: "a 4x4 matrix"."""
+        return f"an array of shape {self.shape}"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:
+        """Return what a wrong shape is likely to come from, or ""."""
+        return "it has one axis too many" if got in _with_an_axis(self.shape) else ""
+
+    def general(self) -> Sequence[Mistake]:
+        """Return mistakes made with a finished answer of this kind."""
+        return (NEGATED, TRUNCATED)
+
+    def apart(self, S: Array, T: Array) -> str:
+        """Return how far S is from T at worst, in words; "0" for rounding."""
+        worst = float(difference(S, T).max())
+        entry = " in one entry" if self.shape else ""
+        return say_value(worst, self.unit, self.scale, entry)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:
+        """Return the most useful true thing about answers that no mistake gives."""
+        return one_factor(self, S, T) or Finding(
+            "off", f"It is not the right one: off by up to {self.apart(S, T)}."
+        )
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:
+        """Return lines for --explain."""
+        return (f"off by up to {self.apart(S, T)}",)
+
+
+@dataclass(frozen=True)
+class Scalar(Kind):
+    """One number. `Scalar(unit="J", scale=10.0)`."""
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return "one number"
+
+
+@dataclass(frozen=True)
+class Vector(Kind):
+    """A vector. `Vector((7,), "Nm", names=JOINTS)`.
+
+    Attributes:
+        names: of its entries, "joint1" and so on; else they are counted from 0.
+    """
+
+    names: tuple[str, ...] = ()
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return f"a vector of {self.shape[0]} numbers"
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return (
+            one_factor(self, S, T)
+            or self._few(S, T)
+            or Finding("off", f"It is off by up to {self.apart(S, T)}.")
+        )
+
+    def _few(self, S: Array, T: Array) -> Finding | None:
+        off = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        if not 0 < off.sum() <= max(1, len(off) // 3):
+            return None
+        where = " and ".join(self.name(int(i)) for i in np.flatnonzero(off))
+        return Finding(
+            "few-entries-off",
+            f"All entries are right but {where}: up to {self.apart(S, T)} off.",
+        )
+
+    def name(self, i: int) -> str:
+        """Return what entry i is called."""
+        return f"{self.names[i]}'s" if self.names else f"[{i}], counted from 0"
+
+
+@dataclass(frozen=True)
+class _Halves(Kind):
+    """Six numbers in two halves: the first angular, the second linear."""
+
+    shape: tuple[int, ...] = (6,)
+    halves = ("first half", "second half")
+
+    @property
+    def expected(self) -> str:
+        return f"six numbers ({'; '.join(self.halves)})"
+
+    def general(self) -> Sequence[Mistake]:
+        first, second = self.halves
+        return (
+            Mistake(
+                "halves-swapped",
+                f"the two halves are swapped: {first} comes first, then {second}",
+                lambda answer: np.roll(answer, 3, axis=-1),
+                "the right one with its halves swapped",
+            ),
+            NEGATED,
+            TRUNCATED,
+        )
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:
+        first, second = (
+            float(np.abs(S[:, half] - T[:, half]).max()) / self.scale
+            for half in (slice(0, 3), slice(3, 6))
+        )
+        if found := one_factor(self, S, T):
+            return found
+        if first <= NEAR:
+            says = f"{self.halves[0]} is right; {self.halves[1]} is not: off by up to"
+            says = f"{capitalised(says)} {self.apart(S, T)}."
+            return Finding("second-half-off", says)
+        if second <= NEAR:
+            says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
+            says = f"{capitalised(says)} {self.apart(S, T)}."
+            return Finding("first-half-off", says)
+        return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
+
+
+@dataclass(frozen=True)
+class Twist(_Halves):
+    """A twist or a screw axis, (omega; v)."""
+
+    halves = ("omega", "v")
+
+
+@dataclass(frozen=True)
+class Wrench(_Halves):
+    """A wrench, (moment; force)."""
+
+    halves = ("moment", "force")
+
+
+@dataclass(frozen=True)
+class Points(Kind):
+    """Points in metres, (m, 3), that may come as a tuple of vectors. `Points((2, 3))`.
+
+    Attributes:
+        names: what each is called, "first" and so on.
+    """
+
+    shape: tuple[int, ...] = (2, 3)
+    unit: str = "m"
+    names: tuple[str, ...] = ("first", "second")
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return "two vectors of 3" if self.shape[0] == 2 else f"{self.shape[0]} points"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        count = self.shape[0]
+        return {
+            (count, 4): "leave the fourth entry of each point out",
+            (count, 4, 4): "only the translations are asked for",
+            (count, 3, 1): "columns of shape (3, 1) are not plain vectors",
+        }.get(got, "")
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if not np.isfinite(S).all():
+            return Kind.apart(self, S, T)
+        return say_mm(float(millimetres(S, T).max()))
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        off = millimetres(S, T).max(axis=0)
+        words = [say_mm(float(mm)) for mm in off]
+        if len(off) == 2 and "0" in words:
+            right, wrong = (1, 0) if words[1] == "0" else (0, 1)
+            says = f"The {self.names[right]} is right; the {self.names[wrong]} is up to"
+            return Finding(f"{self.names[wrong]}-off", f"{says} {words[wrong]} off.")
+        each = ", ".join(
+            f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
+        )
+        every = "Both" if len(off) == 2 else "All"
+        return Finding("both-off", f"{every} are wrong: off by up to {each}.")
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        off = [say_mm(float(mm)) for mm in millimetres(S, T).max(axis=0)]
+        pairs = zip(self.names, off, strict=False)
+        return (", ".join(f"{name} off by {mm}" for name, mm in pairs),)
+
+
+def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
+    """Return that all entries are off by one and the same factor, if so."""
+    size = float(np.sum(T * T))
+    if size == 0.0:
+        return None
+    factor = float(np.sum(S * T)) / size
+    plain = abs(factor) > 1e-6 and abs(factor - 1.0) > 1e-3
+    if not plain or not matches(S, factor * T, kind.scale):
+        return None
+    return Finding(
+        "one-factor-off",
+        f"It is {say_factor(factor)} times the right one, in every entry and every "
+        "time.",
+    )
+
+
+def _with_an_axis(shape: tuple[int, ...]) -> set[tuple[int, ...]]:
+    return {(*shape, 1), (1, *shape)}

@@ -1,0 +1,155 @@
+"""Kinds of answers that are matrices: Jacobians, mass matrices and others."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from labkit.judge.compare import difference
+from labkit.judge.kinds import NEAR, NEGATED, TRUNCATED, Kind, one_factor
+from labkit.judge.matrices import transposed
+from labkit.judge.mistake import Finding, Mistake
+from robo47.checks import Array
+
+TRANSPOSED = Mistake(
+    "transposed", "the matrix is transposed", transposed, "its transpose"
+)
+
+
+@dataclass(frozen=True)
+class Matrix(Kind):
+    """Any matrix. `Matrix((6, 6), rows=..., columns=...)`.
+
+    Attributes:
+        rows: what its rows are called, "omega x" and so on; else they are counted.
+        columns: likewise.
+    """
+
+    rows: tuple[str, ...] = ()
+    columns: tuple[str, ...] = ()
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        m, n = self.shape
+        return f"a {m}x{n} matrix"
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        square = self.shape[0] == self.shape[1]
+        return (TRANSPOSED, NEGATED, TRUNCATED) if square else (NEGATED, TRUNCATED)
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        if got == self.shape[::-1] != self.shape:
+            return "rows and columns are swapped"
+        return super().why_shape(got)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return (
+            few_entries(self, S, T)
+            or one_factor(self, S, T)
+            or Finding("off", f"It is off by up to {self.apart(S, T)}.")
+        )
+
+
+@dataclass(frozen=True)
+class Jacobian(Matrix):
+    """A Jacobian, (6, n): omega's rows above v's, one column per joint."""
+
+    shape: tuple[int, ...] = (6, 7)
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        swapped = Mistake(
+            "rows-swapped",
+            "the rows are (v; omega); omega's three come first",
+            lambda J: np.roll(J, 3, axis=-2),
+            "the right one with its rows swapped",
+        )
+        return (swapped, NEGATED, TRUNCATED)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        gap = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        bad = np.flatnonzero(gap.any(axis=0))
+        rows = gap.any(axis=1)
+        where = (
+            ""
+            if rows.all() or (rows[:3].any() and rows[3:].any())
+            else (" in its omega rows" if rows[:3].any() else " in its v rows")
+        )
+        if found := one_factor(self, S, T):
+            return found
+        if len(bad) == 1:
+            says = f"All columns are right but that of joint {bad[0] + 1}"
+        elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
+            says = (
+                f"The columns are right up to joint {bad[0]}, and wrong from there on"
+            )
+        elif where:
+            says = "Half of it is right"
+        else:
+            says = "It is not the right one"
+        return Finding(
+            "columns-off", f"{says}: off by up to {self.apart(S, T)}{where}."
+        )
+
+
+@dataclass(frozen=True)
+class Symmetric(Matrix):
+    """A symmetric matrix, such as a mass matrix. `Symmetric((7, 7), "kg m2")`."""
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        skew = float(np.abs(S - transposed(S)).max())
+        if skew > NEAR * self.scale:
+            return Finding(
+                "not-symmetric",
+                f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
+                f"off by up to {self.apart(S, T)}.",
+            )
+        diagonal = np.eye(self.shape[0], dtype=bool)
+        if difference(S[:, ~diagonal], T[:, ~diagonal]).max() <= NEAR * self.scale:
+            says = "Only the diagonal is wrong"
+        elif difference(S[:, diagonal], T[:, diagonal]).max() <= NEAR * self.scale:
+            says = "The diagonal is right, the rest is not"
+        else:
+            return super().what_is_wrong(S, T)
+        return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        sym = 0.5 * (S + transposed(S))
+        least = np.linalg.eigvalsh(sym).min() if np.isfinite(S).all() else np.nan
+        return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
+
+
+def few_entries(
+    kind: Kind, S: Array, T: Array, ignored: int | None = None
+) -> Finding | None:
+    """Return which entries are wrong if they are one or two, or one row or column.
+
+    Args:
+        kind: of the answers.
+        S: the student's, (n, m, k).
+        T: the right ones.
+        ignored: a row and column that has a name of its own, such as a pose's last.
+    """
+    gap = np.abs(S - T)
+    rows, columns = np.nonzero(gap.max(axis=0) > NEAR * kind.scale)
+    if not len(rows):
+        return None
+    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
+    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
+    if last and len(rows) > 1:
+        return None
+    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
+    if len(rows) <= 2:
+        where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
+        where += ", counted from 0"
+    elif one_row:
+        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
+    elif one_column:
+        name = names[1][columns[0]] if names[1] else ""
+        where = name or f"column {columns[0]}, counted from 0"
+    else:
+        return None
+    return Finding(
+        "few-entries-off",
+        f"All entries are right but {where}: up to {gap.max():.2g} off. Look there for "
+        "a wrong sign, letter or factor.",
+    )

@@ -1,0 +1,50 @@
+"""Close but not equal: the method is right, and this is where the digits went."""
+
+import numpy as np
+
+from labkit.judge.compare import difference
+from labkit.judge.mistake import Finding
+from robo47.checks import Array
+
+SINGLE = 5e-6  # what products in float32 may leave at worst
+SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
+
+
+def explain(S: Array, T: Array) -> Finding:
+    """Return why answers agree with the right ones to some digits only.
+
+    Args:
+        S: the student's answers, (n, ...), nearly right.
+        T: the right ones.
+    """
+    if found := rounded(S, T):
+        return found
+    off = difference(S, T).max()
+    why = (
+        "as float32, a difference quotient or a loop that stops too early leaves it."
+        if off < SINGLE_INSIDE
+        else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
+        "derivative is a difference quotient, or what is small counts as 0."
+    )
+    return Finding(
+        "rounded-somewhere",
+        f"Close, but not equal: off by {off:.1e} where 1e-15 is usual, {why}",
+    )
+
+
+def rounded(S: Array, T: Array) -> Finding | None:
+    """Return to how many decimals the right answers are rounded, if they are.
+
+    Args:
+        S: the student's answers, (n, ...).
+        T: the right ones.
+    """
+    for decimals in range(1, 8):
+        if difference(S, np.round(T, decimals)).max() < 1e-12:
+            return Finding(
+                "rounded",
+                f"Your answer is rounded to {decimals} decimal{'s' * (decimals > 1)}, "
+                f"so it is {difference(S, T).max():.0e} off. Round what you print, not "
+                "what you return.",
+            )
+    return None

@@ -1,0 +1,172 @@
+"""Kinds of answers that are rigid: rotations and poses."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from labkit.judge.compare import (
+    RIGID,
+    degrees,
+    difference,
+    matches,
+    millimetres,
+    rigid,
+    say_degrees,
+    say_mm,
+    say_range,
+)
+from labkit.judge.finished import OF_A_ROTATION, of_a_pose
+from labkit.judge.kinds import NEAR, Kind
+from labkit.judge.matrices import split, transposed
+from labkit.judge.matrix_kinds import few_entries
+from labkit.judge.mistake import Finding, Mistake
+from robo47.checks import Array
+
+
+@dataclass(frozen=True)
+class Rotation(Kind):
+    """A rotation matrix, (3, 3)."""
+
+    shape: tuple[int, ...] = (3, 3)
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return "a 3x3 matrix"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        known: dict[tuple[int, ...], str] = {
+            (2, 2): "it is a rotation in space, so z is there too",
+            (4, 4): "only the rotation is asked for",
+        }
+        return known.get(got, "")
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        return OF_A_ROTATION
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if rigid(S) and rigid(T):
+            return say_degrees(float(degrees(S, T).max()))
+        return super().apart(S, T)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return few_entries(self, S, T) or rotation_wrong(S, T)
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        det = np.linalg.det(S)
+        lines = [
+            f"R R^T - I: {_skew(S):.2g}; det R: {det.min():.4g} to {det.max():.4g}"
+        ]
+        if not _skew(S) > RIGID:
+            lines.append(f"R off by {say_range(degrees(S, T), say_degrees)}")
+        return tuple(lines)
+
+
+@dataclass(frozen=True)
+class Pose(Kind):
+    """A rigid transform, (4, 4).
+
+    Attributes:
+        wrong_way: what its rotation does when it is transposed.
+    """
+
+    shape: tuple[int, ...] = (4, 4)
+    wrong_way: str = "turns the other way"
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return "a 4x4 matrix"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        known: dict[tuple[int, ...], str] = {
+            (3, 4): "the bottom row (0, 0, 0, 1) is missing",
+            (3, 3): "this is the rotation alone",
+        }
+        return known.get(got, "")
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        return of_a_pose(self.wrong_way)
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if not (rigid(S) and rigid(T)):
+            return super().apart(S, T)
+        (R_S, t_S), (R_T, t_T) = split(S), split(T)
+        parts = (
+            say_mm(float(millimetres(t_S, t_T).max())),
+            say_degrees(float(degrees(R_S, R_T).max())),
+        )
+        return " and ".join(p for p in parts if p != "0") or "0"
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return few_entries(self, S, T, 3) or _pose_wrong(S, T)
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        (R, t), (R_T, t_T) = split(S), split(T)
+        moved = say_range(millimetres(t, t_T), say_mm)
+        return (
+            *Rotation().measured(R, R_T),
+            f"t off by {moved}; bottom row by {_bottom(S):.2g}",
+        )
+
+
+def rotation_wrong(S: Array, T: Array) -> Finding:
+    """Return what is wrong with rotations, (n, 3, 3)."""
+    if (off := _skew(S)) > RIGID:
+        det = np.linalg.det(S)
+        worst = np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0  # no 7e-189
+        return Finding(
+            "not-orthonormal",
+            "R is no rotation: its columns are not unit vectors at right angles. "
+            f"(R R^T differs from I by {off:.2g}; det R is {worst:.3g}, not 1.)",
+        )
+    X = np.abs(transposed(T) @ S)
+    if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
+        return Finding(
+            "axes-mixed-up",
+            "R's columns are the right axes, but swapped or with the wrong sign. "
+            f"(det R is {np.linalg.det(S[0]):.0f}.)",
+        )
+    if mirrored := np.sum(np.linalg.det(S) < 0.0):
+        return Finding(
+            "left-handed",
+            f"R is a left-handed frame, a mirror image, for {mirrored} of {len(S)} "
+            "inputs. (det R is -1.)",
+        )
+    off_by = degrees(S, T)
+    often = ", the same amount every time" if np.ptp(off_by) < 1e-3 else ""
+    return Finding(
+        "rotation-off",
+        "R is a rotation, but not the right one: "
+        f"{'' if often else 'up to '}{say_degrees(float(off_by.max()))} off{often}.",
+    )
+
+
+def _pose_wrong(S: Array, T: Array) -> Finding:
+    (R, t), (R_true, t_true) = split(S), split(T)
+    if _bottom(S) > NEAR:
+        row = S[np.argmax(np.abs(S[:, 3] - [0, 0, 0, 1]).max(axis=1)), 3]
+        numbers = ", ".join(f"{x:.3g}" for x in row)
+        return Finding(
+            "bottom-row",
+            f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
+        )
+    t_off = say_mm(float(millimetres(t, t_true).max()))
+    if difference(R, R_true).max() <= NEAR:
+        return Finding(
+            "translation-off",
+            f"R is right everywhere; the translation is not: up to {t_off} off.",
+        )
+    slug, message = rotation_wrong(R, R_true)
+    if t_off == "0":
+        return Finding(slug, f"The translation is right. {message}")
+    slug = "pose-off" if slug == "rotation-off" else slug
+    return Finding(slug, f"{message} The translation is up to {t_off} off too.")
+
+
+def _skew(R: Array) -> float:
+    """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
+    return float(np.abs(R @ transposed(R) - np.eye(3)).max())
+
+
+def _bottom(S: Array) -> float:
+    return float(np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max())

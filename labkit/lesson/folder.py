@@ -1,0 +1,41 @@
+"""A day's Python files, imported by path: the machine names no day.
+
+`w1-foundations/dayN/questions.py` becomes the module `lesson_dayN.questions`; files of
+one day import each other as `from .mistakes import ...`.
+"""
+
+import importlib
+import sys
+import types
+from types import ModuleType
+
+from labkit.lesson.day import Day
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def has(day: Day, name: str) -> bool:
+    """Return whether a day brings a file or a folder of that name, "inspector" say."""
+    return (day.own / f"{name}.py").is_file() or (day.own / name).is_dir()
+
+
+def load(day: Day, name: str) -> ModuleType:
+    """Return a module of a day's folder.
+
+    Args:
+        day: from its manifest.
+        name: without the ending: "questions".
+
+    Raises:
+        Robo47Error: the day has no such file.
+    """
+    if not has(day, name):
+        raise Robo47Error(f"{shown(day.own / name)}.py is not there")
+    package = f"lesson_day{day.number}"
+    known = sys.modules.get(package)
+    if known is None or list(known.__path__) != [str(day.own)]:
+        for module in [m for m in sys.modules if m.partition(".")[0] == package]:
+            del sys.modules[module]
+        sys.modules[package] = types.ModuleType(package)
+        sys.modules[package].__path__ = [str(day.own)]
+    return importlib.import_module(f"{package}.{name}")

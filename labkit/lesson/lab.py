@@ -1,0 +1,203 @@
+"""What every day's lab script does the same way: say, check, record, conclude.
+
+    lab = Lab(__file__, __doc__)
+    lab.step("2. The same by hand")
+    lab.check("largest |by hand - MuJoCo|", error)
+    lab.record("fk_by_hand", errors, seed=47)
+    return lab.finish()
+
+What a number must reach stands in the day's day.toml and nowhere else.
+"""
+
+import contextlib
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from labkit import log
+from labkit.base import cli
+from labkit.base.words import count
+from labkit.lesson.day import Day, Metric, find_day
+from robo47.errors import Robo47Error
+from robo47.menagerie import hash_file
+from robo47.paths import METRICS_CSV, shown
+
+STAMP = 8  # hex digits of the script's hash in a row's notes: which file wrote it
+
+
+class Lab:
+    """One run of a day's lab, from its first line to its exit code."""
+
+    def __init__(self, file: str, about: str | None) -> None:
+        """Read the command line and the day's manifest.
+
+        Args:
+            file: the script's own, `__file__`; its name says which day it is.
+            about: the script's docstring, shown by --help.
+
+        Raises:
+            Robo47Error: the name is no lab's, or its day is not there.
+        """
+        parser = cli.parser(about)
+        parser.add_argument(
+            "--no-log", action="store_true", help="leave metrics/metrics.csv alone"
+        )
+        self.log = not parser.parse_args().no_log
+        self.script = Path(file)
+        self.day = day_of(self.script)
+        self.failed: list[str] = []
+        self.rows: list[dict[str, Any]] = []
+
+    def step(self, title: str) -> None:
+        """Print the heading of a step."""
+        print(f"\n{title}")
+
+    @contextlib.contextmanager
+    def side_quest(self) -> Iterator[None]:
+        """Go on where what is optional is still to do: its rows are not asked for."""
+        try:
+            yield
+        except NotImplementedError as gap:
+            print(cli.wrapped(f"to do: {gap}", "  "))
+
+    def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
+        """Print a matrix or a vector with aligned columns.
+
+        Args:
+            title: what it is.
+            matrix: (m, n) or (n,).
+            decimals: to print.
+        """
+        print(f"  {title}")
+        values = np.atleast_2d(np.round(np.asarray(matrix, dtype=float), decimals))
+        for row in values + 0.0:  # + 0.0: no "-0.0"
+            print("    " + " ".join(f"{x:{decimals + 4}.{decimals}f}" for x in row))
+
+    def check(self, name: str, error: ArrayLike, limit: float | None = None) -> None:
+        """Print whether an error is small enough, and remember if it is not.
+
+        Args:
+            name: what was compared.
+            error: a number, or an array whose largest |entry| counts; NaN fails.
+            limit: it must be under this; by default the day's own limit.
+        """
+        limit = self.day.limit if limit is None else limit
+        self._judge(name, Metric("", name, max=limit), _largest(error))
+
+    def record(
+        self,
+        check: str,
+        error: ArrayLike,
+        *,
+        metric: str = "",
+        label: str = "",
+        **fields: Any,
+    ) -> None:
+        """Check a number against its limit in day.toml, and keep its metrics row.
+
+        Args:
+            check: what was checked, as day.toml names it.
+            error: a number, or one per trial: the largest |entry| counts; where the
+                manifest says `min`, the smallest; where it says both, the worst.
+            metric: which of the check's numbers, where day.toml has several.
+            label: what to print; by default the name of the check.
+            fields: other columns of the row, see metrics/README.md.
+
+        Raises:
+            Robo47Error: day.toml has no such row.
+        """
+        wanted = self.day.metric(check, metric)
+        trials = np.atleast_1d(np.asarray(error, dtype=np.float64)).ravel()
+        trials = np.abs(trials) if wanted.min is None else trials
+        value = _worst(trials, wanted)
+        self._judge(label or check.replace("_", " "), wanted, value)
+        row = {
+            "run_id": self.script.stem,
+            "day": self.day.number,
+            "check": check,
+            "seed": 0,
+            "method": "manual",
+            "n_trials": trials.size,
+            "n_failures": int(sum(not wanted.passes(x) for x in trials)),
+            "metric": wanted.metric,
+            "value": value,
+            "notes": f"limit {_bounds(wanted)}; file {stamp(self.script)}",
+        }
+        self.rows.append({**row, **fields})
+
+    def finish(self) -> int:
+        """Write the rows, say how it went and return the exit code."""
+        if self.log:
+            try:
+                # A failed check is recorded too: NaN is its value.
+                log.append_rows(self.rows, sync=True, allow_nonfinite=True)
+            except Robo47Error:  # how the lab went is worth saying all the same
+                self._say_failures()
+                raise
+            rows = count(len(self.rows), "row")
+            print(f"\nlogged {rows} to {shown(METRICS_CSV)}")
+        else:
+            print("\nnothing logged (--no-log)")
+        self._say_failures()
+        if self.failed:
+            return cli.EXIT_FAILED
+        print(cli.paint("All checks PASSED.", "good"))
+        return cli.EXIT_OK
+
+    def _say_failures(self) -> None:
+        for failure in self.failed:
+            print(cli.wrapped(f"FAILED: {failure}", "  "))
+
+    def _judge(self, name: str, wanted: Metric, value: float) -> None:
+        good = wanted.passes(value)
+        verdict = cli.paint("PASS", "good") if good else cli.paint("FAIL", "bad")
+        number = number_of(value)
+        asked = wanted.limit if wanted.min is not None else f"limit {_bounds(wanted)}"
+        print(f"  {verdict}  {name}: {number} ({asked})")
+        if not good:
+            self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
+
+
+def day_of(script: Path) -> Day:
+    """Return the day whose lab a script is, by its name.
+
+    Raises:
+        Robo47Error: the name is not like dayN_name.py.
+    """
+    found = re.match(r"day(\d+)_", script.name)
+    if not found:
+        raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
+    return find_day(int(found[1]))
+
+
+def stamp(script: Path) -> str:
+    """Return the first digits of a script's hash: which file wrote a row."""
+    return hash_file(script)[:STAMP]
+
+
+def number_of(value: float) -> str:
+    """Return a number as a lab prints it: rounding errors short, others readable."""
+    if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
+        return f"{value:.1e}" if value else "0"
+    return f"{value:.4g}"
+
+
+def _bounds(wanted: Metric) -> str:
+    bounds = (wanted.min, wanted.max)
+    return " to ".join(f"{bound:g}" for bound in bounds if bound is not None)
+
+
+def _worst(trials: np.ndarray, wanted: Metric) -> float:
+    """Return the trial that a row is judged by; NaN where one is NaN."""
+    low, high = float(np.min(trials)), float(np.max(trials))
+    if wanted.min is None or (wanted.max is not None and wanted.passes(low)):
+        return high
+    return low
+
+
+def _largest(error: ArrayLike) -> float:
+    return float(np.max(np.abs(np.asarray(error, dtype=np.float64))))

@@ -1,0 +1,242 @@
+"""Adding lines to the log: one append, under a lock, checked before and after.
+
+Nothing is ever rewritten to add a row, and the file is never held open: after a
+git branch switch a held handle writes to a file that nobody can see any more.
+"""
+
+import contextlib
+import errno
+import os
+import stat
+import sys
+import time
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+from labkit.base.words import command, in_words
+from labkit.log import header, lock
+from labkit.log.rows import is_open_quote
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+UNSAVED = ".unsaved"  # beside the log: rows that it could not take
+REPAIRS = ".repairs"  # beside the log: lines that are not as their writer left them
+TRIES = 5
+# An echo takes no lock, and half of it shows while it is being written: look twice.
+MID_WRITE_S = 0.005
+_TAIL = 1 << 20  # bytes of an unfinished last line that are looked at
+_FLAGS = (
+    os.O_RDWR
+    | os.O_APPEND
+    | os.O_CREAT
+    | getattr(os, "O_BINARY", 0)
+    | getattr(os, "O_NOINHERIT", 0)
+)
+
+StrPath = str | os.PathLike[str]
+
+
+class CannotAppendError(Exception):
+    """The log cannot take the lines: which file, why, and what to do."""
+
+
+def append_or_keep(path: StrPath, text: str, sync: bool) -> None:
+    """Add lines to the log, or keep them beside it and say so.
+
+    Args:
+        path: the log; it is made, with its header, if it is not there.
+        text: one or more lines, without the last line end.
+        sync: force them to the disk before returning.
+
+    Raises:
+        Robo47Error: the log cannot take them; the message carries the text, which
+            is also kept in `<log>.unsaved` where that can be written.
+    """
+    try:
+        append(path, text, sync)
+    except CannotAppendError as error:
+        raise Robo47Error(f"{error}\n{_keep(os.fspath(path), text)}") from None
+
+
+def append(path: StrPath, text: str, sync: bool) -> None:
+    """Add lines to the log in a single write; arguments as in `append_or_keep`.
+
+    Raises:
+        CannotAppendError: nothing was added.
+    """
+    name = os.fspath(path)
+    try:
+        for _ in range(TRIES):
+            text = _try_append(name, text, sync)
+            if not text:
+                return
+    except OSError as error:
+        raise CannotAppendError(f"{_shown(name)}: {in_words(error, name)}") from None
+    raise CannotAppendError(
+        f"{_shown(name)} keeps being replaced by another program."
+        " Close that and try again."
+    )
+
+
+@contextlib.contextmanager
+def locked(name: str) -> Iterator[int]:
+    """Open a file, made if absent, to read and append; nobody else may append."""
+    with contextlib.suppress(FileNotFoundError):  # opening a pipe would wait for ever
+        if not stat.S_ISREG(os.stat(name).st_mode):
+            raise OSError(errno.EINVAL, "not a file")
+    fd = os.open(name, _FLAGS, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(fd).st_mode):
+            raise OSError(errno.EINVAL, "not a file")
+        alone = lock.lock(fd)
+        try:
+            yield fd
+        finally:
+            if alone:
+                lock.unlock(fd)
+    finally:
+        os.close(fd)
+    if not alone:
+        lock.warn_once()  # afterwards, so that the row is there whatever it does
+
+
+def note_repair(path: StrPath, line: str) -> None:
+    """Remember, beside the log, a line that is not as its writer left it."""
+    with (
+        contextlib.suppress(OSError),
+        open(os.fspath(path) + REPAIRS, "a", encoding="utf-8", newline="\n") as file,
+    ):
+        file.write(line + "\n")
+
+
+def read_at(fd: int, offset: int, count: int) -> bytes:
+    """Return up to `count` bytes from an offset (os.pread, which Windows lacks)."""
+    os.lseek(fd, offset, os.SEEK_SET)
+    return os.read(fd, count)
+
+
+def _try_append(name: str, text: str, sync: bool) -> str:
+    """Append once; return the lines that another program spoilt meanwhile."""
+    with locked(name) as fd:
+        if not _is_at(fd, name):
+            return text
+        before, end, cut = _continuation(fd, name)
+        data = before + text.encode().replace(b"\n", end) + end
+        start = _write(fd, data, sync)
+        if sync and start == 0:
+            _sync_folder(name)
+        # A writer without a lock (bash's echo of over 4,096 bytes comes in two
+        # parts) may have left half a line before ours: then our first goes again.
+        alone = before or read_at(fd, start - 1, 1) == b"\n"
+        there = read_at(fd, start, len(data)) == data and _is_at(fd, name)
+    if cut is not None:
+        _report_cut(name, cut, before)
+    if not there:
+        return text
+    return "" if alone else text.partition("\n")[0]
+
+
+def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
+    """Return what to write first, the file's line end, and its last line if cut."""
+    head = read_at(fd, 0, header.LONGEST)
+    if head in (b"", header.BOM):
+        return header.LINE.encode() + b"\n", b"\n", None
+    end = header.line_end(head)
+    if end is None:
+        raise CannotAppendError(f"{_shown(name)}: {header.problem(head, Path(name))}")
+    size, last = _last_two_bytes(fd)
+    if not last.endswith(b"\n"):
+        time.sleep(MID_WRITE_S)
+        size, last = _last_two_bytes(fd)
+    if header.is_utf16_end(last):
+        raise CannotAppendError(f"{_shown(name)}: {header.utf16_problem(Path(name))}")
+    if last.endswith(b"\n"):
+        return b"", end, None
+    start = max(0, size - _TAIL)
+    line = read_at(fd, start, size - start).rpartition(b"\n")[2]
+    text = line.decode("utf-8", "replace").rstrip("\r")
+    quote = b'"' if is_open_quote(text) else b""
+    return quote + (b"\n" if line.endswith(b"\r") else end), end, text
+
+
+def _last_two_bytes(fd: int) -> tuple[int, bytes]:
+    size = os.lseek(fd, 0, os.SEEK_END)
+    return size, read_at(fd, size - 2, 2)
+
+
+def _report_cut(name: str, text: str, before: bytes) -> None:
+    note_repair(name, text + before.decode().strip())
+    warnings.warn(
+        f"{_shown(name)}: the last line had no line end, so it may be cut. It is"
+        f" kept, and the new row has a line of its own. It ends: {text[-40:]}",
+        stacklevel=6,  # the caller of append_row
+    )
+
+
+def _write(fd: int, data: bytes, sync: bool) -> int:
+    """Write all or nothing; return the offset where it went."""
+    before = os.lseek(fd, 0, os.SEEK_END)
+    try:
+        if os.write(fd, data) < len(data):
+            raise OSError(errno.ENOSPC, "only a part was written")
+        end = os.lseek(fd, 0, os.SEEK_CUR)
+        if sync:
+            _sync(fd)
+    except OSError:
+        with contextlib.suppress(OSError):
+            piece = read_at(fd, before, len(data) + 1)
+            if piece and data.startswith(piece):  # ours, and nothing after it
+                os.ftruncate(fd, before)
+        raise
+    return end - len(data)
+
+
+def _sync(fd: int) -> None:
+    if sys.platform == "darwin":  # there fsync stops at the drive's own cache
+        import fcntl
+
+        fcntl.fcntl(fd, fcntl.F_FULLFSYNC)
+    else:
+        os.fsync(fd)
+
+
+def _sync_folder(name: str) -> None:
+    """Make a new file's name as durable as its content."""
+    if os.name == "nt":
+        return
+    fd = os.open(os.path.dirname(name) or ".", os.O_RDONLY)
+    try:
+        os.fsync(fd)
+    finally:
+        os.close(fd)
+
+
+def _is_at(fd: int, name: str) -> bool:
+    try:
+        return os.path.samestat(os.fstat(fd), os.stat(name))
+    except FileNotFoundError:
+        return False
+
+
+def _keep(name: str, text: str) -> str:
+    """Put refused lines beside the log; return what to tell the person."""
+    kept = name + UNSAVED
+    rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
+    them = "them" if "\n" in text else "it"
+    try:
+        for _ in range(TRIES):
+            with locked(kept) as fd:
+                if _is_at(fd, kept):  # not just emptied and removed by a restore
+                    _write(fd, text.encode() + b"\n", sync=True)
+                    return (
+                        f"{rows}  kept in {_shown(kept)}; to add {them} later:"
+                        f"\n  {command('--restore', Path(name))}"
+                    )
+    except OSError:
+        pass
+    return f"{rows}  kept nowhere but here: copy {them}"
+
+
+def _shown(name: str) -> str:
+    return shown(Path(name))

@@ -1,0 +1,227 @@
+"""The report as one HTML file that needs nothing else: no script, no font, no net."""
+
+from collections.abc import Iterator
+from html import escape
+from itertools import groupby
+
+from labkit.log.rows import Row
+from labkit.log.scan import Line
+from labkit.report import plot
+from labkit.report.series import Report, Series, value_of
+from labkit.report.style import STYLE
+
+RECENT = 20  # runs listed under a plot
+LISTED = 200  # lines listed that need a look
+STATUS = {
+    "pass": ("✓", "pass"),
+    "fail": ("✗", "fail"),
+    "open": ("•", "no threshold"),
+    "none": ("○", "not run yet"),
+}
+
+
+def render(report: Report, heading: str, week: int | None = None) -> str:
+    """Return the whole page.
+
+    Args:
+        report: what to show.
+        heading: one line of plain text on where the rows come from.
+        week: whose own page stands beside this one.
+    """
+    link = f' · <a href="report-week{week}.html">Week {week}</a>'
+    beside = "" if week is None else link
+    days = groupby(report.series, key=lambda series: series.day)
+    return "\n".join(
+        [
+            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
+            # text from the log cannot become a script even if escaping failed
+            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\';'
+            " style-src 'unsafe-inline'\">",
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f"<title>robo47 metrics</title><style>{STYLE}</style></head><body>",
+            f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}{beside}</p>',
+            _tiles(report),
+            *([] if report.rows else [_nothing()]),
+            _jumps(report),
+            *(_day(day, list(series)) for day, series in days),
+            _look("Repaired while reading", report.repaired),
+            _look("Could not be read", report.unread),
+            "</body></html>\n",
+        ]
+    )
+
+
+def _tiles(report: Report) -> str:
+    attention = len(report.repaired) + len(report.unread)
+    tiles = [
+        ("pass" if report.count("pass") else "none", report.count("pass"), "passing"),
+        ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
+        ("none", report.count("open"), "without a threshold"),
+        ("none", report.count("none"), "not run yet"),
+        ("", report.rows, "rows"),
+        ("fail" if attention else "none", attention, "lines to look at"),
+    ]
+    cells = "".join(
+        f'<div class="tile"><b class="{role}">{count:,}</b>'
+        f'<span class="muted">{label}</span></div>'
+        for role, count, label in tiles
+    )
+    return f'<div class="tiles">{cells}</div>'
+
+
+def _nothing() -> str:
+    return (
+        '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
+        "<code>make run DAY=1</code></p>"
+    )
+
+
+def _title(day: int | None) -> str:
+    return "No day" if day is None else f"Day {day}"
+
+
+def _jumps(report: Report) -> str:
+    """Return a link to each day, where there are several."""
+    days = dict.fromkeys(series.day for series in report.series)
+    failing = {series.day for series in report.series if series.status == "fail"}
+    if len(days) < 2:
+        return ""
+    links = ", ".join(
+        f'<a class="{"fail" if day in failing else "open"}" href="#{day}">'
+        f"{_title(day)}</a>"
+        for day in days
+    )
+    return f'<p class="jumps">{links}</p>'
+
+
+def _day(day: int | None, series: list[Series]) -> str:
+    cards = "".join(_card(one) for one in series)
+    return (
+        f'<section id="{day}"><h2>{_title(day)}</h2><div class="cards">{cards}</div>'
+        "</section>"
+    )
+
+
+def _card(series: Series) -> str:
+    mark, words = STATUS[series.status]
+    best = "best" if series.threshold else "lowest"
+    latest = value_of(series.rows[-1]) if series.rows else None
+    facts = [
+        ("latest", plot.number(latest)),
+        (best, plot.number(series.best)),
+        ("runs", f"{len(series.rows):,}"),
+        ("threshold", escape(series.limits)),
+    ]
+    terms = "".join(
+        f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
+        for name, value in facts
+    )
+    return (
+        f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
+        f'<span class="muted">{_text(series.metric)}</span></div>'
+        f'<span class="badge {series.status}">{mark} {words}</span></div>'
+        f"<dl>{terms}</dl>{_failures(series)}{_svg(series)}{_recent(series.rows)}"
+        "</article>"
+    )
+
+
+def _failures(series: Series) -> str:
+    """Return in how many trials the latest run failed, or nothing."""
+    latest = series.rows[-1] if series.rows else None
+    if latest is None or not latest["n_failures"]:
+        return ""
+    trials = latest["n_trials"] or "?"
+    return f'<p class="fail">failed in {latest["n_failures"]} of {trials} trials</p>'
+
+
+def _colour(name: str, series: Series) -> str:
+    judged = name == "latest" and series.status in ("pass", "fail")
+    return f' class="{series.status}"' if judged else ""
+
+
+def _text(cell: object) -> str:
+    return escape(str(cell)) or '<span class="muted">(empty)</span>'
+
+
+def _svg(series: Series) -> str:
+    shapes = "".join(_shape(shape) for shape in plot.draw(series))
+    if not shapes:
+        return ""
+    label = escape(f"{series.check} {series.metric}, run by run")
+    return (
+        f'<svg viewBox="0 0 {plot.WIDTH} {plot.HEIGHT}" role="img"'
+        f' aria-label="{label}">{shapes}</svg>'
+    )
+
+
+def _shape(shape: plot.Shape) -> str:
+    colour = f"var(--{'line' if shape.role == 'halo' else shape.role})"
+    if isinstance(shape, plot.Path):
+        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
+        dashes = ' stroke-dasharray="5 4"' if shape.dashed else ""
+        return f'<polyline points="{points}" fill="none" stroke="{colour}"{dashes}/>'
+    if isinstance(shape, plot.Words):
+        return (
+            f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" text-anchor="{shape.anchor}"'
+            f' fill="{colour}">{escape(shape.text)}</text>'
+        )
+    paint = f'fill="{colour}"'
+    if shape.role == "halo":
+        paint += ' fill-opacity=".2"'
+    if shape.hollow:
+        paint = f'fill="var(--card)" stroke="{colour}" stroke-width="1.5"'
+    return (
+        f'<circle cx="{shape.x:.1f}" cy="{shape.y:.1f}" r="{shape.radius}" {paint}>'
+        f"<title>{escape(shape.tip)}</title></circle>"
+    )
+
+
+def _recent(rows: list[Row]) -> str:
+    if not rows:
+        return ""
+    names = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
+    heads = ("date", "value", "commit", "failures", "config", "method", "notes")
+    shown = list(reversed(rows[-RECENT:]))
+    body = "".join("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
+    title = "1 run" if len(rows) == 1 else f"{len(rows):,} runs"
+    if len(rows) > RECENT:
+        title = f"The latest {RECENT} of {title}"
+    head = "".join(f"<th>{name}</th>" for name in heads)
+    return (
+        f'<details><summary>{title}</summary><div class="scroll"><table>'
+        f"<tr>{head}</tr>{body}</table></div></details>"
+    )
+
+
+def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
+    for name in names:
+        value = row[name]
+        text = "" if value is None else _clipped(str(value))
+        if name == "n_failures" and value is not None:
+            text = f"{value} of {'?' if row['n_trials'] is None else row['n_trials']}"
+        if name == "value":
+            text = plot.number(value_of(row))
+        kind = ' class="note"' if name == "notes" else ""
+        yield f"<td{kind}>{escape(text)}</td>"
+
+
+def _look(title: str, lines: list[Line]) -> str:
+    if not lines:
+        return ""
+    rows = "".join(
+        f"<tr><td>{line.number}</td><td class=note>{escape(line.problem)}</td>"
+        f"<td class=note><code>{escape(_clipped(line.text))}</code></td></tr>"
+        for line in lines[:LISTED]
+    )
+    more = len(lines) - LISTED
+    rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
+    return (
+        f'<section><h2>{title} ({len(lines):,})</h2><div class="card scroll"><table>'
+        f"<tr><th>line</th><th>why</th><th>text</th></tr>{rows}</table>{rest}"
+        '<p class="muted">More: <code>python3 scripts/log_metric.py --check</code></p>'
+        "</div></section>"
+    )
+
+
+def _clipped(text: str, most: int = 300) -> str:
+    return text if len(text) <= most else f"{text[:200]} … {text[-90:]}"

@@ -1,0 +1,222 @@
+"""A series as lines, dots and words, which the page and the picture both draw.
+
+Every run has the same width, since a date has no time of day. Coordinates are
+pixels, y downwards; a role is a colour by name, the same in both.
+"""
+
+import math
+from typing import NamedTuple
+
+from labkit.log.rows import Row
+from labkit.report.series import Series, value_of
+
+WIDTH, HEIGHT = 360, 170
+LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
+MOST = 240  # points: more cannot be told apart, and would only make the page heavy
+LABEL_GAP = 58  # between two commits under the axis
+HALF_LABEL = 26  # of a commit's seven figures
+
+
+class Path(NamedTuple):
+    """A line through points."""
+
+    points: list[tuple[float, float]]
+    role: str
+    dashed: bool = False
+
+
+class Dot(NamedTuple):
+    """A run; hollow where the axis cannot show its value."""
+
+    x: float
+    y: float
+    radius: float
+    role: str
+    tip: str
+    hollow: bool = False
+
+
+class Words(NamedTuple):
+    """A label; anchor is "start", "middle" or "end" of the text at x."""
+
+    x: float
+    y: float
+    text: str
+    anchor: str = "middle"
+    role: str = "muted"
+
+
+Shape = Path | Dot | Words
+
+
+def number(value: float | None) -> str:
+    """Return a value as the report prints it: three figures, no padding."""
+    return "–" if value is None else f"{value:.3g}"
+
+
+def draw(series: Series) -> list[Shape]:
+    """Return the plot of a series, back to front; empty with nothing to plot."""
+    values = series.values
+    if not values:
+        return []
+    axis = _Axis(series)
+    shapes: list[Shape] = []
+    for tick in axis.ticks():
+        y = axis.y(tick)
+        shapes.append(Path([(LEFT, y), (RIGHT, y)], "grid"))
+        shapes.append(Words(LEFT - 6, y + 3.5, axis.label(tick), "end"))
+    shapes += _threshold(series, axis)
+    chosen = _thinned(series.rows)
+    places = [(_x(i, len(chosen)), row) for i, row in enumerate(chosen)]
+    line = [(x, axis.y(_finite_value(row))) for x, row in places if _finite(row)]
+    shapes.append(Path(line, "line"))
+    shapes += [_dot(series, axis, x, row, len(places)) for x, row in places[:-1]]
+    last = _dot(series, axis, *places[-1], 1)
+    shapes += [Dot(last.x, last.y, 8, "halo", ""), last]
+    return shapes + _under_axis(places)
+
+
+class _Axis:
+    """The vertical axis: which values it spans, and where each one is."""
+
+    def __init__(self, series: Series) -> None:
+        self.log = series.is_log
+        self.has_zero = False
+        shown = [_drawable(v) for v in series.values if v > 0 or not self.log]
+        if series.threshold:
+            bounds = (series.threshold.min, series.threshold.max)
+            shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
+        low, high = min(shown), max(shown)
+        if self.log:
+            low, high = math.floor(math.log10(low)), math.ceil(math.log10(high))
+            high = min(high, 308)
+            # a decade below for exact zeros, which have no logarithm
+            self.has_zero = 0 in series.values
+            low -= self.has_zero or low == high
+        elif low == high:
+            low, high = low - (abs(low) or 1) / 2, high + (abs(high) or 1) / 2
+        self.low, self.high = low, high
+
+    def y(self, value: float) -> float:
+        """Return a value's height; on a log axis zero and below sit on the floor."""
+        if self.log:
+            value = math.log10(value) if value > 0 else self.low
+        share = (_drawable(value) - self.low) / (self.high - self.low)
+        return BOTTOM - share * (BOTTOM - TOP)
+
+    def ticks(self) -> list[float]:
+        """Return up to five round values."""
+        if self.log:
+            step = max(1, math.ceil((self.high - self.low) / 4))
+            first = int(self.low) + self.has_zero
+            zero = [0.0] * self.has_zero
+            return zero + [10.0**e for e in range(first, int(self.high) + 1, step)]
+        step = 10 ** math.floor(math.log10((self.high - self.low) / 2))
+        while (self.high - self.low) / step > 4:
+            step *= 2
+        first = math.ceil(self.low / step)
+        last = math.floor(self.high / step)
+        return [float(f"{i * step:.12g}") for i in range(first, last + 1)]
+
+    def label(self, tick: float) -> str:
+        """Return a tick's text, with the figures that tell it from the next."""
+        if self.log or tick == 0:
+            return f"{tick:g}"
+        span = (self.high - self.low) / 4
+        figures = math.ceil(math.log10(max(abs(tick) / span, 1))) + 2
+        return f"{tick:.{min(figures, 8)}g}"
+
+
+def _drawable(value: float) -> float:
+    """Return a value whose distance to any other is still a float."""
+    return max(-8e307, min(8e307, value))
+
+
+def _threshold(series: Series, axis: _Axis) -> list[Shape]:
+    if series.threshold is None:
+        return []
+    shapes: list[Shape] = []
+    for sign, bound in (("<", series.threshold.max), (">", series.threshold.min)):
+        if bound is None or (axis.log and bound <= 0):
+            continue
+        y = axis.y(bound)
+        shapes.append(Path([(LEFT, y), (RIGHT, y)], "limit", dashed=True))
+        label_y = y + 12 if y < TOP + 12 else y - 4
+        first, last = (_distance(series.rows[i], y, axis) for i in (0, -1))
+        x, anchor = (LEFT, "start") if first > last else (RIGHT, "end")
+        shapes.append(Words(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
+    return shapes
+
+
+def _distance(row: Row, y: float, axis: _Axis) -> float:
+    """Return how far a run is from a height, to find where a label has room."""
+    return abs((axis.y(_finite_value(row)) if _finite(row) else TOP) - y)
+
+
+def _dot(series: Series, axis: _Axis, x: float, row: Row, count: int) -> Dot:
+    """Return a run's dot; one whose value is no number sits hollow at the top."""
+    role = "line"
+    if series.threshold:
+        role = series.threshold.judge(row)
+    tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
+    if row["n_failures"]:
+        tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
+    radius = 4 if count <= 40 else 2
+    if not _finite(row):
+        return Dot(x, TOP, radius, role, tip, hollow=True)
+    value = _finite_value(row)
+    return Dot(x, axis.y(value), radius, role, tip, axis.log and value <= 0)
+
+
+def _under_axis(places: list[tuple[float, Row]]) -> list[Shape]:
+    """Label the runs with commits, where they change and fit, and with dates."""
+    shapes: list[Shape] = []
+    last_x, before = -math.inf, None
+    for x, row in places:
+        sha = str(row["git_sha"])[:7]
+        if sha != before and x - last_x >= LABEL_GAP:
+            middle = min(x, WIDTH - HALF_LABEL)
+            shapes.append(Words(middle, BOTTOM + 18, sha or "no commit"))
+            last_x, before = x, sha
+    first, last = str(places[0][1]["date"]), str(places[-1][1]["date"])
+    if first == last:
+        return [*shapes, Words((LEFT + RIGHT) / 2, BOTTOM + 34, first)]
+    shapes.append(Words(LEFT, BOTTOM + 34, first, "start"))
+    shapes.append(Words(RIGHT, BOTTOM + 34, last, "end"))
+    return shapes
+
+
+def _x(index: int, count: int) -> float:
+    if count == 1:
+        return (LEFT + RIGHT) / 2
+    return LEFT + 10 + index / (count - 1) * (RIGHT - LEFT - 20)
+
+
+def _thinned(rows: list[Row]) -> list[Row]:
+    """Return at most MOST rows: the extremes of each bin, and the latest."""
+    if len(rows) <= MOST:
+        return rows
+    size = math.ceil(2 * len(rows) / (MOST - 1))
+    kept = []
+    for start in range(0, len(rows), size):
+        bin_ = range(start, min(start + size, len(rows)))
+        by_value = sorted(bin_, key=lambda i: _height(rows[i]))
+        kept += sorted({by_value[0], by_value[-1]})
+    if kept[-1] != len(rows) - 1:
+        kept.append(len(rows) - 1)
+    return [rows[i] for i in kept]
+
+
+def _height(row: Row) -> float:
+    return _finite_value(row) if _finite(row) else math.inf
+
+
+def _finite(row: Row) -> bool:
+    value = value_of(row)
+    return value is not None and math.isfinite(value)
+
+
+def _finite_value(row: Row) -> float:
+    value = value_of(row)
+    assert value is not None
+    return value

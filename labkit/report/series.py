@@ -1,0 +1,151 @@
+"""The log's rows as one series per day, check and metric."""
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from labkit.lesson.day import Metric
+from labkit.log.rows import Row
+from labkit.log.scan import Line
+from labkit.report.thresholds import Key
+
+
+class Series:
+    """The runs of one check's metric, oldest first, and what they must reach."""
+
+    def __init__(self, key: Key, threshold: Metric | None) -> None:
+        """Start with no runs."""
+        self.day, self.check, self.metric = key
+        self.threshold = threshold
+        self.rows: list[Row] = []
+
+    @property
+    def values(self) -> list[float]:
+        """The finite values, oldest first."""
+        found = (value_of(row) for row in self.rows)
+        return [value for value in found if value is not None and math.isfinite(value)]
+
+    @property
+    def status(self) -> str:
+        """How the latest run did: "pass", "fail", "open" (no threshold), "none"."""
+        if not self.rows:
+            return "none"
+        if self.threshold is None:
+            return "open"
+        return self.threshold.judge(self.rows[-1])
+
+    @property
+    def limits(self) -> str:
+        """The threshold in signs, "< 1e-08"; "–" where there is none."""
+        if self.threshold is None:
+            return "–"
+        low, high = self.threshold.min, self.threshold.max
+        parts = [] if low is None else [f"> {low:g}"]
+        parts += [] if high is None else [f"< {high:g}"]
+        return ", ".join(parts)
+
+    @property
+    def best(self) -> float | None:
+        """The largest value where a minimum is asked for, else the smallest."""
+        values = self.values
+        if not values:
+            return None
+        wants_high = self.threshold is not None and self.threshold.max is None
+        return max(values) if wants_high else min(values)
+
+    @property
+    def is_log(self) -> bool:
+        """Whether the axis is logarithmic: errors, and whatever spans decades."""
+        values = self.values
+        positive = [value for value in values if value > 0]
+        if not positive or min(values) < 0:
+            return False
+        return "err" in self.metric or max(positive) > 100 * min(positive)
+
+
+@dataclass
+class Report:
+    """Everything that the page shows."""
+
+    series: list[Series]
+    repaired: list[Line] = field(default_factory=list)
+    unread: list[Line] = field(default_factory=list)
+    rows: int = 0
+
+    def count(self, status: str) -> int:
+        """Return how many series have that status."""
+        return sum(one.status == status for one in self.series)
+
+
+def value_of(row: Row) -> float | None:
+    """Return a row's number."""
+    value = row["value"]
+    return value if isinstance(value, int | float) else None
+
+
+def collect(
+    lines: Iterable[Line],
+    thresholds: Mapping[Key, Metric],
+    since: str = "",
+    day: int | None = None,
+    check: str = "",
+) -> Report:
+    """Return the report on the lines that the filters let through.
+
+    Args:
+        lines: what `scan` yields.
+        thresholds: by day, check and metric.
+        since: the first date, YYYY-MM-DD; "" is all.
+        day: the course's day; None is all.
+        check: a check's name; "" is all.
+    """
+    found: dict[Key, Series] = {}
+    for key, threshold in thresholds.items():
+        if day in (None, key[0]) and check in ("", key[1]):
+            found[key] = Series(key, threshold)
+    report = Report([])
+    for line in lines:
+        row = line.row
+        if row is None:
+            report.unread.append(line)
+            continue
+        if not _wanted(row, since, day, check):
+            continue
+        report.rows += 1
+        if line.problem:
+            report.repaired.append(line)
+        _add(found, thresholds, row)
+    report.series = sorted(found.values(), key=_place)
+    for series in report.series:  # a merge may leave the dates out of order
+        series.rows.sort(key=lambda row: str(row["date"]))
+    return report
+
+
+def _wanted(row: Row, since: str, day: int | None, check: str) -> bool:
+    return (
+        str(row["date"]) >= since
+        and day in (None, row["day"])
+        and check in ("", row["check"])
+    )
+
+
+def _add(
+    found: dict[Key, Series],
+    thresholds: Mapping[Key, Metric],
+    row: Row,
+) -> None:
+    name, metric = str(row["check"]), str(row["metric"])
+    day = row["day"] if isinstance(row["day"], int) else None
+    if day is None:  # a row without its day belongs to the only day that asks for it
+        days = [key[0] for key in thresholds if key[1:] == (name, metric)]
+        day = days[0] if len(days) == 1 else None
+    key = (day, name, metric)
+    if key not in found:
+        found[key] = Series(key, thresholds.get(key))
+    found[key].rows.append(row)
+
+
+def _place(series: Series) -> tuple[float, bool, str, str]:
+    """Return what orders the series: by day, and what fails first."""
+    day = math.inf if series.day is None else series.day
+    return (day, series.status != "fail", series.check, series.metric)

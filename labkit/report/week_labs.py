@@ -1,0 +1,138 @@
+"""Run the labs of a week and collect the numbers that they record."""
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from labkit.lesson.day import Day, Metric, all_days
+from labkit.log import read_rows
+from labkit.log.rows import Row
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+Key = tuple[str, str]  # of a number: its check and its metric
+
+
+@dataclass(frozen=True)
+class Ran:
+    """What became of a day's lab.
+
+    Attributes:
+        day: from the manifest.
+        mine: whether the student's file ran, and not the kit's.
+        rows: those it recorded.
+        why: why it did not pass, in a line; "" where it did.
+    """
+
+    day: Day
+    mine: bool
+    rows: Mapping[Key, Row]
+    why: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether the lab and every number that the manifest asks for are right."""
+        return not self.why and all(map(self.passes, self.day.metrics))
+
+    def passes(self, metric: Metric) -> bool:
+        """Return whether a number was recorded and is as it must be."""
+        return metric.judge(self.rows.get((metric.check, metric.metric))) == "pass"
+
+    def value(self, metric: Metric) -> float | None:
+        """Return a number that was recorded, or None."""
+        row = self.rows.get((metric.check, metric.metric))
+        return None if row is None else float(str(row["value"]))
+
+
+def week_of(day: Day) -> int:
+    """Return the number of a day's week, by the name of its folder."""
+    digits = day.folder.name.removeprefix("w").partition("-")[0]
+    return int(digits) if digits.isdecimal() else 0
+
+
+def days_of(week: int, root: Path = ROOT) -> list[Day]:
+    """Return the days of a week, in order.
+
+    Args:
+        week: its number.
+        root: the clone.
+
+    Raises:
+        Robo47Error: the kit has no such week.
+    """
+    days = all_days(root)
+    found = [day for day in days if week_of(day) == week]
+    if not found:
+        known = ", ".join(map(str, sorted({week_of(day) for day in days})))
+        raise Robo47Error(f"there is no week {week} yet; the kit has: {known}")
+    return found
+
+
+def name_of(day: Day, metric: Metric) -> str:
+    """Return what to call a number: its check, with the metric where it has several."""
+    alone = [m.check for m in day.metrics].count(metric.check) < 2
+    return metric.check if alone else f"{metric.check} {metric.metric}"
+
+
+def run_labs(
+    days: Sequence[Day],
+    python: str | Path = sys.executable,
+    environment: Mapping[str, str] | None = None,
+    *,
+    kits: bool = False,
+) -> Iterator[Ran]:
+    """Run labs side by side, the student's own where they are begun.
+
+    Args:
+        days: whose labs.
+        python: to run them with.
+        environment: its variables; this process's by default.
+        kits: run the kit's labs, whatever the student has begun.
+
+    Returns:
+        What became of each, in the order of the days.
+    """
+    variables = dict(os.environ if environment is None else environment)
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        yield from pool.map(
+            lambda day: _run(
+                day, str(python), variables, mine=day.work.is_file() and not kits
+            ),
+            days,
+        )
+
+
+def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> Ran:
+    script = day.work if mine else day.source
+    with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
+        log = Path(folder) / "metrics.csv"
+        done = subprocess.run(
+            [python, str(script)],
+            env={**environment, "ROBO47_METRICS": str(log), "COLUMNS": "80"},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            check=False,
+        )
+        rows = read_rows(log) if log.exists() else []
+    latest = {(str(r["check"]), str(r["metric"])): r for r in rows}
+    numbers = {k: row for k, row in latest.items() if row["value"] is not None}
+    return Ran(day, mine, numbers, _why(done))
+
+
+def _why(done: subprocess.CompletedProcess[str]) -> str:
+    """Return what a lab says of its failure, in a line."""
+    if done.returncode == 0:
+        return ""
+    _, mark, failed = done.stdout.partition("FAILED: ")
+    if mark:
+        return " ".join(failed.partition("FAILED: ")[0].split())
+    lines = done.stderr.strip().splitlines()
+    return lines[-1].strip() if lines else f"it ended with code {done.returncode}"

@@ -1,0 +1,184 @@
+"""A week as one HTML page that needs nothing else: no script, no font, no net."""
+
+from collections.abc import Sequence
+from html import escape
+
+from labkit.lesson.lab import number_of
+from labkit.report.style import STYLE as REPORT_STYLE
+from labkit.report.week_facts import DayFacts
+from labkit.report.week_labs import name_of, week_of
+from labkit.report.week_numbers import Number
+
+STYLE = (
+    REPORT_STYLE
+    + """
+body { max-width: 980px; }
+td.n, th.n { text-align: right; } td.day { font-weight: 600; }
+tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
+  border-top: 1px solid var(--grid); }
+table { font-size: 14px; margin-top: 0; } th, td { padding: 6px 14px 6px 0; }
+th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal;
+  min-width: 160px; }
+.bar { display: inline-block; width: 90px; height: 9px; margin-right: 9px;
+  border-radius: 5px; background: var(--grid); overflow: hidden; }
+.bar i { display: block; height: 100%; background: var(--pass); }
+.chips { display: flex; flex-wrap: wrap; gap: 8px; }
+.chip { background: var(--card); border: 1px solid var(--grid); border-radius: 99px;
+  padding: 3px 12px; font-size: 14px; }
+.last { margin-top: 32px; }
+@media (max-width: 500px) { th, td { padding-right: 7px; } .card { padding: 10px; }
+  .bar { display: none; } td.wide { min-width: 120px; } }
+"""
+)
+
+
+def render(facts: Sequence[DayFacts], heading: str) -> str:
+    """Return the whole page.
+
+    Args:
+        facts: of the week's days, in order.
+        heading: one line of plain text on where this comes from.
+    """
+    title = title_of(facts)
+    return "\n".join(
+        [
+            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
+            # text from the log cannot become a script even if escaping failed
+            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\';'
+            " style-src 'unsafe-inline'\">",
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f"<title>{title}</title><style>{STYLE}</style></head><body>",
+            f'<h1>{title}</h1><p class="muted">{escape(heading)}</p>',
+            _tiles(facts),
+            _numbers(facts),
+            _days(facts),
+            _mistakes(facts),
+            '<p class="muted last">Every run as a plot: '
+            '<a href="report.html">report.html</a>. '
+            "Hints and mistakes are on your machine alone.</p>",
+            "</body></html>\n",
+        ]
+    )
+
+
+def title_of(facts: Sequence[DayFacts]) -> str:
+    """Return "Week 1: foundations", by the name of the week's folder."""
+    day = facts[0].day
+    topic = day.folder.name.partition("-")[2].replace("-", " ")
+    return escape(f"Week {week_of(day)}: {topic}")
+
+
+def minutes_in_words(minutes: int | None) -> str:
+    """Return a time as people say it: "50 min", "3 h 20 min", "2 days"."""
+    if minutes is None:
+        return "–"
+    if minutes < 60:
+        return f"{minutes} min"
+    if minutes < 1440:
+        return f"{minutes // 60} h {minutes % 60:02} min"
+    return f"{minutes / 1440:.1f} days"
+
+
+def _tiles(facts: Sequence[DayFacts]) -> str:
+    numbers = [number for one in facts for number in one.numbers]
+    met = [m for one in facts for m in one.met]
+    tiles = [
+        (sum(f.passed for f in facts), sum(f.tasks for f in facts), "tasks pass"),
+        (sum(n.passed for n in numbers), len(numbers), "numbers within limits"),
+        (sum(f.own for f in facts), sum(f.functions for f in facts), "functions yours"),
+        (sum(m.left_behind for m in met), len(met), "mistakes left behind"),
+    ]
+    cells = "".join(
+        f'<div class="tile"><b class="{"pass" if n and n == of else ""}">{n:,} of'
+        f' {of:,}</b><span class="muted">{label}</span></div>'
+        for n, of, label in tiles
+    )
+    hints = sum(f.hints for f in facts)
+    words = f'<b>{hints:,}</b><span class="muted">hints asked</span>'
+    return f'<div class="tiles">{cells}<div class="tile">{words}</div></div>'
+
+
+def _numbers(facts: Sequence[DayFacts]) -> str:
+    kits = any(number.kit is not None for one in facts for number in one.numbers)
+    rows = [
+        _number(one, number, first=i == 0, kits=kits)
+        for one in facts
+        for i, number in enumerate(one.numbers)
+    ]
+    # What counts stands left: a phone shows the first four columns.
+    return _table(
+        "The numbers",
+        "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
+        "<th class=n>your worst on the way</th>"
+        + ("<th class=n>the kit's here</th>" if kits else ""),
+        rows,
+    )
+
+
+def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
+    role, mark = "none", "○ no row yet"
+    if number.latest is not None:
+        role, mark = ("pass", "✓ pass") if number.passed else ("fail", "✗ fail")
+    day = one.day.number if first else ""
+    kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
+    return (
+        f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
+        f"<td>{escape(name_of(one.day, number.metric))}</td>"
+        f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
+        f"<td>{escape(number.metric.limit)}</td>"
+        f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
+    )
+
+
+def _days(facts: Sequence[DayFacts]) -> str:
+    rows = [
+        f"<tr><td class=day>{one.day.number}</td>"
+        f"<td class=wide>{escape(one.day.title)}</td>"
+        f"<td>{_bar(one.passed, one.tasks)}</td>"
+        f"<td>{one.own} of {one.functions}</td>"
+        f"<td>{minutes_in_words(one.minutes)}</td>"
+        f"<td>{one.hints or '–'}</td></tr>"
+        for one in facts
+    ]
+    return _table(
+        "The days",
+        "<th>day</th><th></th><th>tasks that pass</th><th>functions yours</th>"
+        "<th>first to last commit</th><th>hints</th>",
+        rows,
+    )
+
+
+def _mistakes(facts: Sequence[DayFacts]) -> str:
+    met = [m for one in facts for m in one.met]
+    chips = "".join(
+        f'<span class="chip"><b>{escape(m.task)}</b> '
+        f"{escape(m.mistake.replace('-', ' '))} "
+        + (
+            "<span class=pass>✓ left behind</span>"
+            if m.left_behind
+            else "<span class=fail>✗ still there</span>"
+        )
+        + "</span>"
+        for m in met
+    )
+    nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
+    return (
+        "<section><h2>The mistakes you met</h2>"
+        f'{f"""<div class="chips">{chips}</div>""" if met else nothing}</section>'
+    )
+
+
+def _table(heading: str, head: str, rows: Sequence[str]) -> str:
+    return (
+        f'<section><h2>{heading}</h2><div class="card scroll"><table><tr>{head}</tr>'
+        f"{''.join(rows)}</table></div></section>"
+    )
+
+
+def _bar(passed: int, of: int) -> str:
+    share = 100 * passed / max(1, of)
+    return f'<span class=bar><i style="width:{share:.0f}%"></i></span>{passed} of {of}'
+
+
+def _value(value: float | None) -> str:
+    return "–" if value is None else number_of(value)

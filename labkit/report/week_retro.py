@@ -1,0 +1,98 @@
+"""The numbers of the student's retrospective, between two marks of its file.
+
+`<!-- numbers -->` and `<!-- end -->` stand in `w*/docs/RETRO_*.md`. What is between
+them is written anew; every other byte is the student's and stays as it is.
+"""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from labkit.lesson.lab import number_of
+from labkit.report.week_facts import DayFacts
+from labkit.report.week_labs import name_of
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+_MARKS = re.compile(rb"(<!-- numbers -->[ \t]*\r?\n)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def fill(facts: Sequence[DayFacts]) -> list[Path]:
+    """Write a week's numbers into its retrospectives; return those that have changed.
+
+    Args:
+        facts: of the week's days.
+
+    Raises:
+        Robo47Error: a file cannot be written.
+    """
+    if not any(one.begun for one in facts):
+        return []  # nobody's numbers
+    text = as_markdown(facts)
+    files = sorted((facts[0].day.folder / "docs").glob("RETRO_*.md"))
+    return [path for path in files if _fill(path, text)]
+
+
+def as_markdown(facts: Sequence[DayFacts]) -> str:
+    """Return a week's numbers as a table and three lines."""
+    rows = [
+        "| day | number | mine | worst on the way | limit |",
+        "|---|---|---|---|---|",
+    ]
+    for one in facts:
+        for number in one.numbers:
+            latest, worst = map(_cell, (number.latest, number.worst))
+            mark = "" if number.passed or number.latest is None else " (not yet)"
+            name = name_of(one.day, number.metric)
+            limit = number.metric.limit
+            rows.append(
+                f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
+            )
+    met = [m for one in facts for m in one.met]
+    left = sum(m.left_behind for m in met)
+    passed, tasks = (
+        sum(getattr(f, name) for f in facts) for name in ("passed", "tasks")
+    )
+    own, of = (sum(getattr(f, name) for f in facts) for name in ("own", "functions"))
+    return "\n".join(
+        [
+            "",
+            *rows,
+            "",
+            f"Tasks passed: {passed} of {tasks}. Functions of my own: {own} of {of}.",
+            f"Named mistakes met: {len(met)}; left behind: {left}.",
+            "",
+            "",
+        ]
+    )
+
+
+def no_numbers(text: str) -> bool:
+    """Return whether a retrospective's numbers are still to be filled in."""
+    found = _MARKS.findall(text.encode())
+    return len(found) == 1 and not found[0][1].strip()
+
+
+def _cell(value: float | None) -> str:
+    return "no row yet" if value is None else number_of(value)
+
+
+def _fill(path: Path, text: str) -> bool:
+    """Replace what is between the marks; return whether that changed the file."""
+    try:
+        before = path.read_bytes()
+        found = _MARKS.findall(before)
+        if len(found) != 1:  # no marks, or somebody wrote about them: not ours
+            return False
+        newline = "\r\n" if found[0][0].endswith(b"\r\n") else "\n"
+        inner = text.replace("\n", newline).encode()
+        after = _MARKS.sub(lambda m: m[1] + inner + m[3], before)
+        if after != before:
+            new = path.with_name(path.name + ".new")
+            new.write_bytes(after)
+            new.replace(path)
+        return after != before
+    except OSError as error:
+        raise Robo47Error(
+            f"{shown(path)} cannot be written: {error.strerror or error}"
+        ) from None

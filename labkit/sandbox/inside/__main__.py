@@ -1,0 +1,130 @@
+"""Run the student's functions on what the checker asks, and send back plain numbers.
+
+Started by `labkit.sandbox.process` with an interpreter that has no site-packages. The
+arguments are the wall's name and the folder where NumPy is. Standard input brings one
+line with the request, then one line per question; one line per answer goes out on what
+was standard output, each behind the request's secret. What student code prints goes
+elsewhere.
+"""
+
+import base64
+import json
+import os
+import sys
+import types
+from collections.abc import Callable
+from typing import Any
+
+HERE = sys.path.pop(0)
+PYTHON = [path for path in sys.path if path]  # the standard library
+
+
+def main() -> None:
+    """Answer until standard input ends."""
+    wall, libraries = sys.argv[1:]
+    asked, channel = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    sys.path[:] = [HERE, *PYTHON, libraries]
+    import limits
+
+    fences = wall != "none"
+    if fences:
+        limits.die_with_parent()
+        limits.leave_network()  # before NumPy: a process with threads may not
+    import answers
+    import fake_model
+    import fakes
+    import guard
+    import imports
+    import landlock
+    import seccomp
+    import wire
+
+    sys.path[:] = PYTHON  # NumPy finds its own parts without
+    request = json.loads(asked.readline())
+    _silence()
+
+    def send(**reply: Any) -> None:
+        told = {name: value for name, value in reply.items() if value not in ("", [])}
+        line = request["secret"] + json.dumps(told) + "\n"
+        channel.write(line.encode("ascii"))
+        channel.flush()
+
+    readable = [*PYTHON, *_numpy_folders()]
+    watch = guard.Guard(readable)
+    makers = [_maker(fake_model, wire, data) for data in request["models"]]
+    entries = [data["entry"] for data in request["models"]]
+    named = dict(zip(entries, makers, strict=True))
+    fake = fakes.Fakes(watch.refuse, named, request["facts"])
+    beside = {name: base64.b64decode(code) for name, code in request["beside"].items()}
+    imports.Finder(request["library"], beside, fake).install()
+    for name in os.listdir(HERE):  # a student may want these names for their own
+        if not name.startswith("__"):
+            sys.modules.pop(name.removesuffix(".py"), None)
+    limits.tighten(request["cpu_seconds"])
+    shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
+    fenced = fences and landlock.fence([*readable, shared])
+    closed = fences and seccomp.close()
+    watch.arm()
+    send(ready=True, fenced=fenced and closed)
+    module = _load(request, send, watch.refused, answers.describe)
+    if module:
+        answering = answers.Answers(module, makers, request["keep"])
+        for at, line in enumerate(asked):
+            watch.refused.clear()
+            call = json.loads(line)
+            if call.get("anew"):
+                answering.module = _anew(request, module)
+            reply = answering.ask(call)
+            send(at=at, refused=watch.refused[:3], **reply)
+    os._exit(0)  # no atexit of the student's, no thread to wait for
+
+
+def _anew(request: Any, module: types.ModuleType) -> types.ModuleType:
+    """Return the student's file loaded once more: what it kept so far is gone."""
+    for name in request["beside"]:
+        sys.modules.pop(name, None)
+    again = _load(request, lambda **_: None, [], lambda *_: {})
+    return again or module
+
+
+def _silence() -> None:
+    """Lead standard input and output nowhere."""
+    null = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(null, stream)
+
+
+def _numpy_folders() -> list[str]:
+    """Return where NumPy's files are."""
+    folder = os.path.dirname(os.path.abspath(sys.modules["numpy"].__file__ or ""))
+    return [folder, folder + ".libs"]
+
+
+def _maker(fake_model: Any, wire: Any, data: Any) -> Callable[[], Any]:
+    arrays = {name: wire.unpack_array(a) for name, a in data["arrays"].items()}
+    return lambda: fake_model.MjModel(data, arrays)
+
+
+def _load(
+    request: Any,
+    send: Callable[..., None],
+    refused: list[str],
+    describe: Callable[[BaseException, str], dict[str, Any]],
+) -> types.ModuleType | None:
+    """Return the student's file as a module, or say why it does not load."""
+    file = request["file"]
+    module = types.ModuleType(file.removesuffix(".py"))
+    module.__file__ = file
+    sys.modules[module.__name__] = module
+    try:
+        code = compile(base64.b64decode(request["code"]), file, "exec")
+        exec(code, vars(module))
+    except BaseException as error:
+        send(loaded=False, refused=refused[:3], **describe(error, file))
+        return None
+    send(loaded=True)
+    return module
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+"""Which modules of `robo47` a day's student code may import: those of earlier days.
+
+They travel to the sandbox as source text, so nothing else of the kit is there to find.
+"""
+
+import ast
+from functools import cache
+
+from labkit.lesson.day import Day, day_numbers, find_day
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+KIT = ROOT / "robo47"
+
+
+def library_of(day: Day) -> dict[str, str]:
+    """Return the sources of what days before this one brought, by module name.
+
+    Args:
+        day: the one that is checked.
+
+    Returns:
+        {"robo47.se3": "...", ...}, with what those modules import themselves.
+
+    Raises:
+        Robo47Error: a manifest names a module that is not there, or one that imports an
+            answer of this day. (A test looks at later days.)
+    """
+    earlier = [find_day(n) for n in day_numbers() if n < day.number]
+    allowed = [name for d in earlier for name in d.library]
+    found = {"kit": ""}  # a lab's first import, which leads to the kit's own Python
+    waiting = list(allowed)
+    while waiting:
+        name = waiting.pop()
+        if f"robo47.{name}" in found:
+            continue
+        if name in day.library:
+            raise Robo47Error(
+                f"robo47/{name}.py is an answer of day {day.number}, and the library "
+                "of an earlier day imports it"
+            )
+        source, inner = _read(name)
+        found[f"robo47.{name}"] = source
+        waiting += inner
+    return found
+
+
+@cache
+def _read(name: str) -> tuple[str, tuple[str, ...]]:
+    """Return a module's source, and which modules of the kit it imports."""
+    path = KIT / f"{name}.py"
+    try:
+        source = path.read_text("utf-8")
+    except OSError:
+        raise Robo47Error(
+            f"a day's library names {shown(path)}, which is not there"
+        ) from None
+    inner: list[str] = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and node.module == "robo47":
+            inner += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            inner += _below_robo47(node.module)
+        elif isinstance(node, ast.Import):
+            for alias in node.names:
+                inner += _below_robo47(alias.name)
+    return source, tuple(inner)
+
+
+def _below_robo47(module: str) -> list[str]:
+    top, _, rest = module.partition(".")
+    return [rest] if top == "robo47" and rest else []

@@ -1,0 +1,125 @@
+"""What stands between student code and this machine: the wall is the kernel's.
+
+Three kinds, the first that works here:
+
+    bubblewrap   a tool of every Linux distribution: its own processes, no network, and
+                 of the file system Python and NumPy alone, read-only
+    landlock     Linux's own rules and its filter of system calls, where bubblewrap
+                 is not to be had
+    none         other systems: the code runs with the rights of whoever checks it
+
+ROBO47_WALL=bubblewrap, landlock or none asks for one by name, for tests. The commands
+that run other people's code say which wall stands, and so cannot be fooled by it.
+"""
+
+import functools
+import importlib.util
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from labkit.sandbox import bubblewrap
+from labkit.sandbox.inside import landlock, seccomp
+from robo47.errors import FaultError, Robo47Error
+
+INSIDE = Path(__file__).parent / "inside"
+FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
+PROBE_SECONDS = 20.0
+_SAYS = {
+    "bubblewrap": "student code runs behind bubblewrap: Python and NumPy, read-only, "
+    "and nothing else of this machine",
+    "landlock": "student code runs behind Linux's Landlock: no file of yours, no "
+    "network, no other process. Stronger: install bubblewrap",
+    "none": "nothing keeps student code from this machine: it runs with your rights",
+}
+
+
+@dataclass(frozen=True)
+class Wall:
+    """What student code is kept behind.
+
+    Attributes:
+        name: "bubblewrap", "landlock" or "none".
+        says: a sentence for people, without a full stop.
+    """
+
+    name: str
+    says: str
+
+
+@functools.cache
+def wall() -> Wall:
+    """Return the strongest wall of this machine.
+
+    Raises:
+        Robo47Error: ROBO47_WALL asks for one that it does not have.
+    """
+    tests = {"bubblewrap": _bubblewrap_works, "landlock": _landlock_works}
+    wanted = os.environ.get("ROBO47_WALL", "")
+    if wanted not in ("", *_SAYS):
+        raise Robo47Error(f"ROBO47_WALL is {wanted!r}; known are {', '.join(_SAYS)}")
+    for name in (wanted,) if wanted else _SAYS:
+        if name == "none" or tests[name]():
+            asked = " (ROBO47_WALL asks for it)" if wanted else ""
+            return Wall(name, _SAYS[name] + asked)
+    raise FaultError(f"ROBO47_WALL asks for {wanted}, which does not work here")
+
+
+def in_container() -> bool:
+    """Return whether this is a container, which is a wall of its own."""
+    marks = ("/.dockerenv", "/run/.containerenv")
+    told = ("container", "KUBERNETES_SERVICE_HOST")  # systemd's and podman's; a pod's
+    return any(map(os.environ.get, told)) or any(Path(mark).exists() for mark in marks)
+
+
+def refusal() -> str:
+    """Return why other people's code should not run here; "" where it may.
+
+    Raises:
+        Robo47Error: ROBO47_WALL asks for a wall that this machine does not have.
+    """
+    if in_container():
+        return ""
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        return "you are root, and this is no container: be an ordinary user"
+    if wall().name == "none":
+        return "these submissions would run with your rights"
+    return ""
+
+
+def command(chosen: Wall) -> list[str]:
+    """Return the command that starts the sandbox's interpreter behind a wall.
+
+    Raises:
+        Robo47Error: NumPy is not installed.
+    """
+    spec = importlib.util.find_spec("numpy")
+    if spec is None or spec.origin is None:
+        raise Robo47Error("NumPy is not installed: run `make day1` once")
+    libraries = Path(spec.origin).parent.parent
+    if chosen.name == "bubblewrap":
+        return bubblewrap.command(INSIDE, libraries, FLAGS, chosen.name)
+    return [sys.executable, *FLAGS, str(INSIDE), chosen.name, str(libraries)]
+
+
+def _landlock_works() -> bool:
+    return landlock.version() > 0 and seccomp.known()
+
+
+def _bubblewrap_works() -> bool:
+    """Return whether bubblewrap starts a Python here, with what it is to see."""
+    if not bubblewrap.there():
+        return False
+    try:
+        tried = subprocess.run(
+            [*bubblewrap.prefix(), "-I", "-S", "-c", ""],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=PROBE_SECONDS,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return tried.returncode == 0

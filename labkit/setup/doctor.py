@@ -1,0 +1,217 @@
+"""What the doctor looks at: one finding per thing that the labs need.
+
+Runs on a bare Python, old or broken installs included: the standard library alone, and
+everything that can fail is tried in a process of its own.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from labkit.setup.probes import (
+    GL_PROBE,
+    LESSONS_PROBE,
+    MUJOCO_PROBE,
+    PYTHON_PROBE,
+    ROBOT_PROBE,
+    ROOT,
+    VERSIONS_PROBE,
+    probe,
+)
+
+VENV_PYTHON = (
+    ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+)
+OLDEST = (3, 11)
+LEAST_FREE_GB = 1
+
+
+class Line(NamedTuple):
+    """One finding: "good", "note" (fine, but know it) or "todo", and what to do."""
+
+    status: str
+    about: str
+    found: str
+    remedy: str = ""
+
+
+def kit_python() -> str:
+    """Return the kit's own interpreter where it starts, else this one."""
+    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]:
+        return str(VENV_PYTHON)
+    return sys.executable
+
+
+def check_python(python: str) -> Line:
+    """Python itself, and whether the kit's environment is there."""
+    version = probe(python, PYTHON_PROBE)[0] or platform.python_version()
+    own = python == str(VENV_PYTHON)
+    found = version + (" in .venv" if own else ", no .venv")
+    if tuple(int(part) for part in version.split(".")[:2]) < OLDEST:
+        return Line(
+            "todo",
+            "Python",
+            found,
+            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
+        )
+    if not own:
+        broken = VENV_PYTHON.exists()
+        remedy = ".venv does not start: make setup" if broken else "Set up: make day1"
+        return Line("todo", "Python", found, remedy)
+    return Line("good", "Python", found)
+
+
+def check_platform() -> Line:
+    """Operating system and processor."""
+    release = platform.release()
+    wsl = " (WSL)" if "microsoft" in release.lower() else ""
+    parts = (platform.system(), release, platform.machine())
+    return Line("good", "platform", " ".join(parts) + wsl)
+
+
+def check_mujoco(python: str) -> Line:
+    """MuJoCo: there, importable, computing; and the upgrade that leaves it broken."""
+    version, why = probe(python, MUJOCO_PROBE)
+    if version:
+        return Line("good", "MuJoCo", version)
+    installed = probe(python, VERSIONS_PROBE)[0] or {}
+    if "mujoco" not in installed:
+        return Line("todo", "MuJoCo", "not installed", "make setup")
+    found = "{} does not work: {}".format(installed["mujoco"], why)
+    if not installed["mujoco"].startswith("3.") and "numpy" in installed:
+        # Version 4 split the package; upgrading in place deletes files of the new half.
+        where = VENV_PYTHON.relative_to(ROOT).as_posix()
+        return Line(
+            "todo",
+            "MuJoCo",
+            found,
+            (where if python == str(VENV_PYTHON) else "python")
+            + " -m pip install --force-reinstall --no-deps"
+            + " mujoco mujoco-core mujoco-studio",
+        )
+    return Line("todo", "MuJoCo", found, "make setup")
+
+
+def check_robot(python: str) -> Line:
+    """The Panda: its source, and whether its files are as they were fetched."""
+    found, why = probe(python, ROBOT_PROBE)
+    if found is None:
+        return Line("todo", "robot", why.split("Robo47Error: ")[-1])
+    if "files" not in found:
+        says = "not fetched; the labs run on the embedded twin"
+        return Line("note", "robot", says, "With a network: make robot")
+    broken = sorted({*found["missing"], *found["changed"]})
+    if broken:
+        remedy = "Delete " + found["folder"] + ", then: make robot"
+        return Line("todo", "robot", "not as fetched: " + ", ".join(broken), remedy)
+    where = found["commit"] or "sha256 " + found["content"]
+    hashes = "{} files match".format(found["files"]) if found["files"] else "no hashes"
+    return Line("good", "robot", ", ".join([found["source"], where[:15], hashes]))
+
+
+def check_lessons(python: str) -> Line:
+    """The lab scripts of the lessons: the kit's own, or something saved over them."""
+    found, why = probe(python, LESSONS_PROBE)
+    if found is None:
+        return Line("todo", "lessons", why.split("Robo47Error: ")[-1])
+    if found["others"]:
+        says = "not the kit's: " + ", ".join(found["others"])
+        remedy = "To get it back: git checkout -- " + found["others"][0]
+        return Line("todo", "lessons", says, remedy)
+    return Line("good", "lessons", "days: {}".format(found["days"]))
+
+
+def check_gl(python: str) -> Line:
+    """Which OpenGL back ends really draw."""
+    chosen = os.environ.get("MUJOCO_GL", "")
+    found, why = probe(python, GL_PROBE, gl=True)
+    if found is None:
+        return Line("note", "pictures", "not tried: " + why)
+    draws = [name for name, says in found.items() if says == "renders"]
+    if draws:
+        return Line("good", "pictures", "drawn with " + ", ".join(draws))
+    why = "; ".join(name + ": " + says for name, says in found.items())
+    if chosen:  # the one that was tried
+        says = "MUJOCO_GL=" + chosen + " does not draw here: " + found[chosen.strip()]
+        return Line("todo", "pictures", says, "Unset it: unset MUJOCO_GL")
+    if sys.platform.startswith("linux"):
+        return Line(
+            "todo",
+            "pictures",
+            "nothing draws (" + why + ")",
+            "Debian, Ubuntu: sudo apt install libegl1 libgl1 libosmesa6",
+        )
+    return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
+
+
+def check_display() -> Line:
+    """Whether a window can open."""
+    if not sys.platform.startswith("linux"):
+        return Line("good", "display", platform.system() + " has one")
+    for name in ("WAYLAND_DISPLAY", "DISPLAY"):
+        if os.environ.get(name):
+            return Line("good", "display", name + " is set")
+    return Line("note", "display", "none", "make view shows the arm in a browser")
+
+
+def check_disk() -> Line:
+    """Free space where the clone is."""
+    free = shutil.disk_usage(str(ROOT)).free / 1e9
+    found = f"{free:.0f} GB free"
+    if free < LEAST_FREE_GB:
+        return Line("todo", "disk", found, "Free about 1 GB.")
+    return Line("good", "disk", found)
+
+
+def check_git() -> Line:
+    """Git, and whether commits will carry a name. The name itself is not shown."""
+    if not shutil.which("git"):
+        return Line("todo", "git", "not installed", "https://git-scm.com/downloads")
+    missing = []
+    for key in ("user.name", "user.email"):
+        command = ["git", "-C", str(ROOT), "config", key]
+        done = subprocess.run(command, stdout=subprocess.PIPE, check=False)
+        if not done.stdout.strip():
+            missing.append(key)
+    if missing:
+        remedy = f"git config --global {missing[0]} ..."
+        return Line(
+            "todo", "git", "does not know your " + " and ".join(missing), remedy
+        )
+    return Line("good", "git", "name and e-mail are set")
+
+
+def discreet(text: str) -> str:
+    """Return text without home folders and user names."""
+    for path, instead in ((ROOT, "."), (Path.home(), "~")):
+        for written in (str(path), path.as_posix()):
+            if len(written) > 1:
+                text = text.replace(written, instead)
+    return re.sub(r"(/home/|/Users/|[A-Za-z]:\\Users\\)[^/\\\s'\"]+", "~", text)
+
+
+def examine() -> list[Line]:
+    """Return every finding; a check that fails itself is a finding too."""
+    python = kit_python()
+    checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
+    if check_python(python).status == "good":  # else these only say so again
+        inside = (check_mujoco, check_robot, check_lessons, check_gl)
+        checks += [functools.partial(check, python) for check in inside]
+    checks += [check_display, check_disk, check_git]
+    lines = []
+    for check in checks:
+        try:
+            line = check()
+        except Exception as error:  # whatever it is, the other lines still count
+            line = Line("note", "doctor", f"{type(error).__name__}: {error}")
+        lines.append(Line(*(discreet(part) for part in line)))
+    return lines
