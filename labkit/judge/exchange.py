@@ -1,10 +1,7 @@
 """What is asked of the sandbox, and what comes back."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
-
-from labkit.base.text import visible, visible_lines
 
 MOST = 10  # entries of any list in a reply
 
@@ -86,26 +83,6 @@ class LoadError(Exception):
         self.reply = reply
 
 
-def read(message: dict[str, Any]) -> Reply:
-    """Return a message as a reply, believing nothing in it.
-
-    Raises:
-        Exception: any, where somebody forged the message.
-    """
-    from labkit.sandbox.inside import wire  # NumPy, after the sandbox has begun
-
-    if message.get("missing"):
-        return Reply(kind="missing")
-    try:
-        value = wire.unpack_value(message.get("value"))
-    except ValueError as error:
-        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
-    told = {
-        name: read(message[name]) for name, read in _READ.items() if name in message
-    }
-    return Reply(value=value, **told)
-
-
 def twice(first: Reply, second: Reply) -> Reply:
     """Return the first time's reply with what the second time adds to it."""
     error = ""
@@ -126,59 +103,6 @@ def twice(first: Reply, second: Reply) -> Reply:
 def stopped(why: str) -> Reply:
     """Return the reply of a call that never came back."""
     return Reply(error=why, kind="stopped")
-
-
-def pack(question: Question) -> dict[str, Any]:
-    """Return a question as JSON."""
-    return {
-        "function": question.function,
-        "args": [_pack_argument(arg) for arg in question.args],
-    }
-
-
-def _pack_argument(arg: Any) -> dict[str, Any]:
-    if isinstance(arg, Model):
-        return {"model": arg.index}
-    if isinstance(arg, Path):
-        return {"path": [list(pair) for pair in arg.pairs]}
-    if isinstance(arg, (int, float)):
-        return {"number": arg}
-    from labkit.sandbox.inside import wire
-
-    packed = wire.pack_value(arg)
-    assert isinstance(packed, dict), arg
-    return packed
-
-
-def _kind(told: Any) -> str:
-    return visible(told, 80)
-
-
-def _texts(told: Any) -> tuple[str, ...]:
-    return tuple(map(visible, told[:MOST])) if isinstance(told, list) else ()
-
-
-def _lines(told: Any) -> tuple[int, ...]:
-    """Return what may be numbers of lines in a file."""
-    numbers: Sequence[Any] = told[:MOST] if isinstance(told, list) else []
-    return tuple(n for n in numbers if type(n) is int and 0 < n < 10_000_000)
-
-
-def _line(told: Any) -> int | None:
-    return next(iter(_lines([told])), None)
-
-
-# How to read each part of a reply; what the sandbox has nothing to say of is left out.
-_READ: dict[str, Callable[[Any], Any]] = {
-    "error": visible,
-    "kind": _kind,
-    "line": _line,
-    "callers": _lines,
-    "changed": _texts,
-    "refused": _texts,
-    "printed": visible_lines,
-    "shares": _texts,
-}
 
 
 def _union(*some: tuple[str, ...]) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from typing import Any
 from labkit.base import processes
 from labkit.judge import exchange
 from labkit.judge.exchange import LoadError, Reply
+from labkit.sandbox import messages
 from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
 
@@ -134,7 +135,7 @@ class Process:
 
     def _reply(self, message: dict[str, Any]) -> Reply:
         try:
-            return exchange.read(message)
+            return messages.read(message)
         except Exception:  # a forged message can be anything
             raise EndedError(CHANNEL) from None
 

@@ -19,7 +19,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from labkit.judge.exchange import LoadError, Question, Reply, pack, stopped, twice
+from labkit.judge.exchange import LoadError, Question, Reply, stopped, twice
+from labkit.sandbox.messages import pack
 from labkit.sandbox.process import EndedError, Process
 from labkit.sandbox.session import CALL_SECONDS, Session
 from labkit.sandbox.source import code_of

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from labkit.judge.exchange import Question, Reply, pack, stopped
+from labkit.judge.exchange import Question, Reply, stopped
+from labkit.sandbox.messages import pack
 from labkit.sandbox.process import EndedError, Process
 from robo47.errors import FaultError
 

@@ -1,0 +1,53 @@
+"""Who may import whom: an arrow that points up is a fault, whatever it is good for."""
+
+import ast
+
+from conftest import ROOT
+
+# From the ground up: a room may import its own, and rooms that stand before it.
+FLOORS = [
+    "robo47",  # the course's library: it knows no machine
+    "labkit.base",
+    "labkit.log",
+    "labkit.lesson",
+    "labkit.judge",
+    "labkit.sandbox",
+    "labkit.handin",
+    "labkit.check",
+    "labkit.report",
+    "labkit.figures",
+    "labkit.inspector",
+    "labkit.fresh",
+    "labkit.grade",
+    "labkit.setup",
+    "labkit.commands",
+]
+# Names that labs and handouts have typed: three lines each.
+FACES = {f"robo47/{name}.py" for name in ("cli", "metrics", "mine", "lesson/lab")}
+MODULES = sorted([*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/*/**/*.py")])
+
+
+def room(name):
+    """Return "labkit.log" of labkit.log.rows, and "robo47" of robo47.se3."""
+    parts = name.split(".")
+    return parts[0] if parts[0] != "labkit" else ".".join(parts[:2])
+
+
+def imported(path):
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+
+
+def test_every_arrow_points_down():
+    up = []
+    for path in MODULES:
+        name = path.relative_to(ROOT).as_posix()
+        here = FLOORS.index(room(name.removesuffix(".py").replace("/", ".")))
+        for other in imported(path):
+            there = room(other)
+            if there in FLOORS and FLOORS.index(there) > here and name not in FACES:
+                up.append(f"{name}: {other}")
+    assert up == []
