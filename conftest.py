@@ -14,8 +14,9 @@ import mujoco
 import pytest
 
 from labkit.figures import backends
-from robo47 import menagerie, panda
+from robo47 import panda
 from robo47.errors import Robo47Error
+from robo47.panda import files
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -57,7 +58,7 @@ def load_script(path):
 @pytest.fixture
 def real_panda() -> Path:
     """Return the real Panda's folder."""
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     need(folder is not None, "the real Panda: python3 scripts/fetch_menagerie.py")
     assert folder is not None
     return folder
@@ -76,7 +77,7 @@ def chromium() -> str:
 @pytest.fixture
 def twin(monkeypatch: pytest.MonkeyPatch) -> None:
     """Hide the Menagerie, so that `panda.load` falls back to the twin."""
-    monkeypatch.setattr(menagerie, "panda_folder", lambda: None)
+    monkeypatch.setattr(files, "panda_folder", lambda: None)
 
 
 @pytest.fixture(params=["real", "twin"])

@@ -14,8 +14,10 @@ import mujoco
 import numpy as np
 
 from bench.timing import take_turns
-from robo47 import dynamics_batch, kinematics, menagerie, panda, verify
+from robo47 import kinematics, panda, verify
 from robo47.checks import Array
+from robo47.fast import dynamics
+from robo47.panda import files
 
 N = 100_000
 ONE = 2_000  # configurations for what is asked one at a time
@@ -45,12 +47,12 @@ class Rival(NamedTuple):
 
 
 def ours() -> Rival:
-    """robo47.dynamics_batch, one call."""
+    """robo47.fast.dynamics, one call."""
     arm = panda.arm(_model())
     calls: dict[str, Callable[[Motion], Array]] = {
-        "mass matrix": lambda m: dynamics_batch.mass_matrix(arm, m.q),
-        "inverse dynamics": lambda m: dynamics_batch.inverse_dynamics(arm, *m),
-        "site Jacobian": lambda m: dynamics_batch.site_jacobian(arm, m.q),
+        "mass matrix": lambda m: dynamics.mass_matrix(arm, m.q),
+        "inverse dynamics": lambda m: dynamics.inverse_dynamics(arm, *m),
+        "site Jacobian": lambda m: dynamics.site_jacobian(arm, m.q),
     }
     answer = lambda question, m: calls[question](m)  # noqa: E731
     return Rival(answer, answer)
@@ -119,7 +121,7 @@ def mujoco_loop() -> Rival:
 def pinocchio_loop() -> Rival:
     """Pinocchio's C++; it takes the armature into rnea, and writes v before omega."""
     pin = importlib.import_module("pinocchio")
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     if folder is None:
         raise ImportError("the real Panda is not here")
     model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))

@@ -79,9 +79,9 @@ def mujoco_loop() -> Rival:
 def pinocchio_loop(*, frame: bool) -> Rival:
     """Pinocchio's C++ in a Python loop: joints only, or with the frame's placement."""
     pin = importlib.import_module("pinocchio")
-    from robo47 import menagerie
+    from robo47.panda import files
 
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     if folder is None:
         raise ImportError("the real Panda is not here")
     model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))

@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 
 from bench.timing import take_turns
-from robo47 import ik, jacobian, menagerie, panda, se3, verify
+from robo47 import jacobian, panda, se3, verify
 from robo47.checks import Array
+from robo47.fast import ik
+from robo47.panda import files
 
 N = 1000
 FRAME = "site:attachment_site"
@@ -89,7 +91,7 @@ def toolbox() -> Rival:
 def pinocchio_loop() -> Rival:
     """The lesson's damped least squares in a Python loop over Pinocchio's C++."""
     pin = importlib.import_module("pinocchio")
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     if folder is None:
         raise ImportError("the real Panda is not here")
     model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))

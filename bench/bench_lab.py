@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 from bench.timing import take_turns
-from robo47 import menagerie
+from robo47.panda import files
 from robo47.paths import ROOT
 
 LAB = ROOT / "w1-foundations/src/day1_transforms.py"
@@ -21,7 +21,7 @@ def run(rounds: int = 9) -> dict:
     Returns:
         {"seconds": {name: {"median", "low", "high"}}}.
     """
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     commands = {
         "imports alone (python, numpy, mujoco)": [
             sys.executable, "-c", "import numpy, mujoco",

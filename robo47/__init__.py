@@ -1,1 +1,14 @@
 """robo47: derive it by hand, verify it against MuJoCo, record the number."""
+
+import importlib
+from types import ModuleType
+
+# What labs of before December 2026 have typed.
+_WAS = {"dynamics_batch": "robo47.fast.dynamics", "touch": "robo47.contact"}
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Return a module by the name that it had before."""
+    if name not in _WAS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module(_WAS[name])

@@ -20,8 +20,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import checks
-from robo47.arm_state import ArmState, Constants, from_pseudo_inertia, pseudo_inertias
 from robo47.checks import Array
+from robo47.fast.arm_state import (
+    ArmState,
+    Constants,
+    from_pseudo_inertia,
+    pseudo_inertias,
+)
 
 GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 
@@ -70,7 +75,16 @@ class Arm:
     @cached_property
     def constants(self) -> Constants:
         """What does not depend on q, worked out once."""
-        return Constants(self)
+        return Constants(
+            self.screws,
+            self.M_home,
+            self.T_zero,
+            self.masses,
+            self.coms,
+            self.inertias,
+            self.armature,
+            self.gravity,
+        )
 
     def at(self, q: ArrayLike) -> ArmState:
         """Return the arm at a configuration; its quantities are computed when asked.
@@ -86,7 +100,7 @@ class Arm:
             raise ValueError(f"q has shape {q.shape}; expected {self.masses.shape}")
         if not math.isfinite(q.dot(q)):
             checks.array(q, "q", q.shape)
-        return ArmState(self, q)
+        return ArmState(self.constants, q)
 
     def tool(self, T_ee_tool: ArrayLike) -> "Arm":
         """Return the same arm with another point at its end.

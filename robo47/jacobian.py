@@ -10,18 +10,19 @@ Three Jacobians map joint speeds to a twist (omega; v), and their names are kept
 Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
 metres, float64; leading dimensions broadcast.
 
-Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.ik` and
+Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.fast.ik` and
 `robo47.rotation_log` hold the rest of what is named here.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, poe, se3
+from robo47 import checks, se3
 from robo47.checks import Array
-from robo47.columns import jacobian_columns
-from robo47.ik import reached as reached
-from robo47.ik import solve_ik as solve_ik
+from robo47.fast import exponentials
+from robo47.fast.ik import reached as reached
+from robo47.fast.ik import solve_ik as solve_ik
+from robo47.fast.jacobians import jacobian_columns
 from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
@@ -50,7 +51,7 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
     if S.ndim > 2:
         return _one_by_one(S, q)
     flat = q.reshape(-1, len(S))
-    arm, J = poe.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
+    arm, J = exponentials.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
     for first in range(0, len(flat), CHUNK):
         part = slice(first, first + CHUNK)
         now, _, _ = jacobian_columns(arm, flat[part].T, at_end=False)

@@ -29,8 +29,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import se3
-from robo47.batch import Cursor, Plan, evaluate
 from robo47.checks import Array
+from robo47.fast.chains import Cursor, Plan, evaluate
 
 _TYPES = ("free", "ball", "slide", "hinge")  # in the order of mujoco.mjtJoint
 
@@ -125,8 +125,8 @@ def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
 def fk(chain: Chain, qpos: ArrayLike) -> Array:
     """Return the pose of the chain's frame: forward kinematics, by hand.
 
-    Many configurations go through together (`robo47.batch`); memory beyond input and
-    output does not grow with them. One alone goes in plain floats (`robo47.single`).
+    Many configurations go through together (`fast.chains`); memory beyond input and
+    output does not grow with them. One alone goes in plain floats (`robo47.fast.one`).
 
     Args:
         chain: from `chain_to`.

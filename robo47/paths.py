@@ -6,7 +6,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 # ROBO47_METRICS sends a run's rows elsewhere: tests, and trying things out.
 METRICS_CSV = Path(os.environ.get("ROBO47_METRICS") or ROOT / "metrics" / "metrics.csv")
-TWIN_XML = ROOT / "robo47" / "models" / "panda_twin.xml"
+TWIN_XML = ROOT / "robo47" / "panda" / "models" / "panda_twin.xml"
 
 
 def menagerie_root() -> Path:

@@ -18,10 +18,11 @@ import functools
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, poe, se3
+from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
+from robo47.fast import exponentials
 
 
 def skew(w: ArrayLike) -> Array:
@@ -175,8 +176,8 @@ def ad(V: ArrayLike) -> Array:
 def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
     """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
 
-    Many configurations of one arm take one vectorised pass (`robo47.poe`), which is as
-    fast as `kinematics.fk`: it makes the same moves.
+    Many configurations of one arm take one vectorised pass (`fast.exponentials`), which
+    is as fast as `kinematics.fk`: it makes the same moves.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
@@ -192,7 +193,7 @@ def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
     S, q = checks.screws_and_q(screws, q)
     M = checks.pose(M, "M")
     if S.ndim == M.ndim == 2:
-        return poe.end_poses(S, M, q)
+        return exponentials.end_poses(S, M, q)
     steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
     return functools.reduce(np.matmul, steps) @ M
 

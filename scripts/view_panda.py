@@ -22,9 +22,10 @@ import numpy as np
 from labkit.base import cli
 from labkit.inspector import native_viewer
 from labkit.lesson.day import Day, find_day, started_day
-from robo47 import menagerie, panda
+from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.panda import files
 from robo47.paths import shown
 
 DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
@@ -43,7 +44,7 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
 
     about = panda.describe(entry)
     print(about, flush=True)
-    if menagerie.panda_folder() is None:
+    if files.panda_folder() is None:
         missing = (
             "The robot's meshes are not here: simple shapes are drawn, with the same "
             "frames (python3 scripts/fetch_menagerie.py fetches them)"

@@ -12,7 +12,7 @@ from queue import Queue
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPT = ROOT / "scripts" / "view_panda.py"
 SECONDS = 60
-NO_ROBOT = "from robo47 import menagerie; menagerie.panda_folder = lambda: None"
+NO_ROBOT = "from robo47.panda import files; files.panda_folder = lambda: None"
 
 
 def prepared(work: Path, robot: bool) -> str:

@@ -6,9 +6,10 @@ from compare import assert_same
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robo47 import dynamics_batch, panda, se3, verify
+from robo47 import panda, se3, verify
 from robo47.arm import Arm
-from robo47.links import links_of
+from robo47.fast import dynamics
+from robo47.fast.links import links_of
 
 pytestmark = pytest.mark.kit
 
@@ -25,13 +26,13 @@ def motions(either_panda):
 
 def test_the_mass_matrices_are_mujocos(motions):
     model, arm, q, _, _ = motions
-    M = dynamics_batch.mass_matrix(arm, q)
+    M = dynamics.mass_matrix(arm, q)
     assert_same(M, verify.mujoco_mass_matrix(model, q), 1e-13)
 
 
 def test_the_torques_with_armature_and_damping_are_mj_inverses(motions):
     model, arm, q, qd, qdd = motions
-    tau = dynamics_batch.inverse_dynamics(arm, q, qd, qdd)
+    tau = dynamics.inverse_dynamics(arm, q, qd, qdd)
     tau += arm.armature * qdd + arm.damping * qd
     truth = verify.mujoco_inverse_dynamics(model, q, qd, qdd)
     assert_same(tau, truth, 1e-12)
@@ -39,7 +40,7 @@ def test_the_torques_with_armature_and_damping_are_mj_inverses(motions):
 
 def test_the_jacobians_are_mujocos(motions):
     model, arm, q, _, _ = motions
-    J = dynamics_batch.site_jacobian(arm, q)
+    J = dynamics.site_jacobian(arm, q)
     assert_same(J, verify.mujoco_site_jacobian(model, q), 1e-14)
 
 
@@ -79,9 +80,9 @@ def any_arm(seed, n):
 def test_any_arm_of_hinges_gives_what_arm_gives_one_by_one(seed, n):
     arm = any_arm(seed, n)
     q, qd, qdd = np.random.default_rng(seed).normal(size=(3, 4, n))
-    M = dynamics_batch.mass_matrix(arm, q)
-    tau = dynamics_batch.inverse_dynamics(arm, q, qd, qdd)
-    J = dynamics_batch.site_jacobian(arm, q)
+    M = dynamics.mass_matrix(arm, q)
+    tau = dynamics.inverse_dynamics(arm, q, qd, qdd)
+    J = dynamics.site_jacobian(arm, q)
     for i in range(4):
         now = arm.at(q[i])
         scale = max(1.0, np.abs(now.M).max())
@@ -95,27 +96,27 @@ def test_chunks_and_shapes_make_no_difference(twin, monkeypatch):
     arm = panda.arm(panda.load())
     rng = np.random.default_rng(3)
     q, qd, qdd = rng.normal(size=(3, 2, 5, 7))
-    whole = dynamics_batch.inverse_dynamics(arm, q, qd, qdd)
-    monkeypatch.setattr(dynamics_batch, "CHUNK", 3)
-    assert_same(dynamics_batch.inverse_dynamics(arm, q, qd, qdd), whole, 1e-12)
-    assert dynamics_batch.mass_matrix(arm, q).shape == (2, 5, 7, 7)
-    one = dynamics_batch.inverse_dynamics(arm, q[1, 2], qd[1, 2], qdd[1, 2])
+    whole = dynamics.inverse_dynamics(arm, q, qd, qdd)
+    monkeypatch.setattr(dynamics, "CHUNK", 3)
+    assert_same(dynamics.inverse_dynamics(arm, q, qd, qdd), whole, 1e-12)
+    assert dynamics.mass_matrix(arm, q).shape == (2, 5, 7, 7)
+    one = dynamics.inverse_dynamics(arm, q[1, 2], qd[1, 2], qdd[1, 2])
     assert_same(one, whole[1, 2], 1e-12)
-    same_speed = dynamics_batch.inverse_dynamics(arm, q, qd[0, 0], np.zeros(7))
+    same_speed = dynamics.inverse_dynamics(arm, q, qd[0, 0], np.zeros(7))
     assert same_speed.shape == (2, 5, 7)
-    assert dynamics_batch.site_jacobian(arm, np.zeros((0, 7))).shape == (0, 6, 7)
+    assert dynamics.site_jacobian(arm, np.zeros((0, 7))).shape == (0, 6, 7)
 
 
 def test_what_is_not_for_the_batch_is_refused(twin):
     arm = panda.arm(panda.load())
     with pytest.raises(ValueError, match="q has shape"):
-        dynamics_batch.mass_matrix(arm, np.zeros((3, 6)))
+        dynamics.mass_matrix(arm, np.zeros((3, 6)))
     with pytest.raises(ValueError, match="qd holds a number that is not finite"):
-        dynamics_batch.inverse_dynamics(arm, np.zeros(7), [np.nan] * 7, np.zeros(7))
+        dynamics.inverse_dynamics(arm, np.zeros(7), [np.nan] * 7, np.zeros(7))
     slide = Arm(
         screws=[[0, 0, 0, 1, 0, 0]], M_home=np.eye(4), T_zero=np.eye(4)[None],
         masses=[1.0], coms=np.zeros((1, 3)), inertias=np.eye(3)[None],
         armature=0.0, damping=0.0,
     )  # fmt: skip
     with pytest.raises(ValueError, match="joint 1 is no hinge"):
-        dynamics_batch.mass_matrix(slide, [0.0])
+        dynamics.mass_matrix(slide, [0.0])

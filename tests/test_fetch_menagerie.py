@@ -9,7 +9,7 @@ import tarfile
 import pytest
 
 from conftest import ROOT
-from robo47 import menagerie
+from robo47.panda import files as menagerie
 
 pytestmark = pytest.mark.kit
 

@@ -5,7 +5,8 @@ import pytest
 from compare import assert_same
 from test_screws import PANDA, arm
 
-from robo47 import ik, jacobian, panda, screws, se3, verify
+from robo47 import jacobian, panda, screws, se3, verify
+from robo47.fast import ik
 
 READY = panda.READY_Q
 

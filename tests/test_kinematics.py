@@ -10,7 +10,8 @@ from compare import assert_same
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robo47 import batch, kinematics, panda, verify
+from robo47 import kinematics, panda, verify
+from robo47.fast import chains
 
 PINOCCHIO = Path(__file__).parent / "data" / "pinocchio_panda.json"
 
@@ -159,10 +160,10 @@ def test_leading_dimensions_of_qpos_are_kept(twin):
 
 def test_a_batch_longer_than_a_chunk_has_no_seam(twin):
     model = panda.load("panda")
-    q = verify.random_q(model, 2 * batch.CHUNK + 7, seed=5)
+    q = verify.random_q(model, 2 * chains.CHUNK + 7, seed=5)
     chain = kinematics.chain_to(model, "body:hand")
     T = kinematics.fk(chain, q)
-    for i in (0, batch.CHUNK - 1, batch.CHUNK, 2 * batch.CHUNK, len(q) - 1):
+    for i in (0, chains.CHUNK - 1, chains.CHUNK, 2 * chains.CHUNK, len(q) - 1):
         assert_same(T[i], kinematics.fk(chain, q[i]), 1e-15)
 
 

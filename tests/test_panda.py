@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import kinematics, menagerie, panda, se3, verify
+from robo47 import kinematics, panda, se3, verify
 from robo47.errors import Robo47Error
+from robo47.panda import files as menagerie
 
 
 @pytest.mark.meshes

@@ -11,7 +11,7 @@ from labkit.figures import client
 from labkit.figures.clip import kind_of, save_clip
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import scenes, se3
-from robo47.capstone_task import Result
+from robo47.capstone.phases import Result
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown

@@ -23,7 +23,7 @@ from labkit.base import cli
 from labkit.base.words import count
 from labkit.lesson.day import Day, Metric, find_day
 from robo47.errors import Robo47Error
-from robo47.menagerie import hash_file
+from robo47.panda.files import hash_file
 from robo47.paths import METRICS_CSV, shown
 
 STAMP = 8  # hex digits of the script's hash in a row's notes: which file wrote it

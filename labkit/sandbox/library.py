@@ -5,6 +5,7 @@ They travel to the sandbox as source text, so nothing else of the kit is there t
 
 import ast
 from functools import cache
+from pathlib import Path
 
 from labkit.lesson.day import Day, day_numbers, find_day
 from robo47.errors import Robo47Error
@@ -36,8 +37,8 @@ def library_of(day: Day) -> dict[str, str]:
             continue
         if name in day.library:
             raise Robo47Error(
-                f"robo47/{name}.py is an answer of day {day.number}, and the library "
-                "of an earlier day imports it"
+                f"{shown(_file(name))} is an answer of day {day.number}, and the "
+                "library of an earlier day imports it"
             )
         source, inner = _read(name)
         found[f"robo47.{name}"] = source
@@ -48,7 +49,7 @@ def library_of(day: Day) -> dict[str, str]:
 @cache
 def _read(name: str) -> tuple[str, tuple[str, ...]]:
     """Return a module's source, and which modules of the kit it imports."""
-    path = KIT / f"{name}.py"
+    path = _file(name)
     try:
         source = path.read_text("utf-8")
     except OSError:
@@ -57,16 +58,21 @@ def _read(name: str) -> tuple[str, tuple[str, ...]]:
         ) from None
     inner: list[str] = []
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.ImportFrom) and node.module == "robo47":
-            inner += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            inner += _below_robo47(node.module)
+        if isinstance(node, ast.ImportFrom) and node.module:
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+            inner += [n if _file(_inner(n)).is_file() else node.module for n in names]
         elif isinstance(node, ast.Import):
-            for alias in node.names:
-                inner += _below_robo47(alias.name)
-    return source, tuple(inner)
+            inner += [alias.name for alias in node.names]
+    return source, tuple(filter(None, map(_inner, inner)))
 
 
-def _below_robo47(module: str) -> list[str]:
+def _file(name: str) -> Path:
+    """Return where a module is: "fast.ik" in robo47/fast/ik.py."""
+    path = KIT.joinpath(*name.split("."))
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def _inner(module: str) -> str:
+    """Return "fast.ik" of robo47.fast.ik, and "" of what is not the kit's."""
     top, _, rest = module.partition(".")
-    return [rest] if top == "robo47" and rest else []
+    return rest if top == "robo47" else ""

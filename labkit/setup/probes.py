@@ -33,7 +33,8 @@ print(json.dumps(mujoco.__version__))
 """
 ROBOT_PROBE = """
 import json
-from robo47 import menagerie, panda
+from robo47 import panda
+from robo47.panda import files as menagerie
 from robo47.paths import menagerie_root
 found = panda.provenance()
 found["loads"] = panda.load("panda_nohand").nq

@@ -22,7 +22,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure  # not pyplot, which may look for a display
 from PIL import Image
 
-from robo47 import panda, scenes, simulate, touch
+from robo47 import contact, panda, scenes, simulate
 
 BLUE, RED, INK, RULE = "#1c64f2", "#e03131", "#212529", "#dee2e6"
 FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
@@ -45,12 +45,12 @@ def moved(force: float, k: float) -> float:
 def presses() -> tuple[np.ndarray, np.ndarray]:
     """Return the force on the table over three seconds, soft and stiff."""
     depth, start = set_point_for_force(PRESS, K[5], scenes.TOUCH), scenes.TOUCH + 0.01
-    soft = touch.press(
+    soft = contact.press(
         lambda arm, q: soft_hand(arm, q, lambda t: max(depth, start - SINK * t)),
         seconds=3.0,
         rate=RATE,
     )
-    return soft, touch.press(stiff_arm, drive="servo", seconds=3.0, rate=RATE)
+    return soft, contact.press(stiff_arm, drive="servo", seconds=3.0, rate=RATE)
 
 
 def push() -> Image.Image:

@@ -14,6 +14,7 @@ from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from robo47 import (
+    contact,
     control,
     jacobian,
     kinematics,
@@ -21,7 +22,6 @@ from robo47 import (
     scenes,
     simulate,
     task_space,
-    touch,
 )
 from robo47.checks import Array
 
@@ -124,7 +124,7 @@ class Touch(Tab):
             J = now.J_site
             Lambda = task_space.task_inertia(J, now.M)
             D = task_space.critical_damping(K, Lambda)
-            e = touch.pose_error(now.T_world_ee, T_goal)
+            e = contact.pose_error(now.T_world_ee, T_goal)
             F = task_space.spring_wrench(e, -J @ qd, np.diag(K), D)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             idle = task_space.null_torque(J, now.M, Lambda, back)

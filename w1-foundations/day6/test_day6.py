@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from conftest import ROOT, load_script, need
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
-from robo47 import jacobian, panda, scenes, simulate, task_space, touch, verify
+from robo47 import contact, jacobian, panda, scenes, simulate, task_space, verify
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
@@ -82,7 +82,7 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] < 0.05:
             continue
         F = np.random.default_rng(6).uniform(-10, 10, 6)
-        _, acc = touch.mujoco_push(model, one, 0.0, now.gravity_torque, F)
+        _, acc = contact.mujoco_push(model, one, 0.0, now.gravity_torque, F)
         Lambda = lab.task_inertia(now.J_site, now.M)
         assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
 
@@ -108,7 +108,7 @@ def steady_press(**more):
         scenes.TOUCH + 0.01,
     )
     sink = lambda t: max(depth, start - lab.SINK * t)  # noqa: E731
-    return touch.press(
+    return contact.press(
         lambda arm, q: lab.soft_hand(arm, q, sink), rate=lab.RATE, **more
     )
 
@@ -116,7 +116,7 @@ def steady_press(**more):
 def test_the_soft_arm_presses_with_20_n_and_the_stiff_one_with_217():
     # Measured 3.7e-4 on MuJoCo 4.0.0 and 2.4e-4 on 3.3.0; the limit is twice that.
     assert steady_press()[-1] == pytest.approx(20.0, rel=7.5e-4)
-    stiff = touch.press(lab.stiff_arm, drive="servo", seconds=3.0)
+    stiff = contact.press(lab.stiff_arm, drive="servo", seconds=3.0)
     # 217.2 N on 4.0.0 and 218.3 on 3.3.0: it creeps by 1 to 2 N in a second.
     assert stiff[-1] == pytest.approx(217.7, abs=1.2)
     assert 0.9 < stiff[499] - stiff[749] < 2.0
@@ -136,7 +136,7 @@ def circled(motors, project=None, **instead):
         vars(lab).update(kept)
     T = arm.at(lab.READY_Q).T_world_ee
     off = np.array([
-        jacobian.pose_error(arm.at(q).T_world_ee, touch.circle(t, T, 0.12, 2.0)[0])
+        jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
         for t, q in zip(run.t, run.q, strict=True)
     ]).reshape(-1, 2, 3)  # fmt: skip
     return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]

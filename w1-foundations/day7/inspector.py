@@ -13,7 +13,7 @@ from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from robo47 import capstone, kinematics, panda, scenes, simulate, trajectory
-from robo47.capstone_task import Result
+from robo47.capstone.phases import Result
 from robo47.checks import Array
 
 GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the lab's

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from robo47 import control, jacobian, panda, simulate, task_space
-from robo47.arm import ArmState
+from robo47.arm import Arm, ArmState
 from robo47.checks import Array
 
 OMEGA = 30.0  # rad/s, of the hand's error; 100 shakes at this rate
@@ -77,7 +77,7 @@ def write(fns: Any) -> Written:
             ed = sd * way - now.J_site @ qd  # noqa: B023
             kp, kd = control.gains(OMEGA, 1.0)
             e = jacobian.pose_error(now.T_world_ee, T_ref)
-            return torques(now, q_start - q, qd, sdd * way + kd * ed + kp * e)  # noqa: B023
+            return torques(arm, now, q_start - q, qd, sdd * way + kd * ed + kp * e)  # noqa: B023
 
         run = simulate.run(model, data, controller, T, rate=RATE)
         torque = max(torque, float((np.abs(run.tau) / tau_max).max()))
@@ -85,10 +85,10 @@ def write(fns: Any) -> Written:
     return Written(np.array(wanted), np.array(reached), seconds, torque, run.q[-1])
 
 
-def torques(now: ArmState, away: Array, qd: Array, acc: Array) -> Array:
+def torques(arm: Arm, now: ArmState, away: Array, qd: Array, acc: Array) -> Array:
     """Return the torques, (7,), that accelerate the hand by acc, (6,)."""
     J, M = now.J_site, now.M
     Lambda = task_space.task_inertia(J, M)
     hand = task_space.osc_torque(J, Lambda, now.bias(qd), now.site_bias(qd), acc)
     back = control.pd_torque(away, -qd, *POSTURE)
-    return hand + now.arm.damping * qd + task_space.null_torque(J, M, Lambda, back)
+    return hand + arm.damping * qd + task_space.null_torque(J, M, Lambda, back)

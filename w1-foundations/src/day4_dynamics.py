@@ -11,7 +11,8 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 import mujoco
 import numpy as np
 
-from robo47 import cli, dynamics_batch, panda, simulate, verify
+from robo47 import cli, panda, simulate, verify
+from robo47.fast import dynamics as dynamics_batch
 from robo47.lesson.lab import Lab
 from robo47.screws import skew
 

@@ -12,13 +12,13 @@ import numpy as np
 
 from robo47 import (
     cli,
+    contact,
     control,
     jacobian,
     panda,
     scenes,
     screws,
     simulate,
-    touch,
     verify,
 )
 from robo47 import task_space as library
@@ -183,7 +183,7 @@ def by_value(model, arm, rng) -> dict[str, list]:
         now, Lambda, drift = hand_of(arm, q_i, qd)
         J, M, bias, still = now.J_site, now.M, now.bias(qd), now.gravity_torque
         D, friction = critical_damping(K, Lambda), arm.damping * qd
-        pushed = touch.mujoco_push(model, q_i, 0, still, F)[1]
+        pushed = contact.mujoco_push(model, q_i, 0, still, F)[1]
         tau = osc_torque(J, Lambda, bias, drift, acc)
         idle = null_torque(J, M, Lambda, torque)
         odd = kinematic(J, M, Lambda, torque)
@@ -192,17 +192,17 @@ def by_value(model, arm, rng) -> dict[str, list]:
         rows.append({
             "mass": np.linalg.norm(Lambda @ pushed - F) / np.linalg.norm(F),
             "library": np.linalg.solve(library.task_inertia(J, M), F) - pushed,
-            "drift": drift - touch.mujoco_site_bias(model, q_i, qd),
-            "osc": touch.mujoco_push(model, q_i, qd, tau + friction, NONE)[1] - acc,
-            "null": touch.mujoco_push(model, q_i, 0, still + idle, NONE)[1],
-            "kinematic": touch.mujoco_push(model, q_i, 0, still + odd, NONE)[1],
+            "drift": drift - contact.mujoco_site_bias(model, q_i, qd),
+            "osc": contact.mujoco_push(model, q_i, qd, tau + friction, NONE)[1] - acc,
+            "null": contact.mujoco_push(model, q_i, 0, still + idle, NONE)[1],
+            "kinematic": contact.mujoco_push(model, q_i, 0, still + odd, NONE)[1],
             "rest": idle - library.null_torque(J, M, Lambda, torque),
             "spring": spring - library.spring_wrench(e, F, np.diag(K), D),
             "height": set_point_for_force(*numbers)
             - library.set_point_for_force(*numbers),
             "damping": D - library.critical_damping(K, Lambda),
             # The simulator pushes with -F, so but for idle nothing accelerates.
-            "impedance": touch.mujoco_push(model, q_i, qd, holding - idle, -F)[0],
+            "impedance": contact.mujoco_push(model, q_i, qd, holding - idle, -F)[0],
         })  # fmt: skip
     return {name: [row[name] for row in rows] for name in rows[0]}
 
@@ -221,7 +221,7 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
         J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
         if height:
             T_goal[2, 3] = height(t)
-        e = touch.pose_error(now.T_world_ee, T_goal)
+        e = contact.pose_error(now.T_world_ee, T_goal)
         D = critical_damping(stiffness, Lambda)
         wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
@@ -233,7 +233,7 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
 
 def stiff_arm(arm, q_start: np.ndarray):
     """Return a controller for servos: down to 50 mm below the table's top."""
-    q_deep = touch.above_table(scenes.press_table(), -0.05)
+    q_deep = contact.above_table(scenes.press_table(), -0.05)
     return lambda t, q, qd: q_start + (q_deep - q_start) * min(t * SINK / 0.06, 1.0)
 
 
@@ -243,8 +243,8 @@ def circling(arm, project):
 
     def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
         now, Lambda, drift = hand_of(arm, q, qd)
-        J, (T, V, A) = now.J_site, touch.circle(t, T_start, RADIUS, TURN)
-        e = touch.pose_error(now.T_world_ee, T)
+        J, (T, V, A) = now.J_site, contact.circle(t, T_start, RADIUS, TURN)
+        e = contact.pose_error(now.T_world_ee, T)
         acc = A + 2 * OMEGA * (V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
         back = control.pd_torque(READY_Q - q, -qd, *ELBOW)
@@ -258,7 +258,7 @@ def off_circle(model, arm, project) -> np.ndarray:
     start = simulate.start(model, READY_Q)
     run = simulate.run(model, start, circling(arm, project), TURN + 0.5)
     T_start = arm.at(READY_Q).T_world_ee
-    goal = [touch.circle(t, T_start, RADIUS, TURN)[0][:3, 3] for t in run.t]
+    goal = [contact.circle(t, T_start, RADIUS, TURN)[0][:3, 3] for t in run.t]
     p = [arm.at(q).T_world_ee[:3, 3] for q in run.q]
     return 1000 * np.linalg.norm(np.subtract(goal, p), axis=1)
 
@@ -312,9 +312,9 @@ def main() -> int:
     lab.check("set_point_for_force - the library's", found["height"])
     lab.show("height to command, m; the tip touches at 0.42", depth, 3)
     sink = lambda t: max(depth, start - SINK * t)  # noqa: E731
-    soft = touch.press(lambda arm, q: soft_hand(arm, q, sink), rate=RATE)
+    soft = contact.press(lambda arm, q: soft_hand(arm, q, sink), rate=RATE)
     # The file's own servos, told to go 50 mm into the table, know of no force.
-    stiff = touch.press(stiff_arm, drive="servo", seconds=3.0)
+    stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
     for name, felt in (("soft", soft), ("stiff", stiff)):
         print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
     lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")

@@ -12,16 +12,12 @@ Conventions as in `robo47.dynamics`.
 """
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import screws
 from robo47.checks import Array
-
-if TYPE_CHECKING:
-    from robo47.arm import Arm
 
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ AD is ad(V), row by row.
 SKEW = np.array([screws.skew(e).ravel() for e in np.eye(3)])
@@ -85,23 +81,35 @@ class Constants:
         lower: true on and below the diagonal, (n, n).
         armature: on a diagonal, (n, n).
         A_base: acceleration of a base that feels like gravity, (6,).
+        M_home, T_zero, coms: as `robo47.arm.Arm` has them.
     """
 
-    def __init__(self, arm: "Arm") -> None:
-        """Work them out, once for each arm."""
-        n = len(arm.masses)
+    def __init__(
+        self,
+        S_home: Array,
+        M_home: Array,
+        T_zero: Array,
+        masses: Array,
+        coms: Array,
+        inertias: Array,
+        armature: Array,
+        gravity: Array,
+    ) -> None:
+        """Work them out, once for each arm; the arguments are as those of `Arm`."""
+        n = len(masses)
         S = np.zeros((n, 4, 4))
-        S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
+        S[:, :3, :3], S[:, :3, 3] = screws.skew(S_home[:, :3]), S_home[:, 3:]
         ones = np.broadcast_to(np.eye(4), S.shape)
         self.powers = np.stack([ones, S, S @ S, S @ S @ S], axis=1).reshape(n, 4, 16)
-        self.pairs = arm.screws.reshape(n, 2, 3).swapaxes(1, 2).copy()
-        P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
-        self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
+        self.pairs = S_home.reshape(n, 2, 3).swapaxes(1, 2).copy()
+        P = pseudo_inertias(masses, coms, inertias)
+        self.pseudo = T_zero @ P @ np.swapaxes(T_zero, -1, -2)
         self.before = np.tri(n)
         self.after = self.before.T.copy()
         self.lower = self.before.astype(bool)
-        self.armature = np.diag(arm.armature)
-        self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
+        self.armature = np.diag(armature)
+        self.A_base = np.concatenate([np.zeros(3), -gravity])
+        self.M_home, self.T_zero, self.coms = M_home, T_zero, coms
 
 
 class ArmState:
@@ -110,13 +118,12 @@ class ArmState:
     The arrays are kept and handed out again: copy one before you write to it.
 
     Attributes:
-        arm: whose configuration it is.
         q: the configuration, rad, (n,).
     """
 
-    def __init__(self, arm: "Arm", q: Array) -> None:
+    def __init__(self, constants: Constants, q: Array) -> None:
         """Compute the links' poses; use `Arm.at`, which checks q."""
-        self.arm, self.q, self._c = arm, q, arm.constants
+        self.q, self._c = q, constants
         n = len(q)
         numbers = np.empty((n, 1, 4))
         numbers[:, 0, 0], numbers[:, 0, 1] = 1.0, q
@@ -131,18 +138,18 @@ class ArmState:
     @cached_property
     def T_links(self) -> Array:
         """`T_world_link` of each link, (n, 4, 4)."""
-        return self._moved @ self.arm.T_zero
+        return self._moved @ self._c.T_zero
 
     @cached_property
     def T_world_ee(self) -> Array:
         """Pose of the arm's end, (4, 4)."""
-        return self._moved[-1] @ self.arm.M_home
+        return self._moved[-1] @ self._c.M_home
 
     @cached_property
     def coms_world(self) -> Array:
         """Centres of mass in the world, metres, (n, 3)."""
         T = self.T_links
-        return (T[:, :3, :3] @ self.arm.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
+        return (T[:, :3, :3] @ self._c.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
 
     @cached_property
     def _S(self) -> Array:

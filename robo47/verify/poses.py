@@ -1,8 +1,6 @@
-"""MuJoCo as the oracle: what the simulator itself says every frame's pose is.
+"""Poses by MuJoCo: what the simulator itself says of every frame.
 
-Nothing here composes a transform; this is what compositions are judged against. What
-the simulator says of forces and motion is in `robo47.verify_dynamics`, and can be had
-from here as well. Units: metres, radians.
+Units: metres, radians.
 """
 
 from collections.abc import Mapping
@@ -14,20 +12,6 @@ from tqdm import tqdm
 
 from robo47.checks import Array
 from robo47.kinematics import fk_all, frame_names
-from robo47.verify_dynamics import (
-    mujoco_acceleration,
-    mujoco_bias,
-    mujoco_inverse_dynamics,
-    mujoco_mass_matrix,
-    mujoco_site_jacobian,
-    mujoco_step,
-)
-
-__all__ = [
-    "Worst", "mujoco_acceleration", "mujoco_bias", "mujoco_inverse_dynamics",
-    "mujoco_mass_matrix", "mujoco_poses", "mujoco_site_jacobian", "mujoco_step",
-    "random_q", "verify_fk", "worst_difference",
-]  # fmt: skip
 
 
 class Worst(NamedTuple):

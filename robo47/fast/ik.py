@@ -17,9 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, poe
+from robo47 import checks
 from robo47.checks import Array
-from robo47.columns import jacobian_columns
+from robo47.fast import exponentials
+from robo47.fast.jacobians import jacobian_columns
 from robo47.rotation_log import log_rotation, pose_error
 from robo47.screws import fk_space
 
@@ -39,7 +40,7 @@ NEAR_PI = -0.9  # cosine of the angle beyond which sin(angle) is no base for the
 
 @dataclass(frozen=True)
 class _Problem:
-    arm: poe.Arm
+    arm: exponentials.Arm
     goals: Array
     low: Array
     high: Array
@@ -79,7 +80,7 @@ def solve_ik(
     lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
     T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
     q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
-    arm, out = poe.arm_of(S, M), np.empty_like(q)
+    arm, out = exponentials.arm_of(S, M), np.empty_like(q)
     for first in range(0, len(q), CHUNK):
         part = slice(first, first + CHUNK)
         goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))

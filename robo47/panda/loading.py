@@ -1,38 +1,18 @@
-"""The Franka Emika Panda: load it, name its configurations, tell where it is from.
+"""Loading the Panda: which files, which drives, which of its looks."""
 
-Entries, as the MuJoCo Menagerie names its files:
-
-    panda_nohand   the arm, ending in `attachment_site` (7 numbers in qpos)
-    panda          the arm with `hand` and two fingers (9 numbers)
-    scene          `panda` on a floor, with lights: what a viewer opens
-
-Where no Menagerie is to be had, the kit's own mesh-free twin takes its place. Each
-entry has the Menagerie's servos (position drives), or seven motors that take torques.
-Units: metres, radians, newton metres.
-"""
-
-import importlib
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from robo47 import menagerie
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
+from robo47.panda import files as menagerie
 from robo47.paths import TWIN_XML, menagerie_root, shown
-
-if TYPE_CHECKING:
-    from robo47.panda_reading import arm, hand_inertia, home_pose, inertias, screws
-
-__all__ = [
-    "ARM_JOINTS", "DRIVES", "END_FRAME", "READY_Q", "arm", "describe", "hand_inertia",
-    "home_pose", "home_q", "inertias", "load", "provenance", "screws",
-]  # fmt: skip
 
 ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 
@@ -51,13 +31,6 @@ _SHAPES = {"geom", "mesh", "material", "texture"}
 DRIVES = ("servo", "torque")
 # The twin has both ends; each entry keeps its own.
 _TWIN_WITHOUT = {"panda": "attachment", "panda_nohand": "hand", "scene": "attachment"}
-
-
-def __getattr__(name: str) -> Any:
-    """Return a name of `robo47.panda_reading`; it loads much, so only if asked for."""
-    if TYPE_CHECKING or name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module("robo47.panda_reading"), name)
 
 
 def load(

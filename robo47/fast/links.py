@@ -1,4 +1,4 @@
-"""An arm as links whose frames suit their joints, for `robo47.dynamics_batch`.
+"""An arm as links whose frames suit their joints, for `robo47.fast.dynamics`.
 
 At q = 0 every frame has the world's axes, as long as each joint's axis is one of them,
 as in most robots: then no fixed rotation stands between two links. Where an axis is
@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from robo47.arm import Arm
-from robo47.batch import frame_with_z, rounded
 from robo47.checks import Array
+from robo47.fast.chains import frame_with_z, rounded
 
 TINY = 1e-14  # metres, kg m and kg m^2: what rounding leaves of a zero
 

@@ -2,10 +2,10 @@
 
 `end_poses` is for when only the end matters. e^[S] q is a move to the screw's line, a
 turn by q (a slide along the line by pitch times q) and the move back. So the product is
-a chain of the elementary moves of `robo47.moves`, which `robo47.batch` works through:
+a chain of the elementary moves of `robo47.fast.moves`, which `chains` works through:
 the two moves between neighbouring joints become one, and a turn about an axis of the
 moving frame costs a tenth of a 4x4 product. All take the n columns of a batch q,
-(joints, n). `robo47.columns` is for when every joint matters.
+(joints, n). `robo47.fast.jacobians` is for when every joint matters.
 
 Units: metres, radians; screws are (omega; v).
 """
@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from robo47 import checks, se3
-from robo47.batch import ROUNDING, Cursor, Plan, evaluate, frame_with_z
 from robo47.checks import Array
+from robo47.fast.chains import ROUNDING, Cursor, Plan, evaluate, frame_with_z
 
 END = "end"
 

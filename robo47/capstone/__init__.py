@@ -3,7 +3,7 @@
 `pick` is given the functions to do it with, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture. So whoever wants to know what a mistake does
 to the arm replaces one function. The robot's numbers are read from the model; every
-formula is one of those functions. The phases stand in `robo47.capstone_task`: joint
+formula is one of those functions. The phases stand in `robo47.capstone.phases`: joint
 moves are computed torque, straight lines and grips a spring at the hand with the elbow
 held back.
 
@@ -29,7 +29,7 @@ from robo47 import (
     task_space,
     trajectory,
 )  # fmt: skip
-from robo47.capstone_task import PHASES, Result, Task
+from robo47.capstone.phases import PHASES, Result, Task
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 

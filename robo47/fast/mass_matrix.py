@@ -10,8 +10,8 @@ and a move change in few operations. Units: metres, kilograms.
 import numpy as np
 
 from robo47.checks import Array
-from robo47.components import Vector, combined, turned
-from robo47.links import Link, Links
+from robo47.fast.links import Link, Links
+from robo47.fast.vectors import Vector, combined, turned
 
 
 def mass_matrices(links: Links, cos: Array, sin: Array) -> Array:

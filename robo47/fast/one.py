@@ -1,8 +1,8 @@
 """The chain's product for one configuration, in plain Python floats.
 
 For a single configuration NumPy spends its time on calls, not on numbers: twelve steps
-of `robo47.moves` take it 60 us, and plain floats a fifth of that. The steps are the
-same; a frame is (x, y, z, p), each a tuple of three floats.
+of `moves` take it 60 us, and plain floats a fifth of that. The steps are the same; a
+frame is (x, y, z, p), each a tuple of three floats.
 
 Units: metres and radians.
 """
@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from robo47.checks import Array
-from robo47.moves import Rotate, Shift, Slide, Step, Turn
+from robo47.fast.moves import Rotate, Shift, Slide, Step, Turn
 
 Floats = tuple[float, ...]
 Axes = Sequence[Floats]  # x, y, z, p

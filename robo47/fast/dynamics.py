@@ -2,7 +2,7 @@
 
 `robo47.dynamics` multiplies 6x6 matrices that are mostly zeros. Here the same
 quantities go from link to link as single components, each an array over a chunk of
-configurations that fits the processor's cache; `robo47.links` chooses the links'
+configurations that fits the processor's cache; `robo47.fast.links` chooses the links'
 frames such that a hinge turns two components and leaves the third alone.
 
 - `mass_matrix`: composite bodies, from the tip inwards (Featherstone, *Rigid Body
@@ -23,11 +23,11 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.arm import Arm
-from robo47.batch import chunk_of
 from robo47.checks import Array
-from robo47.components import Vector, combined, cross, dot, plus, turned
-from robo47.composite import mass_matrices
-from robo47.links import Link, Links, links_of
+from robo47.fast.chains import chunk_of
+from robo47.fast.links import Link, Links, links_of
+from robo47.fast.mass_matrix import mass_matrices
+from robo47.fast.vectors import Vector, combined, cross, dot, plus, turned
 
 CHUNK = 4096  # fewer, and Python's own time shows; more, and they leave the cache
 

@@ -18,7 +18,7 @@ from robo47 import panda, simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda import ARM_JOINTS
-from robo47.panda_reading import Inertias
+from robo47.panda.reading import Inertias
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 OMEGA = 20.0  # rad/s, of computed torque; 100 Hz allows no more than about 60

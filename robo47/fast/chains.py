@@ -1,7 +1,7 @@
 """The chain's product for many configurations at once, in pure NumPy.
 
 A plain stack of 4x4 products multiplies mostly zeros and ones. Here a chain becomes a
-plan of the elementary moves of `robo47.moves`, which uses what the chain knows:
+plan of the elementary moves of `robo47.fast.moves`, which uses what the chain knows:
 
 - Configurations are worked through in chunks that fit the processor's cache.
 - Fixed rotations between joints cost nothing. The moving frame does not follow them:
@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from robo47.checks import Array
-from robo47.moves import (
+from robo47.fast.moves import (
     WORLD,
     Ball,
     Chunk,
@@ -34,7 +34,7 @@ from robo47.moves import (
     Turn,
     combine,
 )
-from robo47.single import Single, single_of
+from robo47.fast.one import Single, single_of
 
 CHUNK = 2048  # 4 columns x 3 x 2048 float64 = 197 kB: stays within a core's L2 cache
 ROUNDING = 2e-15  # what products of unit quaternions leave in place of 0 and 1

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from robo47 import scenes, simulate, trajectory
-from robo47.capstone_arm import STIFFNESS, Arm, JointMove, Line, Rest
+from robo47.capstone.arm import STIFFNESS, Arm, JointMove, Line, Rest
 from robo47.checks import Array
 from robo47.panda import READY_Q
 

@@ -1,17 +1,17 @@
 """The Jacobians of one arm at many configurations at once, in pure NumPy.
 
 Each joint gets a frame of its own whose z axis is the screw's line: then e^[S1] q1 ...
-is G1 Rz(q1) G2 Rz(q2) ..., with fixed G (`robo47.poe.arm_of`), and the joint's axis is
-just the third column of its frame, wherever the arm is.
+is G1 Rz(q1) G2 Rz(q2) ..., with fixed G (`exponentials.arm_of`), and the joint's axis
+is just the third column of its frame, wherever the arm is.
 
 Units: metres, radians; screws are (omega; v).
 """
 
 import numpy as np
 
-from robo47.batch import chunk_of
 from robo47.checks import Array
-from robo47.poe import Arm
+from robo47.fast.chains import chunk_of
+from robo47.fast.exponentials import Arm
 
 
 def jacobian_columns(arm: Arm, q: Array, at_end: bool) -> tuple[Array, Array, Array]:

@@ -1,0 +1,16 @@
+"""What makes the library quick: the same formulas for many configurations at once.
+
+    moves         elementary motions of a frame
+    chains        products of frames for many q;  one: for one q, in plain floats
+    exponentials  products of exponentials for many q
+    jacobians     Jacobian columns for many q
+    ik            damped least squares for many targets at once
+    links         links in frames that suit their joints
+    vectors       vectors as three arrays
+    mass_matrix   composite bodies
+    dynamics      mass matrix, bias and torque for many q
+    arm_state     all that a control loop asks for at one q
+
+Read the formulas in `robo47.kinematics`, `jacobian` and `dynamics` first; nothing here
+is another truth. Labs do without it, but for one that compares the two.
+"""

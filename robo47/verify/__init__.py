@@ -1,0 +1,27 @@
+"""MuJoCo as the oracle: what the simulator itself says of poses, forces and motion.
+
+Nothing here composes a transform or a torque; this is what they are judged against.
+Units: metres, radians, seconds, kilograms.
+"""
+
+from robo47.verify.motion import (
+    mujoco_acceleration,
+    mujoco_bias,
+    mujoco_inverse_dynamics,
+    mujoco_mass_matrix,
+    mujoco_site_jacobian,
+    mujoco_step,
+)
+from robo47.verify.poses import (
+    Worst,
+    mujoco_poses,
+    random_q,
+    verify_fk,
+    worst_difference,
+)
+
+__all__ = [
+    "Worst", "mujoco_acceleration", "mujoco_bias", "mujoco_inverse_dynamics",
+    "mujoco_mass_matrix", "mujoco_poses", "mujoco_site_jacobian", "mujoco_step",
+    "random_q", "verify_fk", "worst_difference",
+]  # fmt: skip
