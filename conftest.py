@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import sys
 import textwrap
-import types
 from functools import cache
 from pathlib import Path
 
@@ -48,11 +47,9 @@ def need(available: bool, what: str) -> None:
 
 def load_script(path):
     """Return a lab script as a module, without handing on to the kit's own Python."""
-    module = types.ModuleType(path.stem)
-    module.__file__ = str(path)
-    source = path.read_text("utf-8").replace("\nimport kit ", "\n# ")
-    exec(compile(source, str(path), "exec"), vars(module))
-    return module
+    from labkit.lesson.folder import load_lab
+
+    return load_lab(path)
 
 
 @pytest.fixture

@@ -4,7 +4,11 @@ import importlib
 from types import ModuleType
 
 # What labs of before December 2026 have typed.
-_WAS = {"dynamics_batch": "robo47.fast.dynamics", "touch": "robo47.contact"}
+_WAS = {
+    "dynamics_batch": "robo47.fast.dynamics",
+    "figures": "labkit.figures",
+    "touch": "robo47.contact",
+}
 
 
 def __getattr__(name: str) -> ModuleType:

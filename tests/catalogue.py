@@ -1,11 +1,13 @@
-"""A day's catalogue: students' files, and what each is to be told.
+"""A day's catalogue: ways to write its functions, and what each must be told.
 
-    python tests/catalogue.py 1              every file of day 1: what differs, totals
-    python tests/catalogue.py 1 fk_hand      with messages, files named like that
+    python tests/catalogue.py 6              all of day 6: what differs, totals
+    python tests/catalogue.py 6 spring       with messages, what is named like that
 
-Each file opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3: passed`) and, below it,
-what the student did. Where a mistake cannot show when the file runs as a lab, the first
-line says why: `# task 1.6: typed-in (not in a run: the lab has one Panda)`.
+Ways stand in the day's function files (`labkit.judge.row`). Whole files of students
+stand in `submissions/`; each opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3:
+passed`) and, below it, what the student did. Where a mistake cannot show when the file
+runs as a lab, the first line says why: `# task 1.6: typed-in (not in a run: the lab has
+one Panda)`.
 """
 
 import contextlib
@@ -15,13 +17,15 @@ import sys
 import textwrap
 import types
 import warnings
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import inprocess
 
-from conftest import load_script
 from labkit.judge import Verdict
+from labkit.judge.row import rows_of
+from labkit.lesson import folder
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.lab import Lab
 
@@ -32,40 +36,81 @@ _HEADER = re.compile(
 STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
 
 
-class Submission(NamedTuple):
-    """One file: its folder, its tasks, what it must be told, whether a run shows it."""
+class Entry(NamedTuple):
+    """One way to write functions of a day.
 
-    path: Path
-    folder: str
+    Attributes:
+        name: "wrong/quat_xyzw" of a file, "pd_torque: error-sign" of a way.
+        status: "right", "close" or "wrong".
+        tasks: whose functions it writes.
+        expected: what it must be told: a mistake, or "passed".
+        runs: whether the lab, run with it, fails.
+        path: of the file; None of a way.
+        code: by function, of a way.
+    """
+
+    name: str
+    status: str
     tasks: tuple[str, ...]
     expected: str
     runs: bool
-
-    @property
-    def name(self) -> str:
-        """Return "wrong/quat_xyzw"."""
-        return f"{self.folder}/{self.path.stem}"
+    path: Path | None = None
+    code: Mapping[str, Callable] = {}
 
 
-def submissions(day: Day, *folders: str) -> list[Submission]:
-    """Return every file of a day's catalogue, by default of all three folders."""
+def entries(day: Day, *statuses: str) -> list[Entry]:
+    """Return a day's catalogue, by default of all three statuses."""
+    wanted = statuses or tuple(STATUS)
+    return [*submissions(day, *wanted), *ways(day, *wanted)]
+
+
+def submissions(day: Day, *folders: str) -> list[Entry]:
+    """Return the files in a day's `submissions/`."""
     found = []
-    for folder in folders or STATUS:
-        for path in sorted((day.own / "submissions" / folder).glob("*.py")):
+    for folder_name in folders or STATUS:
+        for path in sorted((day.own / "submissions" / folder_name).glob("*.py")):
             header = _HEADER.match(path.read_text("utf-8"))
             if header is None:
                 raise ValueError(f"{path} does not say its task and mistake on top")
             tasks, slug, hidden = header.groups()
-            runs = not hidden
-            found.append(Submission(path, folder, tuple(tasks.split()), slug, runs))
+            name = f"{folder_name}/{path.stem}"
+            found.append(
+                Entry(name, folder_name, tuple(tasks.split()), slug, not hidden, path)
+            )
     return found
 
 
-def told(day: Day, submission: Submission) -> dict[str, Verdict]:
-    """Return the verdict on each of a file's tasks."""
+def ways(day: Day, *statuses: str) -> list[Entry]:
+    """Return the ways in a day's function files."""
+    if folder.has(day, "questions"):
+        return []
+    tasks = {name: task.id for task in day.tasks for name in task.functions}
+    found = []
+    for function, row in rows_of(day).items():
+        for i, way in enumerate(row.ways):
+            if way.status in (statuses or STATUS):
+                name = f"{function}: {way.slug or f'right {i}'}"
+                expected = way.slug or "passed"
+                code = {function: way.code}
+                found.append(
+                    Entry(
+                        name,
+                        way.status,
+                        (tasks[function],),
+                        expected,
+                        not way.hidden,
+                        code=code,
+                    )
+                )
+    return found
+
+
+def told(day: Day, entry: Entry) -> dict[str, Verdict]:
+    """Return the verdict on each of an entry's tasks."""
+    script = entry.path or day.source
     return {
-        task: inprocess.verdicts(day, submission.path, task)[task]
-        for task in submission.tasks
+        task: inprocess.verdicts(day, script, task, instead=entry.code)[task]
+        for task in entry.tasks
     }
 
 
@@ -82,21 +127,27 @@ class Impatient(Lab):
             raise FirstFailure
 
 
-def run_as_lab(day: Day, submission: Submission | None = None, trials: int = 50) -> int:
-    """Return the exit code of a day's lab with a file's functions in it.
+def written(day: Day, entry: Entry) -> Mapping[str, Callable]:
+    """Return the functions of a day that an entry writes, by name."""
+    if entry.path is None:
+        return entry.code
+    own = types.ModuleType(entry.path.stem)
+    exec(compile(entry.path.read_text("utf-8"), str(entry.path), "exec"), vars(own))
+    names = {f for task in day.tasks for f in task.functions}
+    return {k: v for k, v in vars(own).items() if k in names}
+
+
+def run_as_lab(day: Day, entry: Entry | None = None, trials: int = 50) -> int:
+    """Return the exit code of a day's lab with an entry's functions in it.
 
     Args:
         day: whose complete script is run, without logging, in this process.
-        submission: its functions of the day's tasks take the script's place.
+        entry: its functions of the day's tasks take the script's place.
         trials: on how many random inputs.
     """
-    lab = load_script(day.source)
-    if submission:
-        own = types.ModuleType(submission.path.stem)
-        code = submission.path.read_text("utf-8")
-        exec(compile(code, str(submission.path), "exec"), vars(own))
-        names = {f for task in day.tasks for f in task.functions}
-        vars(lab).update({k: v for k, v in vars(own).items() if k in names})
+    lab = folder.load_lab(day.source)
+    if entry:
+        vars(lab).update(written(day, entry))
         lab.Lab = Impatient
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, trials))
@@ -108,7 +159,7 @@ def run_as_lab(day: Day, submission: Submission | None = None, trials: int = 50)
     except FirstFailure:
         return 1
     except Exception:
-        if submission is None:
+        if entry is None:
             raise
         return 1  # a lab that stops has not passed, whatever stopped it
     finally:
@@ -119,7 +170,7 @@ def main() -> int:
     """Print what differs; return 1 if anything does."""
     day, wanted = find_day(int(sys.argv[1])), (sys.argv[2:] or [""])[0]
     count = wrong = 0
-    for one in submissions(day):
+    for one in entries(day):
         if wanted not in one.name:
             continue
         for task, verdict in told(day, one).items():

@@ -9,25 +9,35 @@ from judged import judged, right, round_of
 from labkit.judge.compare import matches
 from labkit.judge.naming import off_by
 from labkit.judge.rounds import parts, stacked
+from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
 
-MODULES = {day.number: folder.load(day, "questions") for day in all_days()}
+
+def rows(day):
+    """Return (function, its questions, slugs that are one thing) of a day."""
+    if folder.has(day, "questions"):
+        module = folder.load(day, "questions")
+        alike = getattr(module, "ALIKE", {})
+        return [(k, ask, alike.get(k, [])) for k, ask in module.QUESTIONS.items()]
+    return [(name, row.ask, row.alike) for name, row in rows_of(day).items()]
+
+
+ALIKE = {(d.number, name): alike for d in all_days() for name, _, alike in rows(d)}
 ROWS = [
-    pytest.param(number, name, ask, id=f"day{number}/{name}")
-    for number, module in MODULES.items()
-    for name, ask in module.QUESTIONS.items()
+    pytest.param(day.number, name, ask, id=f"day{day.number}/{name}")
+    for day in all_days()
+    for name, ask, _ in rows(day)
 ]
 WITH_TRUTH = [row for row in ROWS if row.values[2].truth]
 every = pytest.mark.parametrize(("number", "name", "ask"), WITH_TRUTH)
 
 
 def one_thing(number, name, slug, other):
-    """Return whether two names are allowed for the same numbers: `ALIKE` of the day."""
-    alike = getattr(MODULES[number], "ALIKE", {}).get(name, [])
-    return slug == other or any({slug, other} <= names for names in alike)
+    """Return whether two names are allowed for the same numbers: `alike` of the row."""
+    return slug == other or any({slug, other} <= names for names in ALIKE[number, name])
 
 
 def redone(ask):

@@ -229,7 +229,7 @@ def test_a_frame_on_top_of_another_is_drawn_shorter():
 def test_no_process_is_left_behind(run, tmp_path):
     script = tmp_path / "draw.py"
     script.write_text(
-        "from robo47 import figures, panda\n"
+        "from robo47 import panda\nfrom labkit import figures\n"
         "from labkit.figures import client\n"
         "figures.render_panda(panda.READY_Q, (60, 40), fast=True)\n"
         "print(client._studio.process.pid)\n"

@@ -12,6 +12,7 @@ from labkit.judge.ask import Ask, Robot
 from labkit.judge.exchange import LoadError, Model, Question, Reply
 from labkit.judge.mistake import Verdict
 from labkit.judge.rounds import Round, make_round, robots
+from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
 from labkit.sandbox import model_copy
@@ -114,8 +115,12 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
     Raises:
         Robo47Error: the day's questions.py lacks a function of the manifest.
     """
-    rows: dict[str, Ask] = folder.load(day, "questions").QUESTIONS
-    if missing := [f for task in day.tasks for f in task.functions if f not in rows]:
+    names = [name for task in day.tasks for name in task.functions]
+    if folder.has(day, "questions"):
+        rows: dict[str, Ask] = folder.load(day, "questions").QUESTIONS
+    else:
+        rows = {name: row_of(day, name).ask for name in names}
+    if missing := [f for f in names if f not in rows]:
         raise Robo47Error(f"day {day.number}'s questions.py has no row {missing[0]}")
     return {
         task.id: [make_round(task.id, f, rows[f], seed) for f in task.functions]

@@ -1,6 +1,6 @@
 """A mistake that has a name: what to say, and the same mistake made on purpose."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -70,20 +70,40 @@ def capitalised(clause: str) -> str:
     return clause[0].upper() + clause[1:]
 
 
-def each(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of one question's arguments as one of all, stacked.
+class InTurn:
+    """A function of one question's arguments as one of all, stacked."""
 
-    Args:
-        function: of one configuration, as a student writes it.
-    """
+    def __init__(self, function: Callable[..., Any]) -> None:
+        """Take a function of one question, as a student writes it."""
+        self.function = function
 
-    def all_at_once(*columns: Any) -> Any:
-        answers = [function(*args) for args in zip(*columns, strict=True)]
+    def __call__(self, *columns: Any) -> Any:
+        """Return the answers to all questions, (n, ...), or a tuple of such.
+
+        Args:
+            columns: one per argument: (n, ...), or what all questions share.
+
+        Raises:
+            ValueError: the function has no answer to one of them.
+        """
+        n = next(len(c) for c in columns if isinstance(c, np.ndarray))
+        answers = [self.nth(i, columns) for i in range(n)]
         if isinstance(answers[0], tuple):
             return tuple(map(np.array, zip(*answers, strict=True)))
         return np.array(answers)
 
-    return all_at_once
+    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+        """Return the answer to one question; it gets arrays of its own."""
+        args = [np.copy(c[i])[()] if isinstance(c, np.ndarray) else c for c in columns]
+        try:
+            return self.function(*args)
+        except Exception as error:  # a mistake may stop, as a student's may
+            raise ValueError(str(error)) from error
+
+
+def each(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of one question's arguments as one of all, stacked."""
+    return InTurn(function)
 
 
 def lifted(

@@ -8,7 +8,7 @@ import numpy as np
 from labkit.judge import near_miss
 from labkit.judge.ask import Ask, Case
 from labkit.judge.compare import difference, matches
-from labkit.judge.mistake import Finding, Mistake, capitalised
+from labkit.judge.mistake import Finding, InTurn, Mistake, capitalised
 from labkit.judge.rounds import parts
 from robo47.checks import Array
 
@@ -50,6 +50,8 @@ def named_mistake(
     """
     for mistake in mistakes:
         try:
+            if not _may_be(mistake, arguments, ask, S):
+                continue
             again = parts(mistake.redo(*arguments))
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
@@ -63,6 +65,23 @@ def named_mistake(
                 says += f"{mistake.redone} gives your numbers exactly.)"
             return Finding(mistake.slug, says)
     return None
+
+
+def _may_be(mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Any) -> bool:
+    """Return whether a mistake gives the last answer: a quick look before all others.
+
+    Raises:
+        ValueError: it has no answer there.
+    """
+    if not isinstance(mistake.redo, InTurn):
+        return True
+    for s, a, kind in zip(
+        S, parts(mistake.redo.nth(-1, arguments)), ask.kinds, strict=False
+    ):
+        largest = np.abs(s[np.isfinite(s)]).max(initial=kind.scale)
+        if not matches(s[-1:], a[None], largest):
+            return False
+    return True
 
 
 def redone(

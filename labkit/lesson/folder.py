@@ -7,6 +7,8 @@ one day import each other as `from .mistakes import ...`.
 import importlib
 import sys
 import types
+from functools import cache
+from pathlib import Path
 from types import ModuleType
 
 from labkit.lesson.day import Day
@@ -39,3 +41,22 @@ def load(day: Day, name: str) -> ModuleType:
         sys.modules[package] = types.ModuleType(package)
         sys.modules[package].__path__ = [str(day.own)]
     return importlib.import_module(f"{package}.{name}")
+
+
+@cache
+def lab(day: Day) -> ModuleType:
+    """Return a day's complete lab as a module, one for all who ask; see `load_lab`."""
+    return load_lab(day.source)
+
+
+def load_lab(script: Path) -> ModuleType:
+    """Return a lab script as a module of its own.
+
+    Args:
+        script: its path. It does not hand on to the kit's own Python: this is that one.
+    """
+    module = ModuleType(script.stem)
+    module.__file__ = str(script)
+    source = script.read_text("utf-8").replace("\nimport kit ", "\n# ")
+    exec(compile(source, str(script), "exec"), vars(module))
+    return module

@@ -1,0 +1,271 @@
+"""Rows of a day's folder: one file per function, `dayN/pd_torque.py`.
+
+    row = Row(TORQUE)
+
+    @row.inputs
+    def _(rng):
+        yield 0.1 * ONE, 0.0 * ONE, 100.0 * ONE, 20.0 * ONE  # the docstring's case
+        ...
+
+    @row.wrong("error-sign", "the spring pushes away from the goal")
+    def _(e, ed, kp, kd):
+        return kd * ed - kp * e
+
+The decorated function is the mistake as a student writes it. Made again case by case,
+it names the mistake; in the lab's place, it is put before the checker and run as a lab,
+which proves the name. Nothing else is written of a mistake.
+"""
+
+import importlib
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.ask import Ask, HeldOut, Inputs
+from labkit.judge.mistake import InTurn, Mistake
+from labkit.lesson import folder
+from labkit.lesson.day import Day
+from robo47.errors import Robo47Error
+
+Code = Callable[..., Any]
+REDONE = "the answer with this mistake"
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to write a function: a mistake, or an unusual one that is right.
+
+    Attributes:
+        status: "wrong", "close" or "right".
+        slug: what it must be told; "" where it must pass.
+        says: as in a `Mistake`.
+        code: the function, as a student writes it.
+        redone: as in a `Mistake`.
+        hidden: why the lab cannot show it; "" where the lab, run with it, fails.
+    """
+
+    status: str
+    slug: str
+    says: str
+    code: Code
+    redone: str = REDONE
+    hidden: str = ""
+
+
+class Row:
+    """One function of a day: its questions, its right answer and the wrong ones."""
+
+    def __init__(
+        self,
+        kind: Any,
+        *,
+        truth: Code | None = None,
+        near: float = 1e-5,
+        alike: Sequence[set[str]] = (),
+        **more: Any,
+    ) -> None:
+        """Begin a row.
+
+        Args:
+            kind: of the answer, as in `Ask`.
+            truth: the right answer to one question, never the lab's own function; by
+                default the function of this name in the day's library.
+            near: as in `Ask`.
+            alike: slugs that are one thing with several names here, in sets.
+            more: further fields of `Ask`: accept, held_out, unnamed and so on; what a
+                `HeldOut` calls truth or mistaken takes one question, too.
+        """
+        self.kind, self.near, self.alike, self.more = kind, near, list(alike), more
+        self._truth = truth
+        self._draw: Inputs | None = None
+        self._entries: list[Callable[[], Iterable[Way]]] = []
+
+    # What a day's file says.
+
+    def inputs(self, draw: Callable[[np.random.Generator], Iterable[Any]]) -> Any:
+        """Take the generator of argument tuples, the docstring's case first."""
+        self._draw = lambda rng: list(draw(rng))
+        return draw
+
+    def wrong(
+        self, slug: str, says: str, redone: str = REDONE, hidden: str = ""
+    ) -> Any:
+        """Take a mistake; the arguments are those of a `Way`."""
+        return lambda code: self._keep(Way("wrong", slug, says, code, redone, hidden))
+
+    def close(self, slug: str) -> Any:
+        """Take a way that is right in its method, but not in all digits."""
+        return lambda code: self._keep(Way("close", slug, "", code))
+
+    def right(self, code: Code) -> Code:
+        """Take an unusual way that is right."""
+        return self._keep(Way("right", "", "", code))
+
+    def of_argument(self, name: str, *changes: Change) -> None:
+        """Take mistakes that are made with one argument before it is used.
+
+        Args:
+            name: of the argument, as in the docstring.
+            changes: from `labkit.judge.argument_mistakes`, or of one's own.
+        """
+
+        def ways() -> Iterator[Way]:
+            at = self.arguments.index(name)
+            for one in changes:
+
+                def code(*args: Any, change: Code = one.change) -> Any:
+                    return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
+
+                says = one.says.format(name=name)
+                redone = one.redone.format(name=name)
+                yield Way("wrong", one.slug, says, code, redone, one.hidden)
+
+        self._entries.append(ways)
+
+    def of_answer(self, mistakes: Iterable[Mistake], but: Iterable[str] = ()) -> None:
+        """Take mistakes that are made with the finished answer.
+
+        Args:
+            mistakes: whose `redo` takes the right answer.
+            but: slugs that make no difference here.
+        """
+
+        def ways() -> Iterator[Way]:
+            for one in mistakes:
+                if one.slug not in but:
+
+                    def code(*args: Any, redo: Code = one.redo) -> Any:
+                        return redo(self.truth(*args))
+
+                    yield Way("wrong", one.slug, one.says, code, one.redone)
+
+        self._entries.append(ways)
+
+    def reached_by(self, small: str, where: str = "", but: Iterable[str] = ()) -> None:
+        """Take the mistakes of a small function that the lab's own one calls.
+
+        They are made by the lab's function with the small one replaced.
+
+        Args:
+            small: its name; it has a file of its own.
+            where: what to say first, such as "in the links' factors, ".
+            but: slugs that make no difference here.
+        """
+
+        def ways() -> Iterator[Way]:
+            for way in row_of(self._day, small).ways:
+                if way.status == "wrong" and way.slug not in but:
+                    code = self._calling(small, way.code)
+                    yield replace(way, says=f"{where}{way.says}", code=code)
+
+        self._entries.append(ways)
+
+    # What the machine makes of it.
+
+    def bind(self, day: Day, function: str) -> "Row":
+        """Return the row as that of a function, by the name of its file."""
+        self._day, self.function = day, function
+        return self
+
+    @cached_property
+    def truth(self) -> Code:
+        """The right answer to one question."""
+        return self._truth or _library_function(self._day, self.function)
+
+    @cached_property
+    def arguments(self) -> list[str]:
+        """The names of the arguments, as in the lab."""
+        return list(inspect.signature(getattr(self.lab, self.function)).parameters)
+
+    @property
+    def lab(self) -> ModuleType:
+        """The day's complete lab."""
+        return folder.lab(self._day)
+
+    @cached_property
+    def ways(self) -> list[Way]:
+        """All ways to write the function that the file holds."""
+        return [way for entry in self._entries for way in entry()]
+
+    @cached_property
+    def ask(self) -> Ask:
+        """What the judge asks."""
+        if self._draw is None:
+            raise Robo47Error(f"{self.function}.py has no @row.inputs")
+        more = dict(self.more)
+        if "held_out" in more:
+            more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
+        truth = None if "accept" in more else InTurn(self.truth)
+        named = lambda: [  # noqa: E731 (made when an answer is wrong)
+            Mistake(way.slug, way.says, InTurn(way.code), way.redone)
+            for way in self.ways
+            if way.status == "wrong"
+        ]
+        return Ask(
+            self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
+        )
+
+    def _keep(self, way: Way) -> Code:
+        self._entries.append(lambda: [way])
+        return way.code
+
+    def _calling(self, small: str, wrong: Code) -> Code:
+        """Return the lab's own function with a small one replaced."""
+
+        def code(*args: Any) -> Any:
+            right = getattr(self.lab, small)
+            setattr(self.lab, small, wrong)
+            try:
+                return getattr(self.lab, self.function)(*args)
+            finally:
+                setattr(self.lab, small, right)
+
+        return code
+
+
+def row_of(day: Day, function: str) -> Row:
+    """Return the row of a function: what its file calls `row`.
+
+    Raises:
+        Robo47Error: the day has no such file, or it holds no row.
+    """
+    module = folder.load(day, function)
+    if not isinstance(getattr(module, "row", None), Row):
+        raise Robo47Error(f"day{day.number}/{function}.py has no `row = Row(...)`")
+    return _bound(module, day)
+
+
+@cache
+def _bound(module: ModuleType, day: Day) -> Row:
+    return module.row.bind(day, module.__name__.rpartition(".")[2])
+
+
+def rows_of(day: Day) -> dict[str, Row]:
+    """Return the rows of all of a day's functions, in the manifest's order."""
+    names = [name for task in day.tasks for name in task.functions]
+    return {name: row_of(day, name) for name in names}
+
+
+def _library_function(day: Day, function: str) -> Code:
+    for name in day.library:
+        found = getattr(importlib.import_module(f"robo47.{name}"), function, None)
+        if found is not None:
+            return found
+    raise Robo47Error(
+        f"day{day.number}/{function}.py: the day's library has no {function}; "
+        "say truth=... in its Row"
+    )
+
+
+def _one_by_one(held: HeldOut) -> HeldOut:
+    return replace(
+        held,
+        truth=held.truth and InTurn(held.truth),
+        mistaken=held.mistaken and InTurn(held.mistaken),
+    )
