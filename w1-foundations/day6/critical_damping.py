@@ -1,0 +1,218 @@
+"""6.6 `critical_damping(K, Lambda)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Symmetric, draw
+from labkit.judge.row import Row
+
+from .states import (
+    model,
+    states,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(Symmetric((6, 6), scale=10.0))
+
+
+def root(A):
+    """Return the square root of a symmetric matrix."""
+    values, vectors = np.linalg.eigh(A)
+    return (vectors * np.sqrt(values)) @ vectors.T
+
+
+@row.inputs
+def _(rng):
+    drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
+    K, Lambda = drawn[0]
+    light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
+    return [(np.full(6, 4.0), np.eye(6)), light, stiff, *drawn]
+
+
+def _sum(root_L, root_k):
+    return root_L * root_k + root_k[:, None] * root_L
+
+
+def _by_modes(K, L):
+    """Critical in every mode: another D that does not ring."""
+    low = np.linalg.cholesky(L)
+    back = np.linalg.inv(low)
+    k, W = np.linalg.eigh(back @ np.diag(K) @ back.T)
+    Q = low @ W
+    return 2.0 * Q @ np.diag(np.sqrt(k)) @ Q.T
+
+
+def _turned(L):
+    values, V = np.linalg.eigh(L)
+    return V.T @ np.diag(np.sqrt(values)) @ V
+
+
+@row.wrong(
+    "Lambda-ignored",
+    "Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring",
+    "diag(2 sqrt(K))",
+)
+def _(K, Lambda):
+    return np.diag(2.0 * np.sqrt(K))
+
+
+@row.wrong(
+    "another-design",
+    "this does not ring either: you take Lambda and K to axes in which both are "
+    "diagonal. Here the damping is the sum of two products of the roots of Lambda "
+    "and K",
+    "that other design",
+)
+def _(K, Lambda):
+    return _by_modes(K, Lambda)
+
+
+@row.wrong(
+    "entries-square-rooted",
+    "np.sqrt takes the root of every entry of Lambda; the root of a matrix is the "
+    "one that, times itself, is the matrix",
+    "the right one with np.sqrt(Lambda)",
+)
+def _(K, Lambda):
+    return _sum(np.sqrt(Lambda), np.sqrt(K))
+
+
+@row.wrong(
+    "entries-square-rooted",
+    "np.sqrt takes the root of every entry of Lambda, NaN where it is negative; "
+    "the root of a matrix is the one that, times itself, is the matrix",
+    "the right one with np.sqrt(Lambda)",
+)
+def _(K, Lambda):
+    return np.sqrt(Lambda) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(Lambda)
+
+
+@row.wrong(
+    "entries-square-rooted",
+    "the root is taken of the size of every entry of Lambda; the root of a matrix "
+    "is the one that, times itself, is the matrix",
+    "the right one with np.sqrt(abs(Lambda))",
+)
+def _(K, Lambda):
+    return _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K))
+
+
+@row.wrong(
+    "diagonal-only",
+    "this is 2 sqrt(k m) for each axis alone; Lambda couples the axes",
+    "the right one with Lambda's diagonal",
+)
+def _(K, Lambda):
+    return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
+
+
+@row.wrong(
+    "one-order-only",
+    "the product of the two roots is taken in one order, twice; with both orders, "
+    "once each, it is symmetric",
+    "2 sqrt(Lambda) sqrt(K)",
+)
+def _(K, Lambda):
+    return 2.0 * root(Lambda) @ np.diag(np.sqrt(K))
+
+
+@row.wrong(
+    "one-order-only",
+    "the product of the two roots is taken in one order, twice; with both orders, "
+    "once each, it is symmetric",
+    "2 sqrt(K) sqrt(Lambda)",
+)
+def _(K, Lambda):
+    return 2.0 * np.diag(np.sqrt(K)) @ root(Lambda)
+
+
+@row.wrong(
+    "half-of-it",
+    "the product of the two roots is there in one order only",
+    "sqrt(Lambda) sqrt(K)",
+)
+def _(K, Lambda):
+    return root(Lambda) @ np.diag(np.sqrt(K))
+
+
+@row.wrong(
+    "factor-two",
+    "there is a 2 too many: the two orders are the 2 already",
+    "twice the right one",
+)
+def _(K, Lambda):
+    return 2.0 * _sum(root(Lambda), np.sqrt(K))
+
+
+@row.wrong(
+    "factor-two-missing",
+    "half of it is missing: the two orders are added, not averaged",
+    "half of the right one",
+)
+def _(K, Lambda):
+    return 0.5 * _sum(root(Lambda), np.sqrt(K))
+
+
+@row.wrong(
+    "K-not-rooted",
+    "K is used as it is; its square root belongs there",
+    "the right one with K for its root",
+)
+def _(K, Lambda):
+    return _sum(root(Lambda), K)
+
+
+@row.wrong(
+    "Lambda-not-rooted",
+    "Lambda is used as it is; its square root belongs there",
+    "the right one with Lambda for its root",
+)
+def _(K, Lambda):
+    return _sum(Lambda, np.sqrt(K))
+
+
+@row.wrong(
+    "eigenvectors-transposed",
+    "the eigenvectors are transposed: those of eigh are the columns, so the root "
+    "is V diag V^T",
+    "the right one with V^T diag V",
+)
+def _(K, Lambda):
+    return _sum(_turned(Lambda), np.sqrt(K))
+
+
+@row.wrong(
+    "eigenvalues-not-rooted-back",
+    "the root is left in the eigenvectors' axes: diag(sqrt(values)) has to be "
+    "turned back",
+    "the right one with diag(sqrt(values))",
+)
+def _(K, Lambda):
+    return _sum(np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K))
+
+
+@row.wrong(
+    "cholesky",
+    "a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda",
+    "the right one with the Cholesky factor",
+)
+def _(K, Lambda):
+    return _sum(np.linalg.cholesky(Lambda), np.sqrt(K))
+
+
+@row.wrong(
+    "root-of-inverse",
+    "the root is that of Lambda's inverse",
+    "the right one with the inverse root",
+)
+def _(K, Lambda):
+    return _sum(np.linalg.inv(root(Lambda)), np.sqrt(K))
+
+
+@row.wrong(
+    "root-of-the-product",
+    "this is 2 sqrt(K Lambda), entry by entry",
+    "2 sqrt(abs(K Lambda))",
+)
+def _(K, Lambda):
+    return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))

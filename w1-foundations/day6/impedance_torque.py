@@ -1,0 +1,156 @@
+"""6.7 `impedance_torque`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import draw
+from labkit.judge.row import Row
+
+from .states import (
+    J_CASE,
+    SWAP,
+    TORQUE,
+    model,
+    some,
+    states,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(TORQUE)
+
+
+@row.inputs
+def _(rng):
+    rest = np.zeros(7)
+    case = (J_CASE, np.zeros(6), np.arange(7.0), np.ones(7), rest, rest)
+    drawn = [
+        (
+            model(now)[0],
+            some(rng, 20, 6),
+            some(rng, 20, 7),
+            draw.numbers(rng, 0.5, 2, 7),
+            some(rng, 2, 7),
+            some(rng, 5, 7),
+        )
+        for now in states(rng)
+    ]
+    J, F, bias, damping, qd, idle = drawn[0]
+    parts = [
+        (J, np.zeros(6), bias, damping, qd, idle),
+        (J, F, bias, damping, rest, idle),
+        (J, F, bias, damping, qd, rest),
+    ]
+    return [case, *parts, *drawn]
+
+
+pinv = np.linalg.pinv
+
+
+@row.wrong(
+    "bias-twice",
+    "bias is added twice",
+    "the right one with 2 bias",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + 2.0 * bias + damping * qd + tau_null
+
+
+@row.wrong(
+    "bias-forgotten",
+    "bias is missing: the arm sags under its weight, decimetres at a soft hand",
+    "the right one without bias",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + damping * qd + tau_null
+
+
+@row.wrong(
+    "bias-sign",
+    "bias is taken away; your torques have to hold it, so it is added",
+    "the right one with -bias",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench - bias + damping * qd + tau_null
+
+
+@row.wrong(
+    "damping-forgotten",
+    "the joints' damping is not made up for",
+    "the right one without damping qd",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + bias + tau_null
+
+
+@row.wrong(
+    "damping-sign",
+    "the joints' damping is taken away: the joints rub already, so your torques "
+    "have to make up for it",
+    "the right one with -damping qd",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + bias - damping * qd + tau_null
+
+
+@row.wrong(
+    "damping-without-qd",
+    "damping is added as it is; it is a torque only once it is times qd",
+    "the right one with damping for damping qd",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + bias + damping + tau_null
+
+
+@row.wrong(
+    "wrench-sign",
+    "the wrench has the wrong sign: the hand pulls where it should push",
+    "the right one with -J^T F",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return -J.T @ wrench + bias + damping * qd + tau_null
+
+
+@row.wrong(
+    "wrench-forgotten",
+    "the wrench is missing: the hand floats",
+    "the right one without J^T F",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return bias + damping * qd + tau_null
+
+
+@row.wrong(
+    "pinv-for-transpose",
+    "pinv(J) takes the wrench to the joints; pushes go to torques with J^T, and "
+    "the pseudo-inverse is for speeds",
+    "the right one with pinv(J)",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return pinv(J) @ wrench + bias + damping * qd + tau_null
+
+
+@row.wrong(
+    "null-forgotten",
+    "tau_null is missing: nothing holds the elbow back",
+    "the right one without tau_null",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + bias + damping * qd
+
+
+@row.wrong(
+    "null-sign",
+    "tau_null is taken away; it is a torque to add",
+    "the right one with -tau_null",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench + bias + damping * qd - tau_null
+
+
+@row.wrong(
+    "halves-swapped",
+    "the wrench is read as (force; moment); the moment comes first",
+    "the right one with its halves swapped",
+)
+def _(J, wrench, bias, damping, qd, tau_null):
+    return J.T @ wrench[SWAP] + bias + damping * qd + tau_null

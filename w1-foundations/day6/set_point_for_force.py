@@ -1,0 +1,141 @@
+"""6.8 `set_point_for_force(force, k, surface)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Scalar, draw
+from labkit.judge.row import Row
+
+from .states import (
+    COUNT,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(Scalar(unit="m"))
+
+
+@row.inputs
+def _(rng):
+    drawn = zip(
+        draw.numbers(rng, 5, 60, COUNT),
+        draw.numbers(rng, 200, 2000, COUNT),
+        draw.numbers(rng, 0.1, 0.8, COUNT),
+        strict=True,
+    )
+    # A deep one, and a hand that hangs from a ceiling and pulls it down.
+    asked = [(20.0, 400.0, 0.42), (60.0, 50.0, 0.3), (-8.0, 300.0, -0.2)]
+    return [*asked, *(tuple(map(float, one)) for one in drawn)]
+
+
+def _at(wrench, row, value):
+    out = wrench.copy()
+    out[row] = value
+    return out
+
+
+@row.wrong(
+    "above-the-surface",
+    "the target is above the surface: the hand never touches it and presses with 0",
+    "surface + force / k",
+)
+def _(force, k, surface):
+    return surface + force / k
+
+
+@row.wrong(
+    "force-times-k",
+    "force is multiplied by k; a stiffer spring needs less depth",
+    "surface - force k",
+)
+def _(force, k, surface):
+    return surface - force * k
+
+
+@row.wrong(
+    "k-over-force",
+    "the fraction is upside down: N divided by N/m is m",
+    "surface - k / force",
+)
+def _(force, k, surface):
+    return surface - k / force
+
+
+@row.wrong(
+    "depth-only",
+    "this is how deep below the surface; the height to command is asked for",
+    "force / k",
+)
+def _(force, k, surface):
+    return force / k
+
+
+@row.wrong(
+    "depth-negative",
+    "the height of the surface is missing",
+    "-force / k",
+)
+def _(force, k, surface):
+    return -force / k
+
+
+@row.wrong(
+    "millimetres",
+    "the depth is in millimetres; here everything is in metres",
+    "the right one with the depth in mm",
+)
+def _(force, k, surface):
+    return surface - 1000.0 * force / k
+
+
+@row.wrong(
+    "half-a-spring",
+    "there is a 2 too many: force is k times depth, its half belongs to energy",
+    "surface - 2 force / k",
+)
+def _(force, k, surface):
+    return surface - 2.0 * force / k
+
+
+@row.wrong(
+    "surface-only",
+    "force and k are not used: at the surface itself the spring pulls with 0 N",
+    "surface",
+)
+def _(force, k, surface):
+    return surface
+
+
+@row.wrong(
+    "whole-metres",
+    "// leaves whole numbers only, here whole metres of depth; / divides",
+    "surface - force // k",
+)
+def _(force, k, surface):
+    return surface - force // k
+
+
+@row.wrong(
+    "docstrings-numbers",
+    "k is 400, as in the docstring, whatever it is given",
+    "surface - force / 400",
+)
+def _(force, k, surface):
+    return surface - force / 400.0
+
+
+@row.wrong(
+    "docstrings-numbers",
+    "the surface is at 0.42, as in the docstring, whatever it is given",
+    "0.42 - force / k",
+)
+def _(force, k, surface):
+    return 0.42 - force / k
+
+
+@row.wrong(
+    "half-a-depth",
+    "half of the depth is missing: force is k times depth, its half belongs to energy",
+    "surface - force / (2 k)",
+)
+def _(force, k, surface):
+    return surface - 0.5 * force / k

@@ -1,0 +1,221 @@
+"""6.2 `site_bias(J_space, qd, p)`: its questions and its mistakes."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from labkit.judge.row import Row
+from robo47.checks import Array
+from robo47.screws import ad
+
+from .states import (
+    Acceleration,
+    some,
+    states,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(Acceleration())
+
+
+@row.inputs
+def _(rng):
+    spin = np.zeros((6, 7))
+    spin[2, 0] = 1.0
+    case = (spin, np.eye(7)[0], np.array([1.0, 0.0, 0.0]))
+    drawn = [
+        (now.J_space.copy(), some(rng, 2, 7), some(rng, 1, 3))  # screws, so as it is
+        for now in states(rng)
+    ]
+    return [case, *drawn]
+
+
+def bias(
+    J: Array,
+    qd: Array,
+    p: Array,
+    *,
+    rate: Callable[[Array, Array], Array] = lambda V, S: ad(V) @ S,
+    turn: float = 1.0,
+    centre: float = 1.0,
+    move: float = 1.0,
+) -> Array:
+    """Return the hand's bias; the right one unless told otherwise."""
+    parts = (J * qd).T
+    V = np.cumsum(parts, axis=0)
+    A = sum(rate(v, s) for v, s in zip(V, parts, strict=True))
+    total = parts.sum(axis=0)
+    omega, alpha = total[:3], A[:3]
+    velocity = move * total[3:] + centre * np.cross(omega, p)
+    linear = A[3:] + turn * np.cross(alpha, p) + np.cross(omega, velocity)
+    return np.append(alpha, linear)
+
+
+def _own_bracket(V: Array, S: Array) -> Array:
+    """ad(V)^T S, which is for wrenches."""
+    return ad(V).T @ S
+
+
+def _without_lower_block(V: Array, S: Array) -> Array:
+    B = ad(V).copy()
+    B[3:, :3] = 0.0
+    return B @ S
+
+
+def _rate_only(J: Array, qd: Array, p: Array) -> Array:
+    parts = (J * qd).T
+    V = np.cumsum(parts, axis=0)
+    return (ad(V) @ parts[..., None])[..., 0].sum(axis=0)
+
+
+def _no_joint_speed(J: Array, qd: Array, p: Array) -> Array:
+    """The screws are not multiplied by their own joint's speed."""
+    V = np.cumsum((J * qd).T, axis=0)
+    A = (ad(V) @ J.T[..., None])[..., 0].sum(axis=0)
+    omega = V[-1, :3]
+    velocity = V[-1, 3:] + np.cross(omega, p)
+    linear = A[3:] + np.cross(A[:3], p) + np.cross(omega, velocity)
+    return np.append(A[:3], linear)
+
+
+def _coriolis(J: Array, qd: Array) -> Array:
+    return np.cross((J @ qd)[:3], (J @ qd)[3:])
+
+
+def _nothing(V: Array, S: Array) -> Array:
+    return np.zeros(6)
+
+
+row.wrong(
+    "of-the-origin",
+    "this is the twist's rate about the world's origin, the sum of ad(V) S qd; the "
+    "acceleration of the point p is another thing: the linear half is to be "
+    "converted",
+    "the sum alone",
+)(_rate_only)
+
+
+@row.wrong(
+    "no-centripetal",
+    "the part omega x (velocity of p) is missing: a point on a circle accelerates "
+    "towards its centre though the speed is steady",
+    "the right one without it",
+)
+def _(J_space, qd, p):
+    return _rate_only(J_space, qd, p) + np.append(
+        np.zeros(3), np.cross(_rate_only(J_space, qd, p)[:3], p)
+    )
+
+
+@row.wrong(
+    "no-alpha-cross-p",
+    "the angular acceleration is not converted to the point: alpha x p is missing",
+    "the right one without it",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, turn=0.0)
+
+
+@row.wrong(
+    "velocity-of-origin",
+    "omega is crossed with v, the velocity of the point at the world's origin; p "
+    "itself moves at v + omega x p",
+    "the right one with v there",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, centre=0.0)
+
+
+@row.wrong(
+    "v-forgotten",
+    "the velocity of p is taken to be omega x p alone; v belongs to it",
+    "the right one without v",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, move=0.0)
+
+
+@row.wrong(
+    "p-sign",
+    "the cross products with p have their factors swapped: p x omega is minus "
+    "omega x p",
+    "the right one with -p",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, -p)
+
+
+@row.wrong(
+    "ad-swapped",
+    "V and S have changed places, or the twists are summed from the tip: ad(S) V "
+    "is minus ad(V) S, and a joint is carried by those before it",
+    "the right one with ad(S) V",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, rate=lambda V, S: ad(S) @ V)
+
+
+@row.wrong(
+    "ad-transposed",
+    "ad(V) is transposed: that one is for wrenches, screws take it as it is",
+    "the right one with ad(V)^T",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, rate=_own_bracket)
+
+
+@row.wrong(
+    "ad-half",
+    "ad(V) lacks its lower left block [v]",
+    "the right one without it",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, rate=_without_lower_block)
+
+
+@row.wrong(
+    "twist-of-the-hand",
+    "every joint is taken to ride on the hand; joint i rides on link i, which only "
+    "the joints up to it move; ad(V) V is 0, so nothing is left of the sum",
+    "the right one without the sum of ad(V) S qd",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p, rate=_nothing)
+
+
+@row.wrong(
+    "last-joint-left-out",
+    "the last joint is left out: range(6) ends with joint6",
+    "the right one of six joints",
+)
+def _(J_space, qd, p):
+    return bias(J_space[:, :6], qd[:6], p)
+
+
+@row.wrong(
+    "coriolis-twice",
+    "omega x v counts twice: ad(V) S has it already, and 2 omega x v belongs to "
+    "accelerations measured in the moving frame",
+    "the right one with another omega x v",
+)
+def _(J_space, qd, p):
+    return bias(J_space, qd, p) + np.append(np.zeros(3), _coriolis(J_space, qd))
+
+
+row.wrong(
+    "qd-once",
+    "the screws are not multiplied by their own joint's speed: the sum is of "
+    "ad(V) S, and qd is missing",
+    "the right one without that qd",
+)(_no_joint_speed)
+
+
+@row.wrong(
+    "negative",
+    "every sign is wrong: this is what has to be taken away from acc, not the "
+    "acceleration itself",
+    "minus the right one",
+)
+def _(J_space, qd, p):
+    return -bias(J_space, qd, p)

@@ -1,0 +1,99 @@
+"""6.5 `spring_wrench(e, V_err, K, D)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge.row import Row
+
+from .states import (
+    WRENCH,
+    springs,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(WRENCH)
+
+
+row.inputs(springs)
+
+
+@row.wrong(
+    "spring-sign",
+    "the spring pushes the hand away: e points to the target, so pull along it",
+    "-K e + D V_err",
+)
+def _(e, V_err, K, D):
+    return -K @ e + D @ V_err
+
+
+@row.wrong(
+    "damper-sign",
+    "the damper drives the hand on: V_err is the target's twist minus the hand's, "
+    "so it is added",
+    "K e - D V_err",
+)
+def _(e, V_err, K, D):
+    return K @ e - D @ V_err
+
+
+@row.wrong(
+    "damper-forgotten",
+    "the damper is missing: the hand never comes to rest",
+    "K e",
+)
+def _(e, V_err, K, D):
+    return K @ e
+
+
+@row.wrong(
+    "spring-forgotten",
+    "the spring is missing: the hand stays wherever it is pushed",
+    "D V_err",
+)
+def _(e, V_err, K, D):
+    return D @ V_err
+
+
+@row.wrong(
+    "spring-and-damper-swapped",
+    "K and D have changed places",
+    "D e + K V_err",
+)
+def _(e, V_err, K, D):
+    return D @ e + K @ V_err
+
+
+@row.wrong(
+    "diagonal-of-D",
+    "only the diagonal of D is used; the six directions are coupled",
+    "the right one with D's diagonal",
+)
+def _(e, V_err, K, D):
+    return K @ e + np.diag(D) * V_err
+
+
+@row.wrong(
+    "halves-swapped",
+    "the halves of the answer are (force; moment); the moment comes first",
+    "the right one with its halves swapped",
+)
+def _(e, V_err, K, D):
+    return np.roll(K @ e + D @ V_err, 3)
+
+
+@row.wrong(
+    "millimetres",
+    "the error is put into millimetres; here everything is in metres",
+    "the right one with e in mm",
+)
+def _(e, V_err, K, D):
+    return K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err
+
+
+@row.wrong(
+    "half-a-spring",
+    "the spring has a factor 1/2: that is its energy's, not its force's",
+    "the right one with K e / 2",
+)
+def _(e, V_err, K, D):
+    return 0.5 * K @ e + D @ V_err

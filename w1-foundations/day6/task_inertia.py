@@ -1,0 +1,138 @@
+"""6.1 `task_inertia(J, M)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Symmetric
+from labkit.judge.row import Row
+from robo47.checks import Array
+
+from .states import (
+    J_CASE,
+    M_CASE,
+    SWAP,
+    model,
+    states,
+)
+
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+row = Row(Symmetric((6, 6)))
+
+
+@row.inputs
+def _(rng):
+    drawn = [model(now)[:2] for now in states(rng)]
+    return [(J_CASE, 2.0 * M_CASE), *drawn]
+
+
+ARMATURE = 0.1
+
+
+def inertia(J: Array, M: Array) -> Array:
+    """Return Lambda, right."""
+    return np.linalg.inv(J @ np.linalg.solve(M, J.T))
+
+
+@row.wrong(
+    "inverse-forgotten",
+    "this is the inverse of Lambda: it says how far a push accelerates the hand, "
+    "not how heavy the hand is",
+    "J M^-1 J^T",
+)
+def _(J, M):
+    return J @ np.linalg.solve(M, J.T)
+
+
+@row.wrong(
+    "M-not-inverted",
+    "M stands between J and J^T as it is; a push meets the joints' torques first, "
+    "and torques make accelerations through M^-1",
+    "J M J^T",
+)
+def _(J, M):
+    return J @ M @ J.T
+
+
+@row.wrong(
+    "M-not-inverted",
+    "M stands between J and J^T as it is, and the product is inverted; M has to be "
+    "inverted too",
+    "(J M J^T)^-1",
+)
+def _(J, M):
+    return np.linalg.inv(J @ M @ J.T)
+
+
+@row.wrong(
+    "pinv-both-sides",
+    "pinv(J)^T M pinv(J) is right for an arm of six joints; with seven the elbow "
+    "is free to give way, and the hand is lighter",
+    "pinv(J)^T M pinv(J)",
+)
+def _(J, M):
+    return np.linalg.pinv(J).T @ M @ np.linalg.pinv(J)
+
+
+@row.wrong(
+    "M-left-out",
+    "M is not in it: (J J^T)^-1 knows where the joints are, not what they carry",
+    "(J J^T)^-1",
+)
+def _(J, M):
+    return np.linalg.inv(J @ J.T)
+
+
+@row.wrong(
+    "armature-left-out",
+    "the armature is taken out of M; the rotors turn with the joints, so somebody "
+    "who pushes the hand feels them",
+    "Lambda of M - 0.1 I",
+)
+def _(J, M):
+    return inertia(J, M - ARMATURE * np.eye(7))
+
+
+@row.wrong(
+    "armature-twice",
+    "the armature is added to M; M has it already",
+    "Lambda of M + 0.1 I",
+)
+def _(J, M):
+    return inertia(J, M + ARMATURE * np.eye(7))
+
+
+@row.wrong(
+    "rows-swapped",
+    "the rows of J are put in the order (v; omega); here the angular three come "
+    "first, in J as in every wrench",
+    "Lambda of J with its halves swapped",
+)
+def _(J, M):
+    return inertia(J[SWAP], M)
+
+
+@row.wrong(
+    "diagonal-of-M",
+    "only the diagonal of M is used; the joints pull at each other",
+    "Lambda of M's diagonal",
+)
+def _(J, M):
+    return inertia(J, np.diag(np.diag(M)))
+
+
+@row.wrong(
+    "diagonal-inverted",
+    "only the diagonal of J M^-1 J^T is inverted; the six directions are coupled",
+    "that diagonal",
+)
+def _(J, M):
+    return np.diag(1.0 / np.diag(J @ np.linalg.solve(M, J.T)))
+
+
+@row.wrong(
+    "entries-inverted",
+    "1 / A inverts every entry; the inverse of a matrix is another thing",
+    "1 / (J M^-1 J^T)",
+)
+def _(J, M):
+    return 1.0 / (J @ np.linalg.solve(M, J.T))
