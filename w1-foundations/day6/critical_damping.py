@@ -10,8 +10,6 @@ from .states import (
     states,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
-
 row = Row(Symmetric((6, 6), scale=10.0))
 
 
@@ -216,3 +214,20 @@ def _(K, Lambda):
 )
 def _(K, Lambda):
     return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))
+
+
+@row.right  # The root by Newton's iteration (Denman and Beavers).
+def _(K, Lambda):
+    Y, Z = Lambda.copy(), np.eye(6)
+    for _ in range(40):
+        Y, Z = (Y + np.linalg.inv(Z)) / 2, (Z + np.linalg.inv(Y)) / 2
+    k = np.diag(np.sqrt(K))
+    return Y @ k + k @ Y
+
+
+@row.right  # The root by an SVD.
+def _(K, Lambda):
+    U, s, _ = np.linalg.svd(Lambda)
+    root = U @ np.diag(np.sqrt(s)) @ U.T
+    k = np.sqrt(K)
+    return root * k + root * k[:, None]

@@ -11,8 +11,6 @@ from .states import (
     springs,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
-
 row = Row(WRENCH)
 
 
@@ -126,3 +124,10 @@ def _(e, V_err, K, D, force):
 )
 def _(e, V_err, K, D, force):
     return _at(K @ e + D @ V_err, 3, D[3] @ V_err - force)
+
+
+@row.right  # With a selection matrix, as Raibert and Craig write it.
+def _(e, V_err, K, D, force):
+    S = np.diag([1, 1, 1, 1, 1, 0])
+    down = np.array([0, 0, 0, 0, 0, -1.0])
+    return S @ K @ e + D @ V_err + force * down

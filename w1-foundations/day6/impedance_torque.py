@@ -14,7 +14,7 @@ from .states import (
     states,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
+pinv = np.linalg.pinv
 
 row = Row(TORQUE)
 
@@ -154,3 +154,13 @@ def _(J, wrench, bias, damping, qd, tau_null):
 )
 def _(J, wrench, bias, damping, qd, tau_null):
     return J.T @ wrench[SWAP] + bias + damping * qd + tau_null
+
+
+@row.right  # Joint by joint.
+def _(J, wrench, bias, damping, qd, tau_null):
+    return np.array(
+        [
+            J[:, i] @ wrench + bias[i] + damping[i] * qd[i] + tau_null[i]
+            for i in range(7)
+        ]
+    )

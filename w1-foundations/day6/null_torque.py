@@ -172,3 +172,16 @@ def _(J, M, Lambda, tau):
 )
 def _(J, M, Lambda, tau):
     return tau - J.T @ pinv(J.T) @ tau
+
+
+@row.right  # With the dynamically consistent inverse: I - J^T Jbar^T.
+def _(J, M, Lambda, tau):
+    Jbar = np.linalg.inv(M) @ J.T @ Lambda
+    return (np.eye(7) - J.T @ Jbar.T) @ tau
+
+
+@row.right  # By the accelerations of a constrained arm.
+def _(J, M, Lambda, tau):
+    free = np.linalg.solve(M, tau)
+    F = np.linalg.solve(J @ np.linalg.solve(M, J.T), J @ free)
+    return M @ (free - np.linalg.solve(M, J.T @ F))

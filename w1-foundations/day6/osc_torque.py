@@ -159,3 +159,9 @@ def _(J, Lambda, bias, site_bias, acc):
 )
 def _(J, Lambda, bias, site_bias, acc):
     return J.T @ Lambda @ (acc - site_bias) + 2.0 * bias
+
+
+@row.right  # With einsum, and bias first.
+def _(J, Lambda, bias, site_bias, acc):
+    F = np.einsum("ij,j->i", Lambda, acc - site_bias)
+    return bias + np.einsum("ij,i->j", J, F)

@@ -9,8 +9,6 @@ from .states import (
     COUNT,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
-
 row = Row(Scalar(unit="m"))
 
 
@@ -139,3 +137,8 @@ def _(force, k, surface):
 )
 def _(force, k, surface):
     return surface - 0.5 * force / k
+
+
+@row.right  # With NumPy, as an array of no axes.
+def _(force, k, surface):
+    return np.subtract(surface, np.divide(force, k))

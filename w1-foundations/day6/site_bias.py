@@ -6,15 +6,13 @@ import numpy as np
 
 from labkit.judge.row import Row
 from robo47.checks import Array
-from robo47.screws import ad
+from robo47.screws import ad, adjoint, exp_screw
 
 from .states import (
     Acceleration,
     some,
     states,
 )
-
-pinv, solve = np.linalg.pinv, np.linalg.solve
 
 row = Row(Acceleration())
 
@@ -219,3 +217,51 @@ row.wrong(
 )
 def _(J_space, qd, p):
     return -bias(J_space, qd, p)
+
+
+@row.right  # Every pair of joints, as Christoffel did.
+def _(J_space, qd, p):
+    A = np.zeros(6)
+    for j in range(7):
+        for i in range(j):
+            A += ad(J_space[:, i]) @ J_space[:, j] * qd[i] * qd[j]
+    V = J_space @ qd
+    v = V[3:] + np.cross(V[:3], p)
+    return np.append(A[:3], A[3:] + np.cross(A[:3], p) + np.cross(V[:3], v))
+
+
+@row.right  # Screws first moved to the point, then summed.
+def _(J_space, qd, p):
+    move = np.eye(6)
+    x, y, z = p
+    move[3:, :3] = [[0, z, -y], [-z, 0, x], [y, -x, 0]]
+    S = (move @ J_space * qd).T
+    V = np.cumsum(S, axis=0)
+    A = sum(ad(Vi) @ Si for Vi, Si in zip(V, S))
+    A[3:] += np.cross(V[-1, :3], V[-1, 3:])
+    return A
+
+
+@row.right  # Cross products written out, no library.
+def _(J_space, qd, p):
+    w, v, alpha, a = np.zeros((4, 3))
+    for S, speed in zip(J_space.T, qd):
+        sw, sv = S[:3] * speed, S[3:] * speed
+        alpha = alpha + np.cross(w, sw)
+        a = a + np.cross(v, sw) + np.cross(w, sv)
+        w, v = w + sw, v + sv
+    return np.append(alpha, a + np.cross(alpha, p) + np.cross(w, v + np.cross(w, p)))
+
+
+@row.close("rounded-somewhere")  # By a difference quotient of the moving screws.
+def _(J_space, qd, p):
+    h = 1e-7
+    T = np.eye(4)
+    moved = []
+    for S, speed in zip(J_space.T, qd):
+        moved.append(adjoint(T) @ S)
+        T = T @ exp_screw(S, speed * h)
+    rate = (np.array(moved).T - J_space) @ qd / h
+    V = J_space @ qd
+    v = V[3:] + np.cross(V[:3], p)
+    return np.append(rate[:3], rate[3:] + np.cross(rate[:3], p) + np.cross(V[:3], v))

@@ -9,8 +9,6 @@ from .states import (
     springs,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
-
 row = Row(WRENCH)
 
 
@@ -97,3 +95,11 @@ def _(e, V_err, K, D):
 )
 def _(e, V_err, K, D):
     return 0.5 * K @ e + D @ V_err
+
+
+@row.right  # Row by row, in plain Python.
+def _(e, V_err, K, D):
+    return [
+        sum(k * x for k, x in zip(K[i], e)) + sum(d * x for d, x in zip(D[i], V_err))
+        for i in range(6)
+    ]

@@ -14,7 +14,7 @@ from .states import (
     states,
 )
 
-pinv, solve = np.linalg.pinv, np.linalg.solve
+pinv = np.linalg.pinv
 
 row = Row(Symmetric((6, 6)))
 
@@ -136,3 +136,42 @@ def _(J, M):
 )
 def _(J, M):
     return 1.0 / (J @ np.linalg.solve(M, J.T))
+
+
+@row.right  # By a Cholesky factor of M.
+def _(J, M):
+    L = np.linalg.cholesky(M)
+    A = np.linalg.solve(L, J.T)
+    return np.linalg.inv(A.T @ A)
+
+
+@row.right  # One unit acceleration after the other.
+def _(J, M):
+    A = J @ np.linalg.inv(M) @ J.T
+    columns = [np.linalg.solve(A, unit) for unit in np.eye(6)]
+    return np.array(columns).T
+
+
+@row.right  # By the singular values of J M^-1/2.
+def _(J, M):
+    values, V = np.linalg.eigh(M)
+    half = V / np.sqrt(values) @ V.T
+    U, s, _ = np.linalg.svd(J @ half, full_matrices=False)
+    return U / s**2 @ U.T
+
+
+@row.right  # A pseudo-inverse, which away from singularities is the inverse.
+def _(J, M):
+    return np.linalg.pinv(J @ np.linalg.pinv(M) @ J.T)
+
+
+@row.close("rounded-somewhere")  # float32 inside.
+def _(J, M):
+    A = (J @ np.linalg.solve(M, J.T)).astype(np.float32)
+    return np.linalg.inv(A.astype(np.float64))
+
+
+@row.close("rounded-somewhere")  # A little is added against singularities.
+def _(J, M):
+    A = J @ np.linalg.solve(M, J.T)
+    return np.linalg.inv(A + 1e-9 * np.eye(6))

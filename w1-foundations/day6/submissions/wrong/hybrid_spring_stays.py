@@ -1,9 +1,0 @@
-# task 6.9: spring-left-in
-# Spring and force.
-import numpy as np
-
-
-def hybrid_wrench(e, V_err, K, D, force):
-    F = K @ e + D @ V_err
-    F[5] -= force
-    return F

@@ -1,7 +1,0 @@
-# task 6.7: damping-sign
-# The joints rub twice.
-import numpy as np
-
-
-def impedance_torque(J, wrench, bias, damping, qd, tau_null):
-    return J.T @ wrench + bias - damping * qd + tau_null
