@@ -1,0 +1,178 @@
+"""Controlled experiments on a wrong function: with which argument neutral it is right.
+
+"It is right whenever ed is 0, and whenever M is the identity" says which term is wrong
+where no named mistake fits. It is true by construction: it was asked.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from labkit.judge.compare import rigid
+from robo47.checks import Array
+
+QUESTIONS = 4  # per experiment; three of them at least must agree
+AGREE = 3
+NOTHING = 1e-12  # a right answer as small as this says nothing
+Call = tuple[Any, ...]
+
+
+class Neutral(NamedTuple):
+    """A neutral value of an argument: what it is called, and the value itself."""
+
+    says: str  # "{} is 0"
+    value: Any
+
+
+class Experiment(NamedTuple):
+    """Calls in which one argument is neutral.
+
+    Attributes:
+        says: "ed is 0".
+        changed: how many numbers of the argument were made neutral.
+        calls: the arguments of each.
+    """
+
+    says: str
+    changed: float
+    calls: list[Call]
+
+
+def neutrals(x: Any) -> Iterator[Neutral]:
+    """Yield the neutral values of an argument, the most telling first.
+
+    Args:
+        x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
+    """
+    if isinstance(x, float) and not isinstance(x, bool):
+        yield Neutral("{} is 0", 0.0)
+        yield Neutral("{} is 1", 1.0)
+    elif isinstance(x, np.ndarray) and x.ndim == 1 and len(x) > 1:
+        yield Neutral("{} is 0", np.zeros_like(x))
+        yield Neutral("all entries of {} are equal", np.full_like(x, x[0]))
+        one = np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0)
+        yield Neutral("only one entry of {} is not 0", one)
+    elif isinstance(x, np.ndarray) and x.ndim == 2:
+        yield from _of_a_matrix(x)
+
+
+def _of_a_matrix(x: Array) -> Iterator[Neutral]:
+    if x.shape == (4, 4) and rigid(x[None]):
+        turned, moved = x.copy(), x.copy()
+        turned[:3, 3], moved[:3, :3] = 0.0, np.eye(3)
+        yield Neutral("{} does not translate", turned)
+        yield Neutral("{} does not rotate", moved)
+    elif x.shape == (3, 3) and rigid(x[None]):
+        yield Neutral("{} is the identity", np.eye(3))
+    elif x.shape[0] == x.shape[1]:
+        yield Neutral("{} is diagonal", np.diag(np.diag(x)))
+        yield Neutral("{} is the identity", np.eye(len(x)))
+        yield Neutral("{} is 0", np.zeros_like(x))
+    else:
+        one = np.zeros_like(x)
+        one[:, 0] = x[:, 0]
+        yield Neutral("only the first column of {} is not 0", one)
+
+
+def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
+    """Return what to ask of a function that answered these calls wrongly.
+
+    Args:
+        calls: the arguments of each, of the same shapes; three at least.
+        names: of the arguments.
+    """
+    some = list(calls)[-QUESTIONS:]
+    if len(some) < AGREE or any(len(names) != len(call) for call in some):
+        return []
+    found = []
+    for k, name in enumerate(names):
+        columns = [list(neutrals(call[k])) for call in some]
+        for choices in zip(*columns, strict=False):
+            if len({choice.says for choice in choices}) == 1:
+                changed = [
+                    (*call[:k], choice.value, *call[k + 1 :])
+                    for call, choice in zip(some, choices, strict=True)
+                ]
+                count = np.mean(
+                    [np.sum(np.not_equal(c.value, call[k])) for c, call in
+                     zip(choices, some, strict=True)]
+                )  # fmt: skip
+                if count:
+                    says = choices[0].says.format(name)
+                    found.append(Experiment(says, float(count), changed))
+    return found
+
+
+def conclude(
+    asked: Sequence[Experiment],
+    answers: Sequence[Sequence[Any]],
+    truth: Callable[..., Any],
+    near: float,
+) -> str:
+    """Return the sentence that the experiments allow, or "".
+
+    Args:
+        asked: the experiments.
+        answers: per experiment the function's answers, None where there was none.
+        truth: the right answer to one call.
+        near: how far off a right answer may be, relative to its largest entry.
+    """
+    telling = sorted(
+        (one.changed, i)
+        for i, (one, given) in enumerate(zip(asked, answers, strict=True))
+        if _right(one.calls, given, truth, near)
+    )
+    says: list[str] = []
+    seen: set[str] = set()
+    for _, i in telling:
+        argument = _argument(asked[i].says)
+        if argument not in seen and len(says) < 2:
+            seen.add(argument)
+            says.append(f"whenever {asked[i].says}")
+    return f"It is right {', and '.join(says)}." if says else ""
+
+
+def _argument(says: str) -> str:
+    """Return the argument's name in "all entries of kp are equal"."""
+    words = says.split()
+    return words[words.index("of") + 1] if "of" in words else words[0]
+
+
+def _right(
+    calls: Sequence[Call], given: Sequence[Any], truth: Callable[..., Any], near: float
+) -> bool:
+    """Return whether all answers are right and enough of them say something."""
+    agree = 0
+    for call, answer in zip(calls, given, strict=True):
+        right = _flat(_or_none(truth, call))
+        if right is None or not np.isfinite(right).all():
+            continue  # the question has no answer: it says nothing
+        mine = _flat(answer)
+        if mine is None or mine.shape != right.shape:
+            return False
+        scale = max(1.0, float(np.abs(right).max(initial=0.0)))
+        if not np.abs(mine - right).max(initial=0.0) <= near * scale:
+            return False
+        agree += bool(np.abs(right).max(initial=0.0) > NOTHING)
+    return agree >= AGREE
+
+
+def _or_none(function: Callable[..., Any], call: Call) -> Any:
+    copies = (np.copy(x) if isinstance(x, np.ndarray) else x for x in call)
+    try:
+        with np.errstate(all="ignore"):
+            return function(*copies)
+    except Exception:  # a singular matrix, say
+        return None
+
+
+def _flat(answer: Any) -> Array | None:
+    if answer is None:
+        return None
+    some = answer if isinstance(answer, tuple) else (answer,)
+    try:
+        parts = [np.asarray(part, dtype=np.float64).ravel() for part in some]
+    except (TypeError, ValueError):
+        return None
+    return np.concatenate(parts)

@@ -1,0 +1,75 @@
+"""Controlled experiments: what a wrong function is told of when it is right."""
+
+import numpy as np
+import pytest
+
+from labkit.judge.right_when import conclude, experiments, neutrals
+from robo47 import se3
+
+pytestmark = pytest.mark.kit
+
+
+def told(mine, right, calls, names):
+    asked = experiments(calls, names)
+
+    def answer(call):
+        try:
+            return mine(*call)
+        except Exception:
+            return None
+
+    answers = [[answer(call) for call in one.calls] for one in asked]
+    return conclude(asked, answers, right, 1e-5)
+
+
+def computed_torque(M, acc, e, ed, kp, kd):
+    return M @ (acc + kp * e + kd * ed)
+
+
+def states(n=5):
+    rng = np.random.default_rng(3)
+    A = rng.normal(size=(n, 7, 7))
+    M = A @ np.swapaxes(A, 1, 2) + np.eye(7)
+    return [(M[i], *rng.uniform(0.1, 2, (5, 7))) for i in range(n)]
+
+
+NAMES = ["M", "acc", "e", "ed", "kp", "kd"]
+
+
+def test_a_term_outside_a_bracket_is_found_by_its_neutral_arguments():
+    outside = lambda M, acc, e, ed, kp, kd: M @ (acc + kp * e) + kd * ed  # noqa: E731
+    says = told(outside, computed_torque, states(), NAMES)
+    assert says == "It is right whenever ed is 0, and whenever kd is 0."
+
+
+def test_one_number_for_all_is_right_where_all_are_equal():
+    one = lambda M, acc, e, ed, kp, kd: M @ (acc + kp[0] * e + kd * ed)  # noqa: E731
+    says = told(one, computed_torque, states(), NAMES)
+    assert "whenever all entries of kp are equal" in says
+    assert "e is 0" in says
+
+
+def test_a_right_answer_of_zeros_says_nothing():
+    # With e = 0 every right answer is zero, whatever kp is.
+    says = told(lambda e, kp: e, lambda e, kp: kp * e,
+                [(c[2], c[4]) for c in states()], ["e", "kp"])  # fmt: skip
+    assert "e is 0" not in says
+
+
+def test_three_questions_must_agree():
+    assert experiments(states(2), NAMES) == []
+    assert told(lambda *a: None, computed_torque, states(), NAMES) == ""
+
+
+def test_a_question_without_an_answer_says_nothing():
+    calls = [(A, b) for A, b, *_ in states()]
+    right = lambda A, b: np.linalg.solve(A, b)  # noqa: E731
+    says = told(lambda A, b: A @ b, right, calls, ["A", "b"])
+    assert says == "It is right whenever A is the identity."
+
+
+def test_a_pose_is_neutral_in_two_ways():
+    T = se3.make_T(se3.Rz(0.3), [1.0, 2.0, 3.0])
+    still, unturned = (one.value for one in neutrals(T))
+    np.testing.assert_array_equal(still, se3.make_T(se3.Rz(0.3), np.zeros(3)))
+    np.testing.assert_array_equal(unturned, se3.make_T(np.eye(3), [1.0, 2.0, 3.0]))
