@@ -126,6 +126,19 @@ def _(e, V_err, K, D, force):
     return _at(K @ e + D @ V_err, 3, D[3] @ V_err - force)
 
 
+@row.wrong(
+    "spring-couples-into-z",
+    "the other five directions of the spring still pull along z: the push there is "
+    "the wanted force and the damper's part, and nothing of K",
+    "the right one with K[5, :5] @ e[:5] along z",
+    hidden="the lab's springs are not coupled",
+)
+def _(e, V_err, K, D, force):
+    wrench = K @ e + D @ V_err
+    wrench[5] = K[5, :5] @ e[:5] + D[5] @ V_err - force
+    return wrench
+
+
 @row.right  # With a selection matrix, as Raibert and Craig write it.
 def _(e, V_err, K, D, force):
     S = np.diag([1, 1, 1, 1, 1, 0])

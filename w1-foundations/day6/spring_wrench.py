@@ -97,6 +97,21 @@ def _(e, V_err, K, D):
     return 0.5 * K @ e + D @ V_err
 
 
+@row.wrong(
+    "diagonal-of-K",
+    "only the diagonal of K is used; a spring may couple its directions",
+    "the right one with K's diagonal",
+    hidden="the lab's springs are not coupled",
+)
+def _(e, V_err, K, D):
+    return np.diag(K) * e + D @ V_err
+
+
+@row.right  # From the left: K is symmetric.
+def _(e, V_err, K, D):
+    return e @ K + D @ V_err
+
+
 @row.right  # Row by row, in plain Python.
 def _(e, V_err, K, D):
     return [

@@ -156,7 +156,8 @@ def hybrid_wrench(
     """Return a wrench, (6,): a spring but along z, where it pushes down with a force.
 
     e, V_err, K and D are those of `spring_wrench`.
-    With e and V_err 0 it is (0, 0, 0, 0, 0, -force). The damper stays in all six.
+    With e and V_err 0 it is (0, 0, 0, 0, 0, -force). The damper stays in all six;
+    along z there is nothing of K.
     """
     # region 6.9
     wrench = spring_wrench(e, V_err, K, D)
