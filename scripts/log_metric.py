@@ -123,6 +123,8 @@ def show_check(path: Path) -> int:
             f"note, line {line.number}: a commit took this row out or edited it, and a"
             f" merge brought it back; remove it if it should go{end_of(line)}"
         )
+    if bad:
+        print("In an editor, correct or delete them. No other line is affected.")
     waiting = unsaved_rows(path)
     if waiting:
         waits = f"{count(waiting, 'refused row')} {'waits' if waiting == 1 else 'wait'}"

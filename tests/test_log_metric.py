@@ -102,6 +102,7 @@ def test_check_lists_every_bad_line_with_its_number_and_reason(log):
     assert "line 3: 2 columns where 13 belong" in done.stdout
     assert "line 4: it has commas outside quotes" in done.stdout
     assert "line 5: it has no line end" in done.stdout
+    assert "In an editor, correct or delete them." in done.stdout
     assert "3 rows, 3 problems" in done.stdout
 
 

@@ -136,11 +136,11 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
     end = header.line_end(head)
     if end is None:
         raise CannotAppendError(header.problem(Path(name)))
-    size, last = _last_two_bytes(fd)
-    if not last.endswith(b"\n"):
+    size, last = _last_byte(fd)
+    if last != b"\n":
         time.sleep(MID_WRITE_S)
-        size, last = _last_two_bytes(fd)
-    if last.endswith(b"\n"):
+        size, last = _last_byte(fd)
+    if last == b"\n":
         return b"", end, None
     start = max(0, size - _TAIL)
     line = read_at(fd, start, size - start).rpartition(b"\n")[2]
@@ -149,9 +149,9 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
     return quote + (b"\n" if line.endswith(b"\r") else end), end, text
 
 
-def _last_two_bytes(fd: int) -> tuple[int, bytes]:
+def _last_byte(fd: int) -> tuple[int, bytes]:
     size = os.lseek(fd, 0, os.SEEK_END)
-    return size, read_at(fd, size - 2, 2)
+    return size, read_at(fd, size - 1, 1)
 
 
 def _report_cut(name: str, text: str, before: bytes) -> None:
