@@ -1,4 +1,4 @@
-"""What a row of the log is: its columns, their types and its one line of text."""
+"""A row of the log: its columns, their types and its one line of text."""
 
 import csv
 import datetime
