@@ -12,8 +12,8 @@ ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 ON_DAY = $(if $(DAY),--day $(DAY))
 # A script's exit code 1 is "not yet", which is no error of make's.
 NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
-# A picture needs less than the page in the browser.
-VIEW := $(if $(findstring --screenshot,$(ARGS)),report,view)
+# A picture needs no page in the browser.
+VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint run doctor bench test-matrix setup robot view grade
@@ -68,7 +68,7 @@ test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
-report: .venv/.ready-report ## metrics/report.html and report.png from the log
+report: .venv/.ready-core ## metrics/report.html from the log
 	@$(PY) scripts/report_metrics.py $(ON_DAY) $(ARGS)
 
 test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python

@@ -1,4 +1,4 @@
-"""What a hand goes through: it is pushed, presses on a table, draws a circle.
+"""Reference motions of a hand in contact: pushed, pressing on a table, circling.
 
 The motions to follow and what MuJoCo says of the hand; no controller. Twists,
 accelerations and errors are (angular; linear), wrenches (moment; force), in world axes.

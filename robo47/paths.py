@@ -1,4 +1,4 @@
-"""Where things are in the student's clone."""
+"""Paths in the student's clone."""
 
 import os
 from pathlib import Path

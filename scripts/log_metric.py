@@ -3,7 +3,6 @@
     python3 scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
         value=2.2e-16 notes="after the fix"
     python3 scripts/log_metric.py --check      every bad line, and why
-    python3 scripts/log_metric.py --repair     a repaired copy beside it
     python3 scripts/log_metric.py --restore    rows that were refused, put back
 
 check=, metric= and value= are needed; date= and git_sha= are filled in. The
@@ -19,9 +18,9 @@ from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.log import append_row
 from labkit.log.progress import watched
-from labkit.log.repair import came_back, header_problem, repair, restore, unsaved_rows
 from labkit.log.rows import Row, typed
 from labkit.log.scan import Line, scan
+from labkit.log.upkeep import came_back, restore, unsaved_rows
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -32,11 +31,10 @@ EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
 def main() -> int:
     """Do the one thing that the command line asks for."""
     args = parser().parse_args()
-    if args.check or args.repair or args.restore:
+    if args.check or args.restore:
         if args.fields:
             raise Robo47Error(
-                "give fields to add a row, or one of --check, --repair and --restore;"
-                " not both."
+                "give fields to add a row, or --check, or --restore; not both."
             )
         return look_after(args)
     fields = parse(args.fields, args.allow_nonfinite)
@@ -53,7 +51,6 @@ def parser() -> argparse.ArgumentParser:
     it.add_argument("fields", nargs="*", metavar="FIELD=VALUE", help="one row's cells")
     does = it.add_mutually_exclusive_group()
     does.add_argument("--check", action="store_true", help="list every bad line")
-    does.add_argument("--repair", action="store_true", help="write a repaired copy")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
     it.add_argument(
         "--file",
@@ -101,12 +98,12 @@ def summary(row: Row) -> str:
 
 
 def look_after(args: argparse.Namespace) -> int:
-    """Check, repair or restore; return the exit code."""
+    """Check or restore; return the exit code."""
     path = args.file
     if args.restore:
         print(f"{count(restore(path), 'row')} put back into {shown(path)}")
         return cli.EXIT_OK
-    return show_repair(path) if args.repair else show_check(path)
+    return show_check(path)
 
 
 def show_check(path: Path) -> int:
@@ -114,50 +111,26 @@ def show_check(path: Path) -> int:
     rows, bad = 0, 0
     back = came_back(path)
     notes = []
-    for line in watched(scan(path, as_is=True), path):
+    for line in watched(scan(path), path):
         rows += line.row is not None
         if line.problem:
             bad += 1
             print(f"line {line.number}: {line.problem}{end_of(line)}")
         elif line.text in back:
             notes.append(line)
-    wrong = header_problem(path)
-    if wrong:
-        print(f"line 1: {wrong}")
     for line in notes:
         print(
             f"note, line {line.number}: a commit took this row out or edited it, and a"
             f" merge brought it back; remove it if it should go{end_of(line)}"
         )
+    if bad:
+        print("In an editor, correct or delete them. No other line is affected.")
     waiting = unsaved_rows(path)
     if waiting:
         waits = f"{count(waiting, 'refused row')} {'waits' if waiting == 1 else 'wait'}"
         print(f"{waits}. To add what waits: {command('--restore', path)}")
-    if bad:
-        print(f"a repaired copy: {command('--repair', path)}")
-    problems = count(bad + bool(wrong), "problem")
-    print(f"{shown(path)}: {count(rows, 'row')}, {problems}")
-    return cli.EXIT_FAILED if bad or wrong or waiting else cli.EXIT_OK
-
-
-def show_repair(path: Path) -> int:
-    """Write the repaired copy and print what was done; return 1 if lines are left."""
-    done = repair(path, watched(scan(path, as_is=True), path))
-    if done.header:
-        print(f"line 1: repaired: {done.header}")
-    for line in done.repaired:
-        print(f"line {line.number}: repaired: {line.problem}{end_of(line)}")
-    for line in done.unread:
-        print(f"line {line.number}: left out: {line.problem}{end_of(line)}")
-    rows, repaired = count(done.rows, "row"), count(len(done.repaired), "line")
-    print(f"{shown(done.copy)}: {rows}, {repaired} repaired")
-    if done.rest:
-        print(f"{shown(done.rest)}: {count(len(done.unread), 'line')} left out")
-    advice = "If the copy is right, rename it to that."
-    if done.unread and not done.rows:
-        advice = "No line of it could be read as a row: keep it."
-    print(f"{shown(path)} is as it was. {advice}")
-    return cli.EXIT_FAILED if done.unread else cli.EXIT_OK
+    print(f"{shown(path)}: {count(rows, 'row')}, {count(bad, 'problem')}")
+    return cli.EXIT_FAILED if bad or waiting else cli.EXIT_OK
 
 
 def end_of(line: Line) -> str:

@@ -1,6 +1,6 @@
-"""Turn the metrics log into a page and a picture worth showing.
+"""Turn the metrics log into a page worth showing.
 
-    python3 scripts/report_metrics.py               metrics/report.html and .png
+    python3 scripts/report_metrics.py               metrics/report.html
     python3 scripts/report_metrics.py --day 1       one day of the course
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
@@ -30,8 +30,6 @@ from labkit.report.week_labs import week_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
-NO_PILLOW = "no picture: Pillow is not installed (`make report` installs it)"
-
 
 def main() -> int:
     """Write the report and say where it is."""
@@ -44,9 +42,6 @@ def main() -> int:
     whole = not (since or args.check or args.day is not None)
     week = week_of(find_day(started_day())) if whole else None
     write(out / "report.html", page.render(report, heading, week).encode())
-    picture = render_picture(report, heading)
-    if picture:
-        write(out / "report.png", picture)
     if week is not None:
         write_week(report, heading, out, week, args.file)
     print(
@@ -106,16 +101,6 @@ def describe(args: argparse.Namespace, report: Report) -> str:
     parts += [f"day {args.day}"] if args.day is not None else []
     parts += [f"check {args.check}"] if args.check else []
     return ", ".join(parts) + f"; made on {datetime.date.today()}"
-
-
-def render_picture(report: Report, heading: str) -> bytes | None:
-    """Return the PNG, or None where Pillow is absent: the page is enough."""
-    try:
-        from labkit.report import picture
-    except ImportError:
-        print(NO_PILLOW)
-        return None
-    return picture.render(report, heading)
 
 
 def write(path: Path, content: bytes) -> None:

@@ -79,7 +79,7 @@ def screenshot(path: Path, start: str) -> int:
             raise
         raise Robo47Error(
             "pictures need Pillow, which is not installed yet: "
-            "make view ARGS=--screenshot (or: python3 scripts/setup_env.py report)"
+            "make view ARGS=--screenshot (or: python3 scripts/setup_env.py figures)"
         ) from None
     picture = draw(configuration(start), start)
     path.parent.mkdir(parents=True, exist_ok=True)

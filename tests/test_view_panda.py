@@ -186,7 +186,7 @@ def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone)
     from labkit.handin import check_deliverables
     from labkit.lesson.day import find_day
 
-    need(importlib.util.find_spec("PIL") is not None, "Pillow: make report")
+    need(importlib.util.find_spec("PIL") is not None, "Pillow: make figures")
     day = find_day(1, clone)
     done = run_in(VIEW, "--screenshot")
     assert (done.returncode, done.stderr) == (0, "")

@@ -18,7 +18,7 @@ def command(option: str, log: Path) -> str:
     """Return what to type, in the kit's folder, to look after a log.
 
     Args:
-        option: as `--repair`.
+        option: as `--check`.
         log: named in the command unless it is the kit's own.
     """
     start = f"python3 scripts/log_metric.py {option}"

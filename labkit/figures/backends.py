@@ -1,4 +1,4 @@
-"""Which OpenGL backend really draws here, with or without a display.
+"""Choice of the OpenGL backend that really draws here, with or without a display.
 
 MuJoCo reads MUJOCO_GL once, when it is imported, and raises there and then where the
 library is missing. So every backend is tried in a process of its own, and this module

@@ -25,7 +25,7 @@ class Studio:
     """A running process that draws."""
 
     def __init__(self, environment: dict[str, str]) -> None:
-        """Start it.
+        """Start the process that draws.
 
         Args:
             environment: with a backend that draws, from `rendering_environment`.

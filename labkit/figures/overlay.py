@@ -132,7 +132,7 @@ class Layer:
     """A transparent sheet to draw on, enlarged so that its edges become smooth."""
 
     def __init__(self, size: tuple[int, int]) -> None:
-        """Take a clean sheet.
+        """Make the sheet, transparent all over.
 
         Args:
             size: of the picture that it will lie on.

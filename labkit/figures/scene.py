@@ -1,4 +1,4 @@
-"""What a picture shows: the robot's configuration, ghosts of it, and the camera.
+"""The scene of a picture: the robot's configuration, ghosts of it, and the camera.
 
 Plain data, so that it can be sent to the process that draws.
 """

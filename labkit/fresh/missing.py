@@ -1,4 +1,4 @@
-"""What a clone of the last commit lacks, or what would not work in it."""
+"""Gaps of the last commit: files that it lacks, or that would not work in a clone."""
 
 import ast
 import re

@@ -1,4 +1,4 @@
-"""How the page looks: its colours, its marks, and bars as inline SVG of any width.
+"""Looks of the class's page: colours, marks, and bars as inline SVG of any width.
 
 Widths are in per cent and texts in pixels, so a chart on a phone has shorter bars and
 not smaller letters. No script is needed.

@@ -39,7 +39,7 @@ class Grader:
     """One grading process and its folder, from start to end."""
 
     def __init__(self) -> None:
-        """Start it."""
+        """Start the process, behind the wall that was promised, in a new folder."""
         # The wall that was promised, or none of this: not what stands at that moment.
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
         self.folder = tempfile.mkdtemp(prefix=_FOLDER)

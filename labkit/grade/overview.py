@@ -1,4 +1,4 @@
-"""What the class as a whole shows: where people stop, which mistakes are common."""
+"""Overview of the class: where people stop, which mistakes are common."""
 
 from collections import Counter
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What travels to whoever grades: a few files as bytes, and what git said of them."""
+"""The package that is graded: a few files as bytes, and what git said of them."""
 
 import hashlib
 import json

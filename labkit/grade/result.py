@@ -1,4 +1,4 @@
-"""What a grade consists of, and its form in the journal and on the wire."""
+"""A student's grade, and its form in the journal and on the wire."""
 
 import functools
 from collections.abc import Mapping, Sequence

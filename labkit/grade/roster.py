@@ -1,4 +1,4 @@
-"""Who is in the class: the folders of ROOT, or the rows of a roster.
+"""The class's roster: the folders of ROOT, or the rows of a roster.
 
 Names are data: they are shown, and a file that is named after one is named by us.
 """

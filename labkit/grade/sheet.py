@@ -1,4 +1,4 @@
-"""What is written: the table, one row per student, and a file for each of them."""
+"""The grades as files: a table, one row per student, and a file for each of them."""
 
 import csv
 import io

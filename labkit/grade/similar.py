@@ -1,4 +1,4 @@
-"""Whose submissions are alike: a hint of where to look, never a verdict.
+"""Plagiarism hints: submissions that are alike, as places to look, never a verdict.
 
 A submission becomes the set of its runs of LENGTH tokens, with names made
 equal, so that renaming hides nothing. What the starter gives, and what much of

@@ -1,4 +1,4 @@
-"""What a day hands in beside its code. Read here, never edited.
+"""A day's deliverables beside its code. Read here, never edited.
 
     handin      which files, read without trusting the folder
     figure      the student's picture

@@ -1,4 +1,4 @@
-"""What a student hands in for a day: a few files as bytes, and names of pictures.
+"""A student's hand-in for a day: a few files as bytes, and names of pictures.
 
 A folder may be a stranger's. Links are not followed, only regular files are read, and
 none beyond its limit. What is handed in is the same for `make check` and for a grade.

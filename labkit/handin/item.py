@@ -1,4 +1,4 @@
-"""How a deliverable stands."""
+"""State of one deliverable."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What the inspector shows, as numbers: one configuration seen by two judges.
+"""The inspector's numbers: one configuration seen by two judges.
 
 Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
 `robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.

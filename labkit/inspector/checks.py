@@ -1,4 +1,4 @@
-"""What `make check` says of the student's tasks, found out in the background."""
+"""`make check` in the background: its verdicts on the student's tasks."""
 
 import threading
 from collections.abc import Callable, Sequence
@@ -63,7 +63,7 @@ class Checks:
         check: Callable[[], Sequence[TaskState]],
         deliver: Callable[[Standing], None],
     ) -> None:
-        """Prepare.
+        """Take the checker and who is told; no thread runs yet.
 
         Args:
             check: asks the checker; takes a second or two.

@@ -20,7 +20,7 @@ class Controls:
     """Names, listeners and shown values of the controls that are on the page."""
 
     def __init__(self) -> None:
-        """Start with none."""
+        """Begin without controls: `listen` brings one."""
         self.listeners: dict[str, Listener] = {}
         self.values: dict[str, str] = {}
         self.heard = 0

@@ -1,4 +1,4 @@
-"""What a tab draws into the scene; all of it goes when the tab is left.
+"""Drawings of a tab in the scene; all of them go when the tab is left.
 
 Points are in the world, metres, unless `on` names a pose to draw in. A colour is a name
 of `COLOURS` or (r, g, b), 0 to 255. What is returned is viser's handle: `visible`,
@@ -42,7 +42,7 @@ class Sketch:
     """Draws for one tab."""
 
     def __init__(self, server: viser.ViserServer, coarse: Sequence[Shape]) -> None:
-        """Take a clean sheet.
+        """Make the node of the scene tree that everything drawn hangs from.
 
         Args:
             server: where to draw.

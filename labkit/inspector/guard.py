@@ -1,4 +1,4 @@
-"""Who may talk to the inspector: who has its address, on this machine, nobody else.
+"""Access to the inspector: on this machine, with its secret address, alone.
 
 viser is made for trusted networks. Left alone it listens on every interface, accepts
 WebSockets from any web page that the student has open (which could then move the

@@ -39,7 +39,7 @@ class Hover:
     """What lies under the pointer, and its name and axis in the scene."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        """Draw nothing yet."""
+        """Make the axis and the name, hidden until the pointer is over a link."""
         self.server, self.arm = server, arm
         self.model: mujoco.MjModel | None = None
         self.line = server.scene.add_line_segments(

@@ -16,7 +16,7 @@ class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
     def __init__(self, server: viser.ViserServer, path: str) -> None:
-        """Start without meshes.
+        """Begin a bare arm; `put_on` brings the meshes.
 
         Args:
             server: where to draw.

@@ -1,4 +1,4 @@
-"""What a tab makes its widgets and drawings with; all of it goes with the tab."""
+"""The page as a tab sees it: it makes widgets and drawings, which go with the tab."""
 
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
@@ -17,7 +17,7 @@ class Page(Widgets):
     """One opened tab's view of the page."""
 
     def __init__(self, host: Host, sketch: Sketch, title: str) -> None:
-        """Start with nothing on it.
+        """Begin a tab without widgets, drawings or animations.
 
         Args:
             host: the page as a whole.

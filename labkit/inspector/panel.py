@@ -16,10 +16,10 @@ class Panel:
     """What stands above the open tab."""
 
     def __init__(self, gui: viser.GuiApi, arm: Arm, about: str, made: Controls) -> None:
-        """Build it.
+        """Put the panel at the top of the page.
 
         Args:
-            gui: where.
+            gui: the page's sidebar.
             arm: what the numbers are of.
             about: which robot this is.
             made: the page's controls.

@@ -1,4 +1,4 @@
-"""What a MuJoCo model looks like: its visible geoms as triangle meshes per body.
+"""Shapes of a MuJoCo model: its visible geoms as triangle meshes per body.
 
 Geoms of the groups that MuJoCo's own viewer shows at start (0 to 2; collision shapes
 are in group 3), meshes as well as primitives. Metres.

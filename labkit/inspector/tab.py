@@ -1,4 +1,4 @@
-"""What a tab is, and how the tabs of a day are found in its own folder."""
+"""A tab of the page, and the tabs of a day, found in its own folder."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -56,7 +56,7 @@ class DayTabs:
     """
 
     def __init__(self, ghost: Ghost | None, tabs: list[type[Tab]]) -> None:
-        """Keep both."""
+        """Take the ghost and the tabs, as under Attributes."""
         self.ghost, self.tabs = ghost, tabs
 
 
@@ -71,7 +71,7 @@ class Opened:
     """
 
     def __init__(self, kinds: Sequence[type[Tab]]) -> None:
-        """Open none yet."""
+        """Take the classes of the tabs, in the order of the row; open none yet."""
         self.kinds = {kind.title: kind for kind in kinds}
         self.kind = kinds[0]
         self.tab: Tab | None = None

@@ -68,7 +68,7 @@ class Widgets:
     """Sliders, buttons, texts, bars and plots of one opened tab."""
 
     def __init__(self, host: Host, title: str) -> None:
-        """Start with none.
+        """Begin a tab without widgets.
 
         Args:
             host: the page as a whole.

@@ -21,7 +21,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
-REPAIRS = ".repairs"  # beside the log: lines that are not as their writer left them
+CUT = ".repairs"  # beside the log: lines that had no end when the next row came
 TRIES = 5
 # An echo takes no lock, and half of it shows while it is being written: look twice.
 MID_WRITE_S = 0.005
@@ -101,15 +101,6 @@ def locked(name: str) -> Iterator[int]:
         lock.warn_once()  # afterwards, so that the row is there whatever it does
 
 
-def note_repair(path: StrPath, line: str) -> None:
-    """Remember, beside the log, a line that is not as its writer left it."""
-    with (
-        contextlib.suppress(OSError),
-        open(os.fspath(path) + REPAIRS, "a", encoding="utf-8", newline="\n") as file,
-    ):
-        file.write(line + "\n")
-
-
 def read_at(fd: int, offset: int, count: int) -> bytes:
     """Return up to `count` bytes from an offset (os.pread, which Windows lacks)."""
     os.lseek(fd, offset, os.SEEK_SET)
@@ -144,14 +135,12 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
         return header.LINE.encode() + b"\n", b"\n", None
     end = header.line_end(head)
     if end is None:
-        raise CannotAppendError(f"{_shown(name)}: {header.problem(head, Path(name))}")
-    size, last = _last_two_bytes(fd)
-    if not last.endswith(b"\n"):
+        raise CannotAppendError(header.problem(Path(name)))
+    size, last = _last_byte(fd)
+    if last != b"\n":
         time.sleep(MID_WRITE_S)
-        size, last = _last_two_bytes(fd)
-    if header.is_utf16_end(last):
-        raise CannotAppendError(f"{_shown(name)}: {header.utf16_problem(Path(name))}")
-    if last.endswith(b"\n"):
+        size, last = _last_byte(fd)
+    if last == b"\n":
         return b"", end, None
     start = max(0, size - _TAIL)
     line = read_at(fd, start, size - start).rpartition(b"\n")[2]
@@ -160,13 +149,17 @@ def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
     return quote + (b"\n" if line.endswith(b"\r") else end), end, text
 
 
-def _last_two_bytes(fd: int) -> tuple[int, bytes]:
+def _last_byte(fd: int) -> tuple[int, bytes]:
     size = os.lseek(fd, 0, os.SEEK_END)
-    return size, read_at(fd, size - 2, 2)
+    return size, read_at(fd, size - 1, 1)
 
 
 def _report_cut(name: str, text: str, before: bytes) -> None:
-    note_repair(name, text + before.decode().strip())
+    with (
+        contextlib.suppress(OSError),
+        open(name + CUT, "a", encoding="utf-8", newline="\n") as file,
+    ):
+        file.write(text + before.decode().strip() + "\n")
     warnings.warn(
         f"{_shown(name)}: the last line had no line end, so it may be cut. It is"
         f" kept, and the new row has a line of its own. It ends: {text[-40:]}",

@@ -1,4 +1,4 @@
-"""What a row of the log is: its columns, their types and its one line of text."""
+"""A row of the log: its columns, their types and its one line of text."""
 
 import csv
 import datetime
@@ -100,9 +100,9 @@ def decode(cells: list[str]) -> Row:
     return row
 
 
-def is_open_quote(line: str, delimiter: str = ",") -> bool:
+def is_open_quote(line: str) -> bool:
     """Return whether a line's last cell has a quote that it does not close."""
-    reader = csv.reader([line, ""], delimiter=delimiter)
+    reader = csv.reader([line, ""])
     try:
         next(reader)
     except csv.Error:  # longer than the csv module reads

@@ -4,7 +4,6 @@ One line is one row, so a quote that is never closed costs its own line only.
 """
 
 import csv
-import io
 import os
 import re
 from collections.abc import Iterator
@@ -12,8 +11,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from labkit.log import header
-from labkit.log.header import Layout
-from labkit.log.logfile import REPAIRS
+from labkit.log.logfile import CUT
 from labkit.log.rows import COLUMNS, Row, decode, is_open_quote
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -32,41 +30,38 @@ class Line(NamedTuple):
     size: int  # bytes in the file, for a progress bar
 
 
-def scan(path: str | os.PathLike[str], as_is: bool = False) -> Iterator[Line]:
+def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
     """Yield every line of the log that is not blank, the header left out.
 
     Args:
         path: the CSV.
-        as_is: read also a file whose header is wrong, as well as can be told.
 
     Raises:
-        Robo47Error: no file; a first line that is not the header, unless `as_is` and
-            it can be told which column is which.
+        Robo47Error: no file, or a first line that is not the header.
     """
     with _opened(Path(path)) as file:
-        yield from scan_file(file, path, as_is)
+        yield from scan_file(file, path)
 
 
-def scan_file(
-    file: BinaryIO, path: str | os.PathLike[str], as_is: bool = False
-) -> Iterator[Line]:
+def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
     """Yield the lines of a log that is open already, as `scan` does.
 
     Args:
         file: at its start.
-        path: the log's name; lines that were noted as repaired stand beside it.
-        as_is: as for `scan`.
+        path: the log's name; lines that were noted as cut stand beside it.
     """
     chosen = Path(path)
     head = file.read(header.LONGEST)
     if head in (b"", header.BOM):
         return
-    plan = Layout() if header.line_end(head) else header.layout(head)
-    if not header.line_end(head) and not (as_is and plan.is_clear):
-        raise Robo47Error(f"{shown(chosen)}: {header.problem(head, chosen)}")
+    if not header.line_end(head):
+        raise Robo47Error(header.problem(chosen))
     file.seek(0)
-    lines: BinaryIO = io.BytesIO(_from_utf16(file)) if plan.utf16 else file
-    yield from _lines(lines, plan, _known_repairs(chosen))
+    file.readline()
+    cut = _known_cuts(chosen)
+    for number, raw in enumerate(file, 2):
+        if raw.strip(b"\0 \t\r\n"):
+            yield _line(number, raw, cut)
 
 
 def _opened(path: Path) -> BinaryIO:
@@ -85,22 +80,13 @@ def _opened(path: Path) -> BinaryIO:
         ) from None
 
 
-def _lines(file: BinaryIO, plan: Layout, repaired: set[str]) -> Iterator[Line]:
-    header_due = plan.has_header
-    for number, raw in enumerate(file, 1):
-        if number == 1:
-            raw = raw.removeprefix(header.BOM)
-        if not raw.strip(b"\0 \t\r\n"):
-            continue
-        if header_due:
-            header_due = False
-            continue
-        text, problem = _decoded(raw)
-        row, fault = _row_of(text, plan)
-        problem = problem or fault
-        if row is not None and not problem and text in repaired:
-            problem = "it had no line end when the next row came, so it may be cut"
-        yield Line(number, text, row, problem, len(raw))
+def _line(number: int, raw: bytes, cut: set[str]) -> Line:
+    text, problem = _decoded(raw)
+    row, fault = _row_of(text)
+    problem = problem or fault
+    if row is not None and not problem and text in cut:
+        problem = "it had no line end when the next row came, so it may be cut"
+    return Line(number, text, row, problem, len(raw))
 
 
 def _decoded(raw: bytes) -> tuple[str, str]:
@@ -118,31 +104,29 @@ def _decoded(raw: bytes) -> tuple[str, str]:
     return text.replace("\r", " "), problem
 
 
-def _row_of(text: str, plan: Layout) -> tuple[Row | None, str]:
+def _row_of(text: str) -> tuple[Row | None, str]:
     """Return a line's row, or None, and what is wrong with the line."""
     try:
-        cells, problem = _cells(text, plan.delimiter)
-        if plan.names != COLUMNS or plan.delimiter != ",":
-            cells = _in_order(cells, plan)
-        elif len(cells) != WIDTH:
+        cells, problem = _cells(text)
+        if len(cells) != WIDTH:
             cells, problem = _thirteen(cells)
         return decode(cells), problem
     except ValueError as error:
         return None, str(error)
 
 
-def _cells(text: str, delimiter: str) -> tuple[list[str], str]:
+def _cells(text: str) -> tuple[list[str], str]:
     if '"' not in text:
-        return text.split(delimiter), ""
+        return text.split(","), ""
     problem = ""
-    if is_open_quote(text, delimiter):
+    if is_open_quote(text):
         text, problem = text + '"', "it has a quote that is never closed"
     try:
-        cells = next(csv.reader([text], delimiter=delimiter, strict=True))
+        cells = next(csv.reader([text], strict=True))
     except csv.Error:
         raise ValueError("its quotes do not match") from None
-    if len(cells) == 1 and delimiter in cells[0]:  # cmd.exe's echo keeps the quotes
-        return cells[0].split(delimiter), "the whole line is in quotes"
+    if len(cells) == 1 and "," in cells[0]:  # cmd.exe's echo keeps the quotes
+        return cells[0].split(","), "the whole line is in quotes"
     return cells, problem
 
 
@@ -156,29 +140,9 @@ def _thirteen(cells: list[str]) -> tuple[list[str], str]:
     return [*cells[: WIDTH - 1], notes], "it has commas outside quotes in its notes"
 
 
-def _in_order(cells: list[str], plan: Layout) -> list[str]:
-    """Return the cells of a file with other columns, in the log's own order."""
-    names = plan.names
-    if len(cells) == WIDTH and names == tuple(x for x in COLUMNS if x in names):
-        names = COLUMNS  # the header lost a name, and this row no cell
-    if len(cells) != len(names):
-        raise ValueError(f"{len(cells)} columns where its header has {len(names)}")
-    pairs = list(zip(names, cells, strict=True))
-    row = dict(pairs)
-    if plan.delimiter == ";":  # such spreadsheets write 0,5 for 0.5
-        row["value"] = row.get("value", "").replace(",", ".")
-    extra = [f"{k}={v}" if k else v for k, v in pairs if k not in COLUMNS and v]
-    row["notes"] = " ".join([row.get("notes", ""), *extra]).strip()
-    return [row.get(name, "") for name in COLUMNS]
-
-
-def _from_utf16(file: BinaryIO) -> bytes:
-    return file.read().decode("utf-16", "replace").encode()
-
-
-def _known_repairs(path: Path) -> set[str]:
+def _known_cuts(path: Path) -> set[str]:
     try:
-        text = Path(str(path) + REPAIRS).read_text("utf-8", "replace")
+        text = Path(str(path) + CUT).read_text("utf-8", "replace")
     except OSError:
         return set()
     return set(text.split("\n"))

@@ -120,7 +120,7 @@ def _card(series: Series) -> str:
         f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
         f'<span class="muted">{_text(series.metric)}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
-        f"<dl>{terms}</dl>{_failures(series)}{_svg(series)}{_recent(series.rows)}"
+        f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}{_recent(series.rows)}"
         "</article>"
     )
 
@@ -141,39 +141,6 @@ def _colour(name: str, series: Series) -> str:
 
 def _text(cell: object) -> str:
     return escape(str(cell)) or '<span class="muted">(empty)</span>'
-
-
-def _svg(series: Series) -> str:
-    shapes = "".join(_shape(shape) for shape in plot.draw(series))
-    if not shapes:
-        return ""
-    label = escape(f"{series.check} {series.metric}, run by run")
-    return (
-        f'<svg viewBox="0 0 {plot.WIDTH} {plot.HEIGHT}" role="img"'
-        f' aria-label="{label}">{shapes}</svg>'
-    )
-
-
-def _shape(shape: plot.Shape) -> str:
-    colour = f"var(--{'line' if shape.role == 'halo' else shape.role})"
-    if isinstance(shape, plot.Path):
-        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
-        dashes = ' stroke-dasharray="5 4"' if shape.dashed else ""
-        return f'<polyline points="{points}" fill="none" stroke="{colour}"{dashes}/>'
-    if isinstance(shape, plot.Words):
-        return (
-            f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" text-anchor="{shape.anchor}"'
-            f' fill="{colour}">{escape(shape.text)}</text>'
-        )
-    paint = f'fill="{colour}"'
-    if shape.role == "halo":
-        paint += ' fill-opacity=".2"'
-    if shape.hollow:
-        paint = f'fill="var(--card)" stroke="{colour}" stroke-width="1.5"'
-    return (
-        f'<circle cx="{shape.x:.1f}" cy="{shape.y:.1f}" r="{shape.radius}" {paint}>'
-        f"<title>{escape(shape.tip)}</title></circle>"
-    )
 
 
 def _recent(rows: list[Row]) -> str:

@@ -1,11 +1,11 @@
-"""A series as lines, dots and words, which the page and the picture both draw.
+"""A series as an SVG of lines, dots and labels.
 
 Every run has the same width, since a date has no time of day. Coordinates are
-pixels, y downwards; a role is a colour by name, the same in both.
+pixels, y downwards; a role is a colour of the page's style, by name.
 """
 
 import math
-from typing import NamedTuple
+from html import escape
 
 from labkit.log.rows import Row
 from labkit.report.series import Series, value_of
@@ -17,63 +17,58 @@ LABEL_GAP = 58  # between two commits under the axis
 HALF_LABEL = 26  # of a commit's seven figures
 
 
-class Path(NamedTuple):
-    """A line through points."""
-
-    points: list[tuple[float, float]]
-    role: str
-    dashed: bool = False
-
-
-class Dot(NamedTuple):
-    """A run; hollow where the axis cannot show its value."""
-
-    x: float
-    y: float
-    radius: float
-    role: str
-    tip: str
-    hollow: bool = False
-
-
-class Words(NamedTuple):
-    """A label; anchor is "start", "middle" or "end" of the text at x."""
-
-    x: float
-    y: float
-    text: str
-    anchor: str = "middle"
-    role: str = "muted"
-
-
-Shape = Path | Dot | Words
-
-
 def number(value: float | None) -> str:
     """Return a value as the report prints it: three figures, no padding."""
     return "–" if value is None else f"{value:.3g}"
 
 
-def draw(series: Series) -> list[Shape]:
-    """Return the plot of a series, back to front; empty with nothing to plot."""
-    values = series.values
-    if not values:
-        return []
+def draw(series: Series) -> str:
+    """Return the plot of a series as an SVG; "" with nothing to plot."""
+    if not series.values:
+        return ""
     axis = _Axis(series)
-    shapes: list[Shape] = []
+    parts = []
     for tick in axis.ticks():
         y = axis.y(tick)
-        shapes.append(Path([(LEFT, y), (RIGHT, y)], "grid"))
-        shapes.append(Words(LEFT - 6, y + 3.5, axis.label(tick), "end"))
-    shapes += _threshold(series, axis)
+        parts.append(_line([(LEFT, y), (RIGHT, y)], "grid"))
+        parts.append(_label(LEFT - 6, y + 3.5, axis.label(tick), "end"))
+    parts += _threshold(series, axis)
     chosen = _thinned(series.rows)
     places = [(_x(i, len(chosen)), row) for i, row in enumerate(chosen)]
     line = [(x, axis.y(_finite_value(row))) for x, row in places if _finite(row)]
-    shapes.append(Path(line, "line"))
-    shapes += [_dot(series, axis, x, row, len(places)) for x, row in places[:-1]]
-    last = _dot(series, axis, *places[-1], 1)
-    shapes += [Dot(last.x, last.y, 8, "halo", ""), last]
-    return shapes + _under_axis(places)
+    parts.append(_line(line, "line"))
+    radius = 4 if len(places) <= 40 else 2
+    parts += [_dot(series, axis, x, row, radius) for x, row in places[:-1]]
+    x, last = places[-1]
+    halo = 'fill="var(--line)" fill-opacity=".2"'
+    parts.append(_circle(x, _y(axis, last), 8, halo, ""))
+    parts.append(_dot(series, axis, x, last, 4))
+    label = escape(f"{series.check} {series.metric}, run by run")
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}">'
+        f"{''.join(parts + _under_axis(places))}</svg>"
+    )
+
+
+def _line(points: list[tuple[float, float]], role: str, more: str = "") -> str:
+    places = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    return f'<polyline points="{places}" fill="none" stroke="var(--{role})"{more}/>'
+
+
+def _label(
+    x: float, y: float, text: str, anchor: str = "middle", role: str = "muted"
+) -> str:
+    return (
+        f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"'
+        f' fill="var(--{role})">{escape(text)}</text>'
+    )
+
+
+def _circle(x: float, y: float, radius: int, paint: str, tip: str) -> str:
+    return (
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius}" {paint}>'
+        f"<title>{escape(tip)}</title></circle>"
+    )
 
 
 class _Axis:
@@ -132,58 +127,58 @@ def _drawable(value: float) -> float:
     return max(-8e307, min(8e307, value))
 
 
-def _threshold(series: Series, axis: _Axis) -> list[Shape]:
+def _threshold(series: Series, axis: _Axis) -> list[str]:
     if series.threshold is None:
         return []
-    shapes: list[Shape] = []
+    parts = []
     for sign, bound in (("<", series.threshold.max), (">", series.threshold.min)):
         if bound is None or (axis.log and bound <= 0):
             continue
         y = axis.y(bound)
-        shapes.append(Path([(LEFT, y), (RIGHT, y)], "limit", dashed=True))
+        dashes = ' stroke-dasharray="5 4"'
+        parts.append(_line([(LEFT, y), (RIGHT, y)], "limit", dashes))
         label_y = y + 12 if y < TOP + 12 else y - 4
-        first, last = (_distance(series.rows[i], y, axis) for i in (0, -1))
+        first, last = (abs(_y(axis, series.rows[i]) - y) for i in (0, -1))
         x, anchor = (LEFT, "start") if first > last else (RIGHT, "end")
-        shapes.append(Words(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
-    return shapes
+        parts.append(_label(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
+    return parts
 
 
-def _distance(row: Row, y: float, axis: _Axis) -> float:
-    """Return how far a run is from a height, to find where a label has room."""
-    return abs((axis.y(_finite_value(row)) if _finite(row) else TOP) - y)
+def _y(axis: _Axis, row: Row) -> float:
+    """Return a run's height: at the top where its value is no number."""
+    return axis.y(_finite_value(row)) if _finite(row) else TOP
 
 
-def _dot(series: Series, axis: _Axis, x: float, row: Row, count: int) -> Dot:
-    """Return a run's dot; one whose value is no number sits hollow at the top."""
+def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
+    """Return a run's dot; hollow where the axis cannot show its value."""
     role = "line"
     if series.threshold:
         role = series.threshold.judge(row)
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
     if row["n_failures"]:
         tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
-    radius = 4 if count <= 40 else 2
-    if not _finite(row):
-        return Dot(x, TOP, radius, role, tip, hollow=True)
-    value = _finite_value(row)
-    return Dot(x, axis.y(value), radius, role, tip, axis.log and value <= 0)
+    paint = f'fill="var(--{role})"'
+    if not _finite(row) or (axis.log and _finite_value(row) <= 0):
+        paint = f'fill="var(--card)" stroke="var(--{role})" stroke-width="1.5"'
+    return _circle(x, _y(axis, row), radius, paint, tip)
 
 
-def _under_axis(places: list[tuple[float, Row]]) -> list[Shape]:
+def _under_axis(places: list[tuple[float, Row]]) -> list[str]:
     """Label the runs with commits, where they change and fit, and with dates."""
-    shapes: list[Shape] = []
+    parts = []
     last_x, before = -math.inf, None
     for x, row in places:
         sha = str(row["git_sha"])[:7]
         if sha != before and x - last_x >= LABEL_GAP:
             middle = min(x, WIDTH - HALF_LABEL)
-            shapes.append(Words(middle, BOTTOM + 18, sha or "no commit"))
+            parts.append(_label(middle, BOTTOM + 18, sha or "no commit"))
             last_x, before = x, sha
     first, last = str(places[0][1]["date"]), str(places[-1][1]["date"])
     if first == last:
-        return [*shapes, Words((LEFT + RIGHT) / 2, BOTTOM + 34, first)]
-    shapes.append(Words(LEFT, BOTTOM + 34, first, "start"))
-    shapes.append(Words(RIGHT, BOTTOM + 34, last, "end"))
-    return shapes
+        return [*parts, _label((LEFT + RIGHT) / 2, BOTTOM + 34, first)]
+    parts.append(_label(LEFT, BOTTOM + 34, first, "start"))
+    parts.append(_label(RIGHT, BOTTOM + 34, last, "end"))
+    return parts
 
 
 def _x(index: int, count: int) -> float:

@@ -14,7 +14,7 @@ class Series:
     """The runs of one check's metric, oldest first, and what they must reach."""
 
     def __init__(self, key: Key, threshold: Metric | None) -> None:
-        """Start with no runs."""
+        """Begin without runs: the day, check and metric, and what they must reach."""
         self.day, self.check, self.metric = key
         self.threshold = threshold
         self.rows: list[Row] = []

@@ -1,4 +1,4 @@
-"""How the HTML pages look: colours for light and dark, cards, tables, phones."""
+"""Style of the HTML pages: colours for light and dark, cards, tables, phones."""
 
 STYLE = """
 :root { color-scheme: light dark; --paper: #f6f7f9; --card: #fff; --ink: #1b1f24;

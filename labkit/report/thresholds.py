@@ -1,4 +1,4 @@
-"""What each number must reach, from the days' manifests."""
+"""Thresholds of the numbers, from the days' manifests."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What a week was, read from what is on the student's own machine.
+"""Facts of a week, read from what is on the student's own machine.
 
 Hints and mistakes come from `.robo47/`, which git ignores: they are for the student's
 eyes and nobody else's.

@@ -1,4 +1,4 @@
-"""What the doctor looks at: one finding per thing that the labs need.
+"""The doctor's findings: one per thing that the labs need.
 
 Runs on a bare Python, old or broken installs included: the standard library alone, and
 everything that can fail is tried in a process of its own.

@@ -1,4 +1,4 @@
-"""What the doctor tries, each in a process of its own: code that prints one JSON value.
+"""The doctor's probes: code for a process of its own that prints one JSON value.
 
 Read by a bare Python, old ones included: the standard library alone.
 """

@@ -1,4 +1,4 @@
-"""What makes the library quick: the same formulas for many configurations at once.
+"""The fast layer of the library: the same formulas for many configurations at once.
 
     moves         elementary motions of a frame
     chains        products of frames for many q;  one: for one q, in plain floats

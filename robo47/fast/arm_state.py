@@ -1,4 +1,4 @@
-"""What `robo47.arm` computes at one configuration, in as few NumPy calls as it takes.
+"""State of an arm at one configuration, computed in as few NumPy calls as it takes.
 
 All links go through each call together. Two habits make the calls few:
 

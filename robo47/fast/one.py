@@ -31,7 +31,7 @@ class Single:
         steps: Iterable[tuple[int, Step]],
         frames: Iterable[tuple[int, Array, Array]],
     ) -> None:
-        """Translate them once."""
+        """Translate steps and frames, each with its node, to plain floats."""
         self._steps = [(source, _MOVES[type(step)](step)) for source, step in steps]
         self._frames = [
             (node, [_terms(column) for column in R.T], _terms(t))

@@ -1,1 +1,1 @@
-"""What labs import: `robo47.lesson.lab`."""
+"""The name that labs import: `robo47.lesson.lab`."""

@@ -1,4 +1,4 @@
-"""What every lab script does the same way; the code is `labkit.lesson.lab`."""
+"""The common part of every lab script; the code is `labkit.lesson.lab`."""
 
 from labkit.lesson.lab import Lab
 

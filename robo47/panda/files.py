@@ -1,4 +1,4 @@
-"""Where the robot's files are, where they came from, and whether they are intact.
+"""The robot's files: where they are, where they came from, whether they are intact.
 
 All code reads the robot from one place: MENAGERIE_ROOT if set, else mujoco_menagerie/
 in the clone, laid out as the MuJoCo Menagerie is. `scripts/fetch_menagerie.py` fills

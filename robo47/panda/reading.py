@@ -1,4 +1,4 @@
-"""What the formulas need to know of the Panda, read from a compiled model by name.
+"""The Panda's numbers for the formulas, read from a compiled model by name.
 
 MuJoCo is used to read the file (where each body sits on its parent, where each joint
 turns), never to compute the answer. Only the seven arm joints, whatever else the
