@@ -16,8 +16,6 @@ import argparse
 import datetime
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.lesson.day import find_day, started_day
@@ -128,7 +126,3 @@ def write(path: Path, content: bytes) -> None:
             " folder with --out."
         ) from None
     print(f"wrote {shown(path.absolute())}")
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -12,7 +12,6 @@ by hand, so a wrong one would be seen beside its link.
 from pathlib import Path
 from typing import Any
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from labkit.base import cli
@@ -79,7 +78,3 @@ def save(picture: Any, path: Path) -> str:
         ) from None
     width, height = picture.size
     return f"{shown(path)}  {width} x {height}, {path.stat().st_size / 1e3:.0f} kB"
-
-
-if __name__ == "__main__":
-    cli.run(main)

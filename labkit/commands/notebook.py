@@ -15,8 +15,6 @@ import textwrap
 import tomllib
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import Day, find_day, started_day
 from robo47.errors import Robo47Error
@@ -241,7 +239,3 @@ def main() -> int:
     print(f"{shown(path)} written")
     print("Open it with Jupyter or VS Code (kernel .venv).")
     return cli.EXIT_OK
-
-
-if __name__ == "__main__":
-    cli.run(main)

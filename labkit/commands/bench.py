@@ -19,15 +19,10 @@ import platform
 import sys
 from typing import Any
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
+from bench.table import render
 from labkit.base import cli
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
-
-sys.path[0] = str(ROOT)  # in scripts/, this file would hide the package of its name
-
-from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
@@ -101,7 +96,3 @@ def main() -> int:
         draw(results, PICTURE)
     print(render(results))
     return cli.EXIT_OK
-
-
-if __name__ == "__main__":
-    cli.run(main)

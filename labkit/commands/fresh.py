@@ -15,8 +15,6 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.base.words import count
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
@@ -94,7 +92,3 @@ def main() -> int:
         clock.say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = run_week(days, clone, clock)
     return verdict(labs, [*missing, *wrong])
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -20,7 +20,6 @@ import subprocess
 import venv
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
 from labkit.base import cli
@@ -222,7 +221,3 @@ def main() -> int:
             path.write_text(json.dumps(fresh).replace("}, ", "},\n") + "\n", "utf-8")
             print(f"wrote {shown(path)}: Pinocchio {fresh['pinocchio']}")
     return cli.EXIT_OK if all_same else cli.EXIT_FAILED
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -25,8 +25,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
@@ -151,7 +149,3 @@ def main() -> int:
 def write(path: Path, text: str) -> None:
     """Write a document with plain newlines on every platform."""
     path.write_text(text, "utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    cli.run(main)

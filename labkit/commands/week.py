@@ -11,7 +11,6 @@ added to your log.
 import sys
 from collections.abc import Sequence
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from labkit.base import cli
@@ -85,7 +84,3 @@ def main() -> int:
         print(tell_failure(ran))
     print(verdict(labs, len(failed)))
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
-
-
-if __name__ == "__main__":
-    cli.run(main)

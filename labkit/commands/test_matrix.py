@@ -15,8 +15,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -96,7 +94,3 @@ def main() -> int:
             lines.append(f"{verdict:8}  {name}: {done.stdout.splitlines()[-1]}")
     print("\n".join(lines))
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
-
-
-if __name__ == "__main__":
-    cli.run(main)

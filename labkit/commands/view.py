@@ -16,7 +16,6 @@ import functools
 import importlib.util
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
 from labkit.base import cli
@@ -189,7 +188,3 @@ def main() -> int:
         return clip(options.clip, day, options.file)
     entry = options.entry or "panda_nohand"
     return web(day, entry, options.start, options.port, options.simple)
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -17,7 +17,6 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from labkit.base import cli
@@ -143,7 +142,3 @@ def main() -> int:
         if options.clip:
             print(clip(result, options.clip))
     return verdict(int(result.failed), 1)
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -28,8 +28,6 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
@@ -225,7 +223,3 @@ def tell(tally: Tally, week: Week, out: Path) -> None:
     page = shown((out.parent / "class.html").absolute())
     beside = "a folder for each day" if several else "feedback/"
     print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {page}")
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -13,8 +13,6 @@ other fields: run_id day seed config method n_trials n_failures notes.
 import argparse
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.log import append_row
@@ -164,7 +162,3 @@ def end_of(line: Line) -> str:
     """Return a line's last characters, on a line of their own."""
     text = line.text if len(line.text) <= 66 else "..." + line.text[-63:]
     return f"\n    {text}"
-
-
-if __name__ == "__main__":
-    cli.run(main)

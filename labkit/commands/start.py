@@ -9,8 +9,6 @@ A file that is there is never overwritten, and a reset keeps your old text besid
 
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import Day, find_day, find_task, started_day
 from labkit.lesson.originals import require_kits
@@ -90,7 +88,3 @@ def main() -> int:
     if options.reset:
         return reset(options.reset)
     return start(find_day(options.day or started_day()))
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -14,8 +14,6 @@ import json
 import os
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import Day, Task, find_day, find_task, started_day
 from labkit.lesson.starter import read_script, solution
@@ -130,7 +128,3 @@ def main() -> int:
         print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
         print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
     return cli.EXIT_OK
-
-
-if __name__ == "__main__":
-    cli.run(main)

@@ -22,11 +22,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-from alone import alone
-from robot_sources import from_index, from_official
+from alone import alone  # of scripts/: what set-up waits with as well
 
 from labkit.base import cli
+from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import ROOT, menagerie_root, shown
@@ -183,7 +182,3 @@ def asked_today() -> bool:
 def asked() -> Path:
     """Return the file that remembers the day on which no source answered."""
     return ROOT / ".robo47" / "robot-asked"
-
-
-if __name__ == "__main__":
-    cli.run(main)

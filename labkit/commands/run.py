@@ -12,8 +12,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import find_day, started_day
 from labkit.lesson.originals import require_kits
@@ -44,7 +42,3 @@ def go_on(script: Path, arguments: list[str]) -> int:
     if os.name == "nt":  # execv there returns to the shell before the script has ended
         return subprocess.run(command, check=False).returncode
     os.execv(command[0], command)
-
-
-if __name__ == "__main__":
-    cli.run(main)

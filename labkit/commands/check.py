@@ -20,8 +20,6 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
-
 from labkit.base import cli
 from labkit.lesson.day import Day, find_day, find_task, started_day
 from labkit.sandbox.sandbox import Sandbox
@@ -52,12 +50,12 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if not script.is_file():
         remedy = "" if options.file else f"; first: make start DAY={day.number}"
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
-    with cli.busy("checking"):
-        with Sandbox() as sandbox:  # it warms up while MuJoCo is imported
-            from labkit.check import journal, report
-            from labkit.check.tasks import check_tasks
+    # The sandbox warms up while MuJoCo is imported.
+    with cli.busy("checking"), Sandbox() as sandbox:
+        from labkit.check import journal, report
+        from labkit.check.tasks import check_tasks
 
-            results = check_tasks(day, script, sandbox, options.task)
+        results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
         journal.note(results)
     done = all(result.passed for result in results)
@@ -114,13 +112,9 @@ def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
 
 def main() -> int:
     """Check a day, once or at every save."""
+    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
+    atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
     options = parse()
     number = options.day or started_day()
     day = find_task(options.task)[0] if options.task else find_day(number)
     return watch(day, options) if options.watch else check(day, options)
-
-
-if __name__ == "__main__":
-    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
-    atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
-    cli.run(main)
