@@ -1,0 +1,3 @@
+import kit
+
+kit.run("docs")  # labkit/commands/docs.py

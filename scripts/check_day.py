@@ -1,0 +1,3 @@
+import kit
+
+kit.run("check")  # labkit/commands/check.py

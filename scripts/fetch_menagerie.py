@@ -1,0 +1,3 @@
+import kit
+
+kit.run("robot")  # labkit/commands/robot.py

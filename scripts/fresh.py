@@ -1,0 +1,3 @@
+import kit
+
+kit.run("fresh")  # labkit/commands/fresh.py

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("grade")  # labkit/commands/grade.py

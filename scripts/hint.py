@@ -1,0 +1,3 @@
+import kit
+
+kit.run("hint")  # labkit/commands/hint.py

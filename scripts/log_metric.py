@@ -1,0 +1,3 @@
+import kit
+
+kit.run("log")  # labkit/commands/log.py

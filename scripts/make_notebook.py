@@ -1,0 +1,3 @@
+import kit
+
+kit.run("notebook")  # labkit/commands/notebook.py

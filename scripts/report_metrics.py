@@ -1,0 +1,3 @@
+import kit
+
+kit.run("report")  # labkit/commands/report.py

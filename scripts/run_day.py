@@ -1,0 +1,3 @@
+import kit
+
+kit.run("run")  # labkit/commands/run.py

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("week")  # labkit/commands/week.py

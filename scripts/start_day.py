@@ -1,0 +1,3 @@
+import kit
+
+kit.run("start")  # labkit/commands/start.py
