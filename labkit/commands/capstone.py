@@ -35,13 +35,12 @@ UNITS = f"{'':22}{'mm':>8}{'mrad':>9}{'mm':>8}{'s':>7}{'of max':>8}{'of max':>7}
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--all", action="store_true", help="twenty random cubes")
-    parser.add_argument("--kit", action="store_true", help="the library's functions")
-    parser.add_argument("--ablations", action="store_true", help="mistakes, in a table")
-    parser.add_argument(
-        "--clip", type=Path, metavar="FILE", help="a film (.gif, .webp)"
-    )
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="a picture (.png)")
+    add = parser.add_argument
+    add("--all", action="store_true", help="twenty random cubes")
+    add("--kit", action="store_true", help="the library's functions")
+    add("--ablations", action="store_true", help="mistakes, in a table")
+    add("--clip", type=Path, metavar="FILE", help="a film (.gif, .webp)")
+    add("--picture", type=Path, metavar="FILE", help="a picture (.png)")
     return parser.parse_args()
 
 
@@ -89,11 +88,7 @@ def pick(fns: Any, *where: Any, **options: Any) -> Result:
 
 def verdict(failed: int, count: int) -> int:
     """Say how many cubes arrived; return the exit code."""
-    word = cli.paint("PASS", "bad" if failed else "good")
-    if failed:
-        word = cli.paint("FAIL", "bad")
-    print(f"{word}  {count - failed} of {count} placed within 10 mm")
-    return cli.EXIT_FAILED if failed else cli.EXIT_OK
+    return cli.conclude(not failed, f"{count - failed} of {count} placed within 10 mm")
 
 
 def all_cubes(fns: Any) -> int:

@@ -140,12 +140,7 @@ def main() -> int:
             print(f"{shown(path)}: {'drifted' if options.check else 'new'}: {request}")
         drift += len(drifted)
         if drifted and not options.check:
-            write(path, text)
+            path.write_text(text, "utf-8", newline="\n")  # on every platform
     state = "drifted" if options.check else "renewed"
     print(f"{len(DOCUMENTS)} documents, {drift} outputs {state}")
     return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK
-
-
-def write(path: Path, text: str) -> None:
-    """Write a document with plain newlines on every platform."""
-    path.write_text(text, "utf-8", newline="\n")

@@ -44,8 +44,7 @@ def run_week(
     for ran in run_labs(days, clone.python, clone.environment):
         found = faults(ran, clone.root)
         whose = "your lab" if ran.mine else "the kit's lab"
-        verdict = cli.paint("FAIL", "bad") if found else cli.paint("PASS", "good")
-        clock.say(f"{verdict}  day {ran.day.number}, {whose}")
+        clock.say(f"{cli.verdict(not found)}  day {ran.day.number}, {whose}")
         labs.append(ran)
         wrong += found
     return labs, wrong
@@ -57,25 +56,22 @@ def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
         print(cli.wrapped(f"  - {line}", "    "))
     if wrong:
         thing = count(len(wrong), "thing")
-        print(f"{cli.paint('FAIL', 'bad')}  {thing} to fix; commit, then: make fresh")
-        return cli.EXIT_FAILED
+        return cli.conclude(False, f"{thing} to fix; commit, then: make fresh")
     rows = count(sum(len(ran.day.metrics) for ran in labs if ran.mine), "row")
     ran = count(len(labs), "lab")
     if any(one.mine for one in labs):
         says = f"a clone of your last commit gives your numbers: {ran}, {rows}"
     else:
         says = f"a clone runs: {ran}, the kit's own; there are no rows to compare"
-    print(f"{cli.paint('PASS', 'good')}  {says}")
-    return cli.EXIT_OK
+    return cli.conclude(True, says)
 
 
 def main() -> int:
     """Clone, set up, run, compare."""
     parser = cli.parser(__doc__)
-    parser.add_argument("week", type=int, nargs="?", help="default: the one begun last")
-    parser.add_argument(
-        "--quick", action="store_true", help="no environment of its own"
-    )
+    add = parser.add_argument
+    add("week", type=int, nargs="?", help="default: the one begun last")
+    add("--quick", action="store_true", help="no environment of its own")
     options = parser.parse_args()
     week = options.week or week_of(find_day(started_day()))
     sha, clock = head_of(), Clock()

@@ -19,6 +19,7 @@ import os
 import subprocess
 import venv
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -165,43 +166,18 @@ def answer_to(script: str, question: object) -> dict:
     return json.loads(done.stdout)
 
 
-def largest_difference(ours: dict, theirs: dict) -> float:
-    """Return the largest absolute difference between two sets of answers."""
-    worst = 0.0
-    for entry, answer in ours["entries"].items():
-        other = theirs["entries"][entry]
-        if answer["q"] != other["q"] or answer["poses"].keys() != other["poses"].keys():
-            return np.inf
-        for name, rows in answer["poses"].items():
-            off = np.abs(np.array(rows) - np.array(other["poses"][name])).max()
-            worst = max(worst, float(off))
-    return worst
-
-
-def largest_force_difference(ours: dict, theirs: dict) -> float:
-    """Return the same for the answers about forces."""
-    mine, other = ours["panda_nohand"], theirs["panda_nohand"]
-    if any(mine[name] != other[name] for name in ("q", "qd", "qdd")):
+def largest_difference(ours: Any, theirs: Any) -> float:
+    """Return the largest absolute difference between two answers."""
+    if isinstance(ours, str):  # Pinocchio's version
+        return 0.0
+    if not isinstance(ours, dict):
+        return float(np.abs(np.subtract(ours, theirs)).max())
+    if ours.keys() != theirs.keys():
         return np.inf
-    return max(
-        float(np.abs(np.array(mine[name]) - np.array(other[name])).max())
-        for name in ("crba", "rnea", "bias")
-    )
+    return max(largest_difference(ours[name], theirs[name]) for name in ours)
 
 
-def largest_jacobian_difference(ours: dict, theirs: dict) -> float:
-    """Return the same for the answers about Jacobians."""
-    mine, other = ours["answers"], theirs["answers"]
-    if ours["q"] != theirs["q"] or mine.keys() != other.keys():
-        return np.inf
-    return max(float(np.abs(np.subtract(mine[n], other[n])).max()) for n in mine)
-
-
-ORACLES = {
-    ORACLE: (ask, largest_difference),
-    DYNAMICS: (ask_for_forces, largest_force_difference),
-    KINEMATICS: (ask_for_jacobians, largest_jacobian_difference),
-}
+ORACLES = {ORACLE: ask, DYNAMICS: ask_for_forces, KINEMATICS: ask_for_jacobians}
 
 
 def main() -> int:
@@ -210,10 +186,10 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     options = parser.parse_args()
     all_same = True
-    for path, (ask_anew, difference) in ORACLES.items():
+    for path, ask_anew in ORACLES.items():
         fresh = ask_anew()
         if options.check:
-            worst = difference(fresh, json.loads(path.read_text("utf-8")))
+            worst = largest_difference(fresh, json.loads(path.read_text("utf-8")))
             same = worst < SAME
             print(f"{'PASS' if same else 'FAIL'}  {shown(path)} differs by {worst:.1e}")
             all_same &= same

@@ -122,41 +122,24 @@ def port(text: str) -> int:
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    parser.add_argument(
-        "day", type=int, nargs="?", help="whose tabs and file; the last you started"
-    )
-    how = parser.add_mutually_exclusive_group()
+    add, how = parser.add_argument, parser.add_mutually_exclusive_group()
+    add("day", type=int, nargs="?", help="whose tabs and file; the last you started")
     how.add_argument("--web", action="store_true", help="in a browser; the default")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")
     how.add_argument(
-        "--screenshot",
-        metavar="FILE",
-        nargs="?",
-        type=Path,
-        const=DAYS_OWN,
+        "--screenshot", metavar="FILE", nargs="?", type=Path, const=DAYS_OWN,
         help="write a picture; without FILE the one that the day hands in",
-    )
+    )  # fmt: skip
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
-    parser.add_argument(
-        "--file", type=Path, help="with --clip: whose code, in place of your own"
-    )
-    parser.add_argument(
-        "--simple", action="store_true", help="simple meshes: a computer without a GPU"
-    )
-    parser.add_argument("--port", type=port, default=8080, help="8080; 0 for any")
-    parser.add_argument(
-        "--start",
-        choices=CONFIGURATIONS,
-        default="ready",
-        help="ready (the labs' home_q), home (the model's own key) or zero",
-    )
-    parser.add_argument(
-        "--entry",
-        choices=("panda_nohand", "panda"),
-        help="which model, for --web; panda has the hand",
-    )
+    add("--file", type=Path, help="with --clip: whose code, in place of your own")
+    add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
+    add("--port", type=port, default=8080, help="8080; 0 for any")
+    says = "ready (the labs' home_q), home (the model's own key) or zero"
+    add("--start", choices=CONFIGURATIONS, default="ready", help=says)
+    says = "which model, for --web; panda has the hand"
+    add("--entry", choices=("panda_nohand", "panda"), help=says)
     return parser.parse_args()
 
 

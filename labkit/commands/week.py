@@ -55,14 +55,13 @@ def tell_failure(ran: Ran) -> str:
     return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
 
 
-def verdict(labs: Sequence[Ran], failed: int) -> str:
-    """Return one line on all of it."""
+def verdict(labs: Sequence[Ran], failed: int) -> int:
+    """Print one line on all of it; return the exit code."""
+    counted = count(len(labs), "lab")
     if failed:
-        says = f"{failed} of {count(len(labs), 'lab')}"
-        return f"{cli.paint('FAIL', 'bad')}  {says} did not pass"
+        return cli.conclude(False, f"{failed} of {counted} did not pass")
     numbers = count(sum(len(ran.day.metrics) for ran in labs), "number")
-    says = f"{count(len(labs), 'lab')}, {numbers} within their limits"
-    return f"{cli.paint('PASS', 'good')}  {says}"
+    return cli.conclude(True, f"{counted}, {numbers} within their limits")
 
 
 def main() -> int:
@@ -82,5 +81,4 @@ def main() -> int:
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
         print(tell_failure(ran))
-    print(verdict(labs, len(failed)))
-    return cli.EXIT_FAILED if failed else cli.EXIT_OK
+    return verdict(labs, len(failed))
