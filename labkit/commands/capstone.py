@@ -93,10 +93,9 @@ def verdict(failed: int, count: int) -> int:
 
 def all_cubes(fns: Any) -> int:
     """Pick twenty random cubes."""
-    quiet = not sys.stderr.isatty()
     print(f"\n{HEAD}\n{UNITS}")
     failed = 0
-    for seed in tqdm(range(CUBES), "cubes", leave=False, disable=quiet):
+    for seed in tqdm(range(CUBES), "cubes", leave=False, disable=None):
         result = pick(fns, *capstone.random_task(seed))
         failed += result.failed
         tqdm.write(row(f"cube {seed + 1}", result), file=sys.stdout)

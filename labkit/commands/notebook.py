@@ -145,14 +145,9 @@ def library(tree: ast.Module, lines: list[str]) -> list[str]:
             task = "".join(TASK.findall(segment)[:1])
             name = f"{task} `{node.name}`".strip()
             functions += [text(f"### {name}"), code(segment)]
-        elif not is_import_of(node, "kit"):  # a notebook has its kernel already
+        elif ast.unparse(node) != "import kit":  # a notebook has its kernel already
             constants += segment
     return [code(constants), text("## The functions"), *functions]
-
-
-def is_import_of(node: ast.stmt, name: str) -> bool:
-    """Return whether a statement is `import name`."""
-    return isinstance(node, ast.Import) and node.names[0].name == name
 
 
 def lab(day: Day, tree: ast.Module, lines: list[str]) -> list[str]:

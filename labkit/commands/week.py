@@ -8,7 +8,6 @@ are the rows that the labs record, judged by the limits of the manifest; they ar
 added to your log.
 """
 
-import sys
 from collections.abc import Sequence
 
 from tqdm import tqdm
@@ -74,9 +73,8 @@ def main() -> int:
     )
     options = parser.parse_args()
     days = days_of(options.week)
-    quiet = not sys.stderr.isatty()
     running = run_labs(days, kits=options.kit)
-    labs = list(tqdm(running, "labs", len(days), leave=False, disable=quiet))
+    labs = list(tqdm(running, "labs", len(days), leave=False, disable=None))
     print(as_table([line for ran in labs for line in lines_of(ran)]))
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
