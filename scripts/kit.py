@@ -45,7 +45,6 @@ def go_on():
 
 def run(name):
     """Run a module of labkit/commands/ as the script that was typed."""
-    sys.path.insert(0, ROOT)  # before scripts/, whose bench.py would hide bench/
     from importlib import import_module
 
     from labkit.base import cli
