@@ -43,6 +43,15 @@ def go_on():
     os.execv(command[0], command)
 
 
+def run(name):
+    """Run a module of labkit/commands/ as the script that was typed."""
+    from importlib import import_module
+
+    from labkit.base import cli
+
+    cli.run(import_module("labkit.commands." + name).main)
+
+
 def explain_gl(kind, error, trace):
     """Say in one line that MUJOCO_GL is wrong: MuJoCo reads it when it is imported."""
     chosen, frame = os.environ.get("MUJOCO_GL"), trace

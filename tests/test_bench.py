@@ -1,6 +1,5 @@
 """The bench: its results are the README's, its rivals are checked before timed."""
 
-import importlib.util
 import json
 import subprocess
 import sys
@@ -11,6 +10,7 @@ from compare import assert_same
 
 from bench import bench_dynamics, bench_fk, bench_growth, bench_ik, table, timing
 from conftest import ROOT
+from labkit.commands import test_matrix as matrix
 from robo47 import kinematics, panda, verify
 
 pytestmark = pytest.mark.kit
@@ -155,10 +155,6 @@ def test_the_handouts_script_mended_runs(real_panda):
 
 
 def test_the_matrix_covers_the_floor_and_the_pin_of_the_lists():
-    path = ROOT / "scripts" / "test_matrix.py"
-    spec = importlib.util.spec_from_file_location("matrix", path)
-    matrix = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(matrix)
     oldest, newest = matrix.MUJOCOS
     assert (
         f'"mujoco>={oldest.removesuffix(".0")},'

@@ -29,12 +29,8 @@ def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
 
 
 def test_a_drifted_output_is_found(run, tmp_path, monkeypatch):
-    import importlib.util
+    from labkit.commands import docs
 
-    path = ROOT / "scripts" / "build_docs.py"
-    spec = importlib.util.spec_from_file_location("build_docs", path)
-    docs = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(docs)
     monkeypatch.setattr(docs, "wanted", lambda request: "error 2.0e-15, 0.59 m\n")
     block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
     assert docs.rebuilt(block.format("error 9.1e-16, 0.59 m"))[1] == []

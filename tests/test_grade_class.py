@@ -16,6 +16,7 @@ from urllib.parse import unquote
 import pytest
 from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
 
+from labkit.commands import grade as command
 from labkit.grade.journal import Journal
 from labkit.sandbox import wall as walls
 from labkit.sandbox.wall import Wall
@@ -379,14 +380,14 @@ class TestFaultsOfTheMachine:
         for path in out.rglob("*.*"):
             path.unlink()
         hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
-        full = "import resource, runpy, sys, tempfile\n"
-        full += "from labkit.grade import grader\n"
-        full += "start = grader.subprocess.Popen\n"
+        full = "import resource, runpy, subprocess, sys\n"
+        full += "from labkit.grade import grader  # before Popen is another\n"
+        full += "start = subprocess.Popen\n"
         full += "def limited(*a, **k):\n"
         full += "    it = start(*a, **k)\n"
         full += f"    resource.prlimit(it.pid, resource.RLIMIT_FSIZE, (0, {hard}))\n"
         full += "    return it\n"
-        full += "grader.subprocess.Popen = limited\n"
+        full += "subprocess.Popen = limited\n"
         full += f"sys.argv = ['grade', {str(clones)!r}, '--i-know-them',"
         full += f" '--out', {str(out / 'grades.csv')!r}]\n"
         full += f"sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
@@ -413,19 +414,16 @@ class TestWhoMayGrade:
 
     @pytest.fixture
     def asked(self, monkeypatch):
-        monkeypatch.syspath_prepend(str(ROOT / "scripts"))
-        import grade_class
-
         def ask(wall, *, root=False, container=False, words=()):
             stands = Wall(wall, f"it is {wall}")
-            monkeypatch.setattr(grade_class, "wall", lambda: stands)
+            monkeypatch.setattr(command, "wall", lambda: stands)
             monkeypatch.setattr(walls, "wall", lambda: stands)
             monkeypatch.setattr(walls, "in_container", lambda: container)
             monkeypatch.setattr(
                 os, "geteuid", lambda: 0 if root else 1000, raising=False
             )
             monkeypatch.setattr(sys, "argv", ["grade_class.py", "class", *words])
-            grade_class.admit(grade_class.parse())
+            command.admit(command.parse())
 
         return ask
 

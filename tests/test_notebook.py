@@ -19,6 +19,7 @@ import nbclient
 import nbformat
 import numpy as np
 
+from labkit.commands import notebook as command
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -31,15 +32,11 @@ LOGGING = 'sys.argv = ["day1_transforms"]'
 
 @pytest.fixture
 def generator(monkeypatch, tmp_path):
-    """Return scripts/make_notebook.py as a module that writes elsewhere."""
-    path = ROOT / "scripts" / "make_notebook.py"
-    spec = importlib.util.spec_from_file_location("make_notebook", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    """Return the command, writing elsewhere."""
     path = tmp_path / "notebooks" / "day1.ipynb"
-    monkeypatch.setattr(module, "notebook_of", lambda day: path)
+    monkeypatch.setattr(command, "notebook_of", lambda day: path)
     monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--day", "1"])
-    return module
+    return command
 
 
 def cells(kind):

@@ -56,6 +56,17 @@ def paint(text: str, mood: str, stream: TextIO | None = None) -> str:
     return f"\x1b[{_PAINT[mood]}m{text}\x1b[0m"
 
 
+def verdict(passed: bool) -> str:
+    """Return PASS or FAIL in its colour."""
+    return paint("PASS", "good") if passed else paint("FAIL", "bad")
+
+
+def conclude(passed: bool, says: str) -> int:
+    """Print a command's last line, PASS or FAIL and why; return its exit code."""
+    print(f"{verdict(passed)}  {says}")
+    return EXIT_OK if passed else EXIT_FAILED
+
+
 def wants_colour(stream: TextIO) -> bool:
     """Return whether to paint: a terminal, and nobody said NO_COLOR."""
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"

@@ -1,4 +1,4 @@
-"""Memory, time and end of the sandbox's process, seen from outside, on each platform.
+"""Child processes: start, messages and end; memory and time, on each platform.
 
 The standard library alone: a student installs no process tool for this.
 """
@@ -9,12 +9,72 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
+import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 END_SECONDS = 5.0  # for a killed process to be gone
 # How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
 # bubblewrap, as that tells it.
 _KILLED = (-9, -15, 128 + 9, 128 + 15)
+
+
+class Child:
+    """A module of ours as a process of its own, which reads until its input ends."""
+
+    def __init__(self, module: str, *arguments: str, **options: Any) -> None:
+        """Start `python -m module`, with options of `subprocess.Popen`."""
+        self.late = False  # ended for taking too long
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
+        pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        command = [sys.executable, "-m", module, *arguments]
+        options = {**pipes, "stderr": self._errors, **start_options(), **options}
+        self.process: Any = subprocess.Popen(command, **options)
+
+    def send(self, message: bytes) -> None:
+        """Send a message; where the child is gone, `process.stdout` has ended."""
+        with contextlib.suppress(OSError):
+            self.process.stdin.write(message)
+            self.process.stdin.flush()
+
+    @contextlib.contextmanager
+    def within(self, seconds: float) -> Iterator[None]:
+        """End the child when the block takes longer, so that nobody waits for it."""
+
+        def stop() -> None:
+            self.late = True
+            end(self.process)
+
+        timer = threading.Timer(seconds, stop)
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+
+    @property
+    def alive(self) -> bool:
+        """Whether it can take another message."""
+        return self.process.poll() is None
+
+    def last_words(self) -> str:
+        """Return the last line of an ended child's errors, or its exit code."""
+        self.process.wait(END_SECONDS)
+        self._errors.seek(0)
+        lines = self._errors.read().decode(errors="replace").strip().split("\n")
+        return lines[-1] or f"exit code {self.process.returncode}"
+
+    def close(self) -> None:
+        """End it: it stops where its input does, or is stopped."""
+        for pipe in (self.process.stdin, self.process.stdout):
+            with contextlib.suppress(OSError):  # it may have ended already
+                pipe.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(END_SECONDS)
+        end(self.process)
+        self._errors.close()
 
 
 def start_options() -> dict[str, object]:

@@ -12,10 +12,7 @@ import pickle
 import queue
 import shutil
 import socket
-import subprocess
-import sys
 import tempfile
-import threading
 import time
 from pathlib import Path
 
@@ -30,12 +27,11 @@ from robo47.paths import ROOT
 # For one package. The sandbox stops a file after 100 s of its own, so only a machine
 # under load gets here.
 SECONDS = 240.0
-LEAVE_SECONDS = 5.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
 _FOLDER = "robo47-grader-"
 
 
-class Grader:
+class Grader(processes.Child):
     """One grading process and its folder, from start to end."""
 
     def __init__(self) -> None:
@@ -44,15 +40,10 @@ class Grader:
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
         self.folder = tempfile.mkdtemp(prefix=_FOLDER)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
-        try:
-            self.process = subprocess.Popen(
-                [sys.executable, "-m", "labkit.grade.child", self.folder],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                cwd=self.folder,  # MuJoCo writes its warnings there
-                env={**os.environ, **temporary, **promised},
-                **processes.start_options(),  # type: ignore[call-overload]
+        environment = {**os.environ, **temporary, **promised}
+        try:  # in its folder, since MuJoCo writes its warnings there
+            super().__init__(
+                "labkit.grade.child", self.folder, cwd=self.folder, env=environment
             )
         except OSError:
             shutil.rmtree(self.folder, ignore_errors=True)
@@ -68,45 +59,21 @@ class Grader:
         Raises:
             FaultError: grading ended early, or the machine failed.
         """
-        late = threading.Event()
-
-        def stop() -> None:
-            late.set()
-            processes.end(self.process)
-
-        timer = threading.Timer(seconds, stop)
-        timer.start()
-        try:
-            assert self.process.stdin is not None
-            assert self.process.stdout is not None
-            with contextlib.suppress(OSError):  # it died: the answer below is empty
-                pickle.dump(package, self.process.stdin)
-                self.process.stdin.flush()
+        with self.within(seconds):
+            self.send(pickle.dumps(package))
             answer = self.process.stdout.readline()
-        finally:
-            timer.cancel()
         if answer.endswith(b"\n"):
             found = json.loads(answer)
             if "fault" in found:
                 raise FaultError(found["fault"])
             return from_json(found, find_day(package.day))
         self.close()
-        why = f"it took more than {seconds:.0f} s" if late.is_set() else "it was killed"
+        why = f"it took more than {seconds:.0f} s" if self.late else "it was killed"
         raise FaultError(f"grading it was stopped: {why}")
-
-    @property
-    def alive(self) -> bool:
-        """Whether it can take another package."""
-        return self.process.poll() is None
 
     def close(self) -> None:
         """End the process and remove its folder."""
-        for stream in (self.process.stdin, self.process.stdout):
-            with contextlib.suppress(OSError, AttributeError):
-                stream.close()  # type: ignore[union-attr]
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(LEAVE_SECONDS)
-        processes.end(self.process)
+        super().close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 

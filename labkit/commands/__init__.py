@@ -1,0 +1,1 @@
+"""The commands behind `make` and `scripts/`: one module per verb."""

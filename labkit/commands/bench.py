@@ -1,0 +1,101 @@
+"""Measure what the kit claims to be fast, beside the tools people would pick instead.
+
+    make bench                               everything, some minutes
+    python3 scripts/bench.py fk lab          only these parts
+    python3 scripts/bench.py --table         the last results, nothing is run
+
+Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
+configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make
+test`), checker (save to verdict), first-minute (a fresh clone; needs the network). All
+in one run, taking turns; results are ratios, since seconds differ from machine to
+machine. Writes bench/results.json and bench/bench.png.
+"""
+
+import datetime
+import importlib
+import importlib.metadata
+import json
+import platform
+import sys
+from typing import Any
+
+from labkit.base import cli
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+sys.path[0] = str(ROOT)  # in scripts/, bench.py would hide the package of its name
+
+from bench.table import render  # noqa: E402
+
+RESULTS = ROOT / "bench" / "results.json"
+PICTURE = ROOT / "bench" / "bench.png"
+PARTS = (
+    "fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker",
+    "first-minute",
+)  # fmt: skip
+VERSIONS = (
+    "mujoco",
+    "numpy",
+    "pin",
+    "roboticstoolbox-python",
+    "modern-robotics",
+    "mink",
+)
+
+
+def machine() -> dict[str, Any]:
+    """Return what the numbers were measured on and with."""
+    versions = {}
+    for name in VERSIONS:
+        try:
+            versions[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            versions[name] = "not installed"
+    return {
+        "date": datetime.date.today().isoformat(),
+        "machine": f"{platform.system()} {platform.machine()}, {cpu()}",
+        "python": platform.python_version(),
+        **versions,
+    }
+
+
+def cpu() -> str:
+    """Return the processor's name, where the system tells it."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            names = [line.split(":", 1)[1] for line in file if line.startswith("model")]
+        return next(name.strip() for name in names if not name.strip().isdigit())
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown processor"
+
+
+def main() -> int:
+    """Run the parts that are asked for and keep the results of the others."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("parts", nargs="*", metavar="PART", help="default: all of them")
+    parser.add_argument("--table", action="store_true", help="print the last results")
+    options = parser.parse_args()
+    unknown = set(options.parts) - set(PARTS)
+    if unknown:
+        raise Robo47Error(
+            f"no part {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}"
+        )
+    results = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
+    if options.table:
+        if not results:
+            raise Robo47Error(f"no {shown(RESULTS)} yet; run make bench first")
+        print(render(results))
+        return cli.EXIT_OK
+    results["about"] = machine()
+    for part in options.parts or PARTS:
+        print(f"bench: {part} ...", file=sys.stderr, flush=True)
+        results[part] = importlib.import_module(
+            f"bench.bench_{part.replace('-', '_')}"
+        ).run()
+        RESULTS.write_text(json.dumps(results, indent=1) + "\n", "utf-8")
+    if "growth" in results:
+        from bench.picture import draw
+
+        draw(results, PICTURE)
+    print(render(results))
+    return cli.EXIT_OK

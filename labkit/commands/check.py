@@ -1,0 +1,120 @@
+"""Check a day: which tasks and deliverables stand, and what exactly went wrong.
+
+    python3 scripts/check_day.py 1              the whole day (make check DAY=1)
+    python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
+    python3 scripts/check_day.py 1 --watch      again at each save, until Ctrl-C
+    python3 scripts/check_day.py 1 --explain    what was measured and printed
+    python3 scripts/check_day.py 1 --json       for tools
+
+Your code runs in a process of its own, on a copy; nothing of yours is changed.
+Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
+"""
+
+import argparse
+import atexit
+import gc
+import json
+import os
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.sandbox.sandbox import Sandbox
+from robo47.errors import Robo47Error
+from robo47.paths import METRICS_CSV, ROOT, shown
+
+if TYPE_CHECKING:
+    from labkit.handin import Item
+
+POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
+
+
+def parse() -> argparse.Namespace:
+    """Read the command line."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("--task", help="check this task alone, such as 1.4")
+    parser.add_argument("--file", type=Path, help="instead of the file in work/")
+    parser.add_argument("--watch", action="store_true", help="check again at each save")
+    parser.add_argument("--explain", action="store_true", help="show measurements")
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    return parser.parse_args()
+
+
+def check(day: Day, options: argparse.Namespace) -> int:
+    """Check once, print the report and return the exit code."""
+    script = options.file or day.work
+    if not script.is_file():
+        remedy = "" if options.file else f"; first: make start DAY={day.number}"
+        raise Robo47Error(f"{shown(script)} is not there{remedy}")
+    # The sandbox warms up while MuJoCo is imported.
+    with cli.busy("checking"), Sandbox() as sandbox:
+        from labkit.check import journal, report
+        from labkit.check.tasks import check_tasks
+
+        results = check_tasks(day, script, sandbox, options.task)
+    if script == day.work:
+        journal.note(results)
+    done = all(result.passed for result in results)
+    found = report.Report(day, results, [] if options.task else handed_in(day, done))
+    if options.json:
+        print(json.dumps(report.as_json(found), indent=1))
+    else:
+        colour = cli.wants_colour(sys.stdout)
+        print(report.as_text(found, explain=options.explain, colour=colour))
+    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def handed_in(day: Day, tasks_pass: bool) -> "list[Item]":
+    """Check what the day hands in besides its tasks."""
+    from labkit.handin import check_deliverables
+
+    return check_deliverables(day, tasks_pass=tasks_pass)
+
+
+def watch(day: Day, options: argparse.Namespace) -> int:
+    """Check at every save, until Ctrl-C or until everything passes."""
+    script = options.file or day.work
+    seen: object = None
+    while True:
+        state = stamps(day, script)
+        if state == seen:
+            time.sleep(POLL_SECONDS)
+            continue
+        seen = state
+        if sys.stdout.isatty():
+            print("\x1b[2J\x1b[H", end="")
+        try:
+            if check(day, options) == cli.EXIT_OK:
+                return cli.EXIT_OK
+        except Robo47Error as error:  # a file may be away while an editor saves it
+            cli.complain(f"error: {error}")
+        print(f"\n{time.strftime('%H:%M:%S')}  watching; Ctrl-C ends it\n", flush=True)
+
+
+def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
+    """Return time and size of every file whose change calls for a new check."""
+    week = day.folder
+    files = {script, week / day.figure, week / day.worksheet, METRICS_CSV}
+    files |= {*script.parent.glob("*.py"), ROOT / ".git" / "index"}
+    found = {}
+    for path in files:
+        try:
+            status = path.stat()
+        except OSError:
+            continue
+        found[str(path)] = (status.st_mtime_ns, status.st_size)
+    return found
+
+
+def main() -> int:
+    """Check a day, once or at every save."""
+    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
+    atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
+    options = parse()
+    number = options.day or started_day()
+    day = find_task(options.task)[0] if options.task else find_day(number)
+    return watch(day, options) if options.watch else check(day, options)

@@ -1,0 +1,146 @@
+"""Insert fresh outputs into the documents, or check that the ones there still hold.
+
+    make docs                                run the commands, rewrite outputs
+    python3 scripts/build_docs.py            the same
+    python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
+
+A document asks for an output between two comments:
+
+    <!-- run: python src/day1_transforms.py --no-log | step 2 -->
+    <!-- end -->
+
+`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
+the table of a week's days, from their manifests:
+
+    <!-- days: w1-foundations -->
+    <!-- end -->
+"""
+
+import functools
+import math
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.lesson.day import all_days
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
+DOCUMENTS += [*sorted((ROOT / "w1-foundations").rglob("*.md"))]
+BLOCK = re.compile(r"(<!-- (run|days): (.+?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+ROUNDING = 1e-9  # errors this small differ between processors, and should
+# What depends on where the robot came from, and where among equals the worst was.
+VARIES = re.compile(r"^robot: .*|worst at \S+|where q = .*", re.MULTILINE)
+
+
+@functools.cache
+def output_of(command: str) -> str:
+    """Return what a command prints; `python` and `make` are this environment's."""
+    words = shlex.split(command)
+    known = {"python": [sys.executable], "make": ["make", "--no-print-directory"]}
+    words[:1] = known[words[0]]
+    done = subprocess.run(
+        words,
+        cwd=ROOT / "w1-foundations" if words[1].startswith("src/") else ROOT,
+        env={**os.environ, "COLUMNS": "80"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    # A check of a wrong file ends with 1, and that is the output that is wanted.
+    if done.returncode not in (0, *([1] if "check_day" in command else [])):
+        raise Robo47Error(f"`{command}` failed: {done.stderr.strip()[-300:]}")
+    return done.stdout
+
+
+def wanted(request: str) -> str:
+    """Return the output that a document asks for."""
+    command, _, part = (piece.strip() for piece in request.partition("|"))
+    text = output_of(command)
+    if not part:
+        return text
+    kind, number = part.split()
+    lines = text.splitlines(keepends=True)
+    if kind == "step":
+        found = re.search(rf"^{number}\. .*?(?=^\d+\. |^\n|\Z)", text, re.M | re.DOTALL)
+        if not found:
+            raise Robo47Error(f"`{command}` prints no step {number}")
+        return found.group()
+    return "".join(lines[: int(number)] if kind == "head" else lines[-int(number) :])
+
+
+def same(old: str, new: str) -> bool:
+    """Return whether two outputs say the same, but for rounding and for the source."""
+    old, new = VARIES.sub("", old), VARIES.sub("", new)
+    if NUMBER.sub("#", old).split() != NUMBER.sub("#", new).split():
+        return False
+    pairs = zip(NUMBER.findall(old), NUMBER.findall(new), strict=True)
+    return all(
+        math.isclose(float(a), float(b), rel_tol=1e-9, abs_tol=ROUNDING)
+        for a, b in pairs
+    )
+
+
+def days_table(week: str, folder: Path) -> str:
+    """Return the table of a week's days, with links from a folder.
+
+    Args:
+        week: the name of its folder.
+        folder: of the document.
+    """
+    lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
+    for day in all_days():
+        if day.folder.name == week:
+            guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
+            title = f"[{day.number}: {day.title}]({guide})"
+            command = f"`make day{day.number}`"
+            lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
+    return "\n".join(lines) + "\n"
+
+
+def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
+    """Return the document with fresh outputs, and the requests that had drifted.
+
+    Args:
+        document: its text.
+        folder: where it is, for the links in it.
+    """
+    drifted = []
+
+    def fresh(block: re.Match) -> str:
+        opening, kind, request, old, closing = block.groups()
+        if kind == "days":
+            body = days_table(request, folder)
+        else:
+            body = f"```text\n{wanted(request).rstrip()}\n```\n"
+        if same(old, body):
+            return block.group()
+        drifted.append(request)
+        return opening + body + closing
+
+    return BLOCK.sub(fresh, document), drifted
+
+
+def main() -> int:
+    """Rebuild or check every document."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--check", action="store_true", help="compare, write nothing")
+    options = parser.parse_args()
+    drift = 0
+    for path in DOCUMENTS:
+        text, drifted = rebuilt(path.read_text("utf-8"), path.parent)
+        for request in drifted:
+            print(f"{shown(path)}: {'drifted' if options.check else 'new'}: {request}")
+        drift += len(drifted)
+        if drifted and not options.check:
+            path.write_text(text, "utf-8", newline="\n")  # on every platform
+    state = "drifted" if options.check else "renewed"
+    print(f"{len(DOCUMENTS)} documents, {drift} outputs {state}")
+    return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK

@@ -1,0 +1,90 @@
+"""Does a clone of your last commit give your numbers? What is missing from it?
+
+    python3 scripts/fresh.py             the week that you are in (make fresh)
+    python3 scripts/fresh.py 2           week 2
+    python3 scripts/fresh.py --quick     in this environment, no set-up
+
+The commit, not your folder, is cloned to a temporary place, set up from nothing, and
+the labs of the week run there: yours where they are begun, else the kit's. Their
+numbers are compared with the rows that you committed. Nothing is logged.
+Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
+"""
+
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.base.words import count
+from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
+from labkit.fresh.compare import faults
+from labkit.fresh.missing import findings
+from labkit.lesson.day import Day, find_day, started_day
+from labkit.report.week_labs import Ran, days_of, run_labs, week_of
+
+
+class Clock:
+    """Says what is done, and after how many seconds."""
+
+    def __init__(self) -> None:
+        """Start now."""
+        self.begun = time.monotonic()
+
+    def say(self, what: str) -> None:
+        """Print a line of progress."""
+        print(f"{time.monotonic() - self.begun:5.1f} s  {what}", flush=True)
+
+
+def run_week(
+    days: Sequence[Day], clone: Clone, clock: Clock
+) -> tuple[list[Ran], list[str]]:
+    """Run the labs in the clone; return what became of them, and what is not right."""
+    labs, wrong = [], []
+    for ran in run_labs(days, clone.python, clone.environment):
+        found = faults(ran, clone.root)
+        whose = "your lab" if ran.mine else "the kit's lab"
+        clock.say(f"{cli.verdict(not found)}  day {ran.day.number}, {whose}")
+        labs.append(ran)
+        wrong += found
+    return labs, wrong
+
+
+def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
+    """Print what is to be fixed, and one clear line; return the exit code."""
+    for line in wrong:
+        print(cli.wrapped(f"  - {line}", "    "))
+    if wrong:
+        thing = count(len(wrong), "thing")
+        return cli.conclude(False, f"{thing} to fix; commit, then: make fresh")
+    rows = count(sum(len(ran.day.metrics) for ran in labs if ran.mine), "row")
+    ran = count(len(labs), "lab")
+    if any(one.mine for one in labs):
+        says = f"a clone of your last commit gives your numbers: {ran}, {rows}"
+    else:
+        says = f"a clone runs: {ran}, the kit's own; there are no rows to compare"
+    return cli.conclude(True, says)
+
+
+def main() -> int:
+    """Clone, set up, run, compare."""
+    parser = cli.parser(__doc__)
+    add = parser.add_argument
+    add("week", type=int, nargs="?", help="default: the one begun last")
+    add("--quick", action="store_true", help="no environment of its own")
+    options = parser.parse_args()
+    week = options.week or week_of(find_day(started_day()))
+    sha, clock = head_of(), Clock()
+    with tempfile.TemporaryDirectory(
+        prefix="robo47-fresh-", ignore_cleanup_errors=True
+    ) as folder:
+        root = Path(folder).resolve() / "clone"
+        clone_commit(sha, root)
+        days = days_of(week, root)
+        missing = findings(days, root)
+        clock.say(f"cloned {sha[:7]}")
+        with cli.busy("setting it up, half a minute at most"):
+            clone = set_up(root, anew=not options.quick)
+        clock.say("set up" + (" with this environment" if options.quick else ""))
+        labs, wrong = run_week(days, clone, clock)
+    return verdict(labs, [*missing, *wrong])

@@ -1,0 +1,225 @@
+"""Grade a class: a folder with one clone per student, by this copy of the kit.
+
+    python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
+    python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
+    python3 scripts/grade_class.py CLONES --day 1-7      a week; or --day all
+    python3 scripts/grade_class.py CLONES --pull         update the clones first
+    python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
+    python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
+
+CLONES/roster.csv (name, folder, git) says who is in the class; without it,
+each folder is a student. Beside the table: class.html (what to explain again,
+who is stuck), feedback/ (a file per student) and grading.jsonl, in which each
+result is kept as it comes: stop at any time, the same command goes on. Several
+days: a folder for each as above, one table for a learning platform, one page.
+Commit times are the students' own: whoever commits sets the clock.
+
+Exit code: 0 everybody has a row, also those who are "ungraded" (the column
+error says why), 1 somebody could not be pulled or this machine failed: run it
+again, 2 could not run.
+"""
+
+import argparse
+import contextlib
+import datetime
+import os
+import re
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.grade import engine, overview, week_page
+from labkit.grade.classroom import Classroom, write_all
+from labkit.grade.journal import Journal
+from labkit.grade.overview import Course
+from labkit.grade.roster import find_students
+from labkit.grade.sheet import write
+from labkit.grade.week import STATES, Week, as_csv
+from labkit.lesson.day import Day, all_days, find_day
+from labkit.sandbox.wall import refusal, wall
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def parse() -> argparse.Namespace:
+    """Read the command line."""
+    parser = cli.parser(__doc__)
+    add = parser.add_argument
+    add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
+    add("--day", default="1", metavar="N|N-M|all", help="default: 1")
+    add(
+        "--out",
+        type=Path,
+        metavar="CSV",
+        help="default: grades-dayN/grades.csv; of several days grades-days/grades.csv",
+    )
+    add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
+    add("--pull", action="store_true", help="clone what is missing, update the rest")
+    add(
+        "--deadline",
+        type=moment,
+        metavar="TIME",
+        help="2026-09-04T18:00, or a day, which means its end; minutes since the last "
+        "commit count to it; default: when grading began",
+    )
+    add(
+        "--processes",
+        type=positive,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="submissions at a time; default: one per core",
+    )
+    add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
+    add("--again", action="store_true", help="grade those too that did not change")
+    add(
+        "--i-know-them",
+        action="store_true",
+        help="grade with your own rights where no wall stands, or as root",
+    )
+    return parser.parse_args()
+
+
+def moment(text: str) -> int:
+    """Return a local time in seconds since 1970; a day alone means its end."""
+    when = datetime.datetime.fromisoformat(text)
+    if len(text) <= len("2026-09-04"):
+        when += datetime.timedelta(days=1)
+    return int(when.timestamp())
+
+
+def positive(text: str) -> int:
+    """Return a number of at least 1."""
+    if int(text) < 1:
+        raise ValueError(text)
+    return int(text)
+
+
+def admit(options: argparse.Namespace) -> None:
+    """Say which wall stands, or refuse to run strangers' code without one."""
+    if options.dask:
+        print("wall: each worker's own; without one it refuses", flush=True)
+        return
+    print(f"wall: {wall().says}", flush=True)
+    why = "" if options.i_know_them else refusal()
+    if why:
+        raise Robo47Error(
+            f"{why}, use a container (docs/teaching.md), or add --i-know-them"
+        )
+
+
+def chosen(text: str) -> list[Day]:
+    """Return the days that "2", "1-7" or "all" means.
+
+    Raises:
+        Robo47Error: it means none.
+    """
+    if text == "all":
+        return all_days()
+    span = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
+    if not span:
+        raise Robo47Error(f"--day {text}: expected a day (2), days (1-7), or all")
+    if not span[2]:
+        return [find_day(int(text))]
+    first, last = int(span[1]), int(span[2])
+    found = [day for day in all_days() if first <= day.number <= last]
+    if not found:
+        raise Robo47Error(f"the kit has none of the days {first} to {last}")
+    return found
+
+
+@dataclass
+class Tally:
+    """What is said at the end of all days."""
+
+    results: int = 0
+    graded_now: int = 0
+    faults: int = 0
+    outdated: int = 0
+    ungraded: bool = False
+    odd: list[str] = field(default_factory=list)
+    notes: dict[str, str] = field(default_factory=dict)
+
+    def add(self, room: Classroom, course: Course) -> None:
+        """Take over a day's."""
+        self.results += len(course.class_)
+        self.graded_now += room.graded_now
+        self.faults += room.faults
+        self.outdated += room.journal.outdated
+        self.ungraded |= any(overview.state(g) == "ungraded" for g in course.class_)
+        if room.journal.odd:
+            where = shown(room.journal.path.absolute())
+            self.odd.append(
+                f"{where}: lines that are no result, left out: {room.journal.odd:,}"
+            )
+
+
+def main() -> int:
+    """Grade, write, and say in a few lines what came out."""
+    options = parse()
+    days = chosen(options.day)
+    several = len(days) > 1
+    name = "grades-days" if several else f"grades-day{days[0].number}"
+    out = options.out or Path(name) / "grades.csv"
+    week = Week(find_students(options.root, options.roster))
+    admit(options)
+    tally = Tally()
+    where = engine.dask(options.dask, options.i_know_them) if options.dask else None
+    with where or engine.local(options.processes) as it:
+        for day in days:  # one after the other: a week takes the memory of a day
+            own = out.parent / f"day{day.number}" / "grades.csv" if several else out
+            grade_day(day, week, own, options, it, tally)
+    if several:
+        write(out, as_csv(week))
+        write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+    tell(tally, week, out)
+    return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
+
+
+def grade_day(
+    day: Day,
+    week: Week,
+    out: Path,
+    options: argparse.Namespace,
+    where: engine.Engine,
+    tally: Tally,
+) -> None:
+    """Grade a day: its table, its page, the students' files; say how it went."""
+    with contextlib.suppress(FileExistsError):  # what is no folder is named below
+        out.parent.mkdir(parents=True, exist_ok=True)
+    given = options.deadline is not None
+    since = options.deadline if given else int(time.time())
+    journal = Journal(out.parent / "grading.jsonl", [day], since, deadline=given)
+    with contextlib.closing(journal):
+        room = Classroom(week.students, [day], journal, options.again, tally.notes)
+        if options.pull and not week.days:
+            room.pull()
+        (course,) = room.grade(where, out.parent / "feedback")
+        write_all(course, out)
+    week.add(course)
+    tally.add(room, course)
+    counts = week.counts(day)
+    words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
+    print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
+
+
+def tell(tally: Tally, week: Week, out: Path) -> None:
+    """Print what came out of all days."""
+    kept = tally.results - tally.graded_now - tally.faults
+    print(f"graded now: {tally.graded_now:,}; unchanged since: {kept:,}")
+    several = len(week.days) > 1  # then the page has them, day by day
+    for task, mistake, number in [] if several else week.mistakes[week.days[0].number]:
+        print(f"  {number:4}  {task}  {mistake}")
+    if tally.notes:
+        print(f"not pulled: {len(tally.notes):,}; the column error says why")
+    if tally.faults:
+        print(f"this machine failed: {tally.faults:,}; run the same command again")
+    if tally.ungraded:
+        print("ungraded: the column error says why")
+    if tally.outdated:
+        print(f"another version of the kit had graded: {tally.outdated:,}; done anew")
+    for line in tally.odd:
+        print(line)
+    page = shown((out.parent / "class.html").absolute())
+    beside = "a folder for each day" if several else "feedback/"
+    print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {page}")

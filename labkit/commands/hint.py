@@ -1,0 +1,130 @@
+"""Get the next hint for a task; the solution, to compare, once yours passes.
+
+    python3 scripts/hint.py 1.4          (make hint TASK=1.4)
+    python3 scripts/hint.py 1.4 --again  the last one once more
+    python3 scripts/hint.py              for the first task that is not passed
+    python3 scripts/hint.py figure       what is missing in it
+
+Each call gives one more hint and the section to re-read. What you have had is
+remembered in .robo47/, which git ignores.
+"""
+
+import contextlib
+import json
+import os
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.lesson.day import Day, Task, find_day, find_task, started_day
+from labkit.lesson.starter import read_script, solution
+from labkit.sandbox.sandbox import Sandbox
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+
+def seen_file() -> Path:
+    """Return where the hints that were given are counted."""
+    return ROOT / ".robo47" / "hints.json"
+
+
+def read_seen() -> dict[str, int]:
+    """Return {task: hints given}; a file that cannot be read counts as none."""
+    try:
+        seen = json.loads(seen_file().read_text("utf-8"))
+        return {str(task): int(count) for task, count in seen.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
+
+
+def write_seen(seen: dict[str, int]) -> None:
+    """Remember the count; a read-only folder costs the memory, not the hint."""
+    path = seen_file()
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(exist_ok=True)
+        new = path.with_suffix(".new")
+        new.write_text(json.dumps(seen), "utf-8")
+        os.replace(new, path)
+
+
+def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
+    """Return the tasks that do not pass, of one or of all, and why none was judged."""
+    if not day.work.is_file():
+        return [task] if task else list(day.tasks), ""
+    with Sandbox() as sandbox:
+        from labkit.check.report import Report
+        from labkit.check.tasks import check_tasks
+
+        results = check_tasks(day, day.work, sandbox, task.id if task else None)
+    left = [result.task for result in results if not result.passed]
+    return left, Report(day, results).problem
+
+
+def show_deliverable(day: Day, name: str) -> int:
+    """Print what is left to do for something to hand in.
+
+    Raises:
+        Robo47Error: the day has nothing of that name.
+    """
+    from labkit.handin import check_deliverables
+
+    left, _ = check(day, None)
+    found = check_deliverables(day, tasks_pass=not left)
+    items = {item.name: item for item in found}
+    if name not in items:
+        raise Robo47Error(
+            f"{name!r} is no task; expected an id such as 1.4, or one of "
+            f"{', '.join(items)}"
+        )
+    print(f"{name}\n")
+    for line in (items[name].message or "Nothing is left to do for it.").splitlines():
+        print(cli.wrapped(line))
+    return cli.EXIT_OK
+
+
+def show_hint(task: Task, again: bool) -> None:
+    """Print the next hint, or the last one again."""
+    seen = read_seen()
+    count = min(seen.get(task.id, 0) + (not again), len(task.hints))
+    seen[task.id] = count = max(count, 1)
+    write_seen(seen)
+    print(cli.wrapped(f"{task.id}  {task.title}: hint {count} of {len(task.hints)}"))
+    print(f"\n{cli.wrapped(task.hints[count - 1])}")
+    print(f"\n{cli.wrapped('Re-read: ' + task.read, '    ')}")
+    if count == len(task.hints):
+        print("That was the last one: next, somebody to think aloud with.")
+
+
+def show_solution(day: Day, task: Task) -> None:
+    """Print the kit's own lines, to compare with the student's."""
+    print(f"{task.id}  {task.title}")
+    print("Yours passes. The kit's, to compare:\n")
+    print(solution(read_script(day.source), shown(day.source), task.id))
+
+
+def main() -> int:
+    """Give the next hint."""
+    parser = cli.parser(__doc__)
+    parser.add_argument(
+        "task", nargs="?", help="such as 1.4, or figure; default: the next task"
+    )
+    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--again", action="store_true", help="the last hint once more")
+    options = parser.parse_args()
+    day, wanted = find_day(options.day or started_day()), None
+    if options.task and not options.task[0].isdecimal():
+        return show_deliverable(day, options.task)
+    if options.task:
+        day, wanted = find_task(options.task)
+    left, problem = check(day, wanted)
+    if problem:
+        print(cli.wrapped(problem))
+        print("\nFix that first: until then no task can be judged.")
+        return cli.EXIT_FAILED
+    if left:
+        show_hint(left[0], options.again)
+    elif wanted:
+        show_solution(day, wanted)
+    else:
+        print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
+        print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
+    return cli.EXIT_OK

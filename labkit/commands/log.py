@@ -1,0 +1,137 @@
+"""Add a row to the metrics log from the shell, or look after the log.
+
+    python3 scripts/log_metric.py day=1 check=fk_identity_check metric=inv_err \\
+        value=2.2e-16 notes="after the fix"
+    python3 scripts/log_metric.py --check      every bad line, and why
+    python3 scripts/log_metric.py --restore    rows that were refused, put back
+
+check=, metric= and value= are needed; date= and git_sha= are filled in. The
+other fields: run_id day seed config method n_trials n_failures notes.
+"""
+
+import argparse
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.base.words import command, count
+from labkit.log import append_row
+from labkit.log.progress import watched
+from labkit.log.rows import Row, typed
+from labkit.log.scan import Line, scan
+from labkit.log.upkeep import came_back, restore, unsaved_rows
+from robo47.errors import Robo47Error
+from robo47.paths import METRICS_CSV, shown
+
+NEEDED = ("check", "metric", "value")
+EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
+
+
+def main() -> int:
+    """Do the one thing that the command line asks for."""
+    args = parser().parse_args()
+    if args.check or args.restore:
+        if args.fields:
+            raise Robo47Error(
+                "give fields to add a row, or --check, or --restore; not both."
+            )
+        return look_after(args)
+    fields = parse(args.fields, args.allow_nonfinite)
+    row = append_row(
+        args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
+    )
+    print(f"added to {shown(args.file)}: {summary(row)}")
+    return cli.EXIT_OK
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the command line's description."""
+    it = cli.parser(__doc__)
+    it.add_argument("fields", nargs="*", metavar="FIELD=VALUE", help="one row's cells")
+    does = it.add_mutually_exclusive_group()
+    does.add_argument("--check", action="store_true", help="list every bad line")
+    does.add_argument("--restore", action="store_true", help="add refused rows again")
+    it.add_argument(
+        "--file",
+        type=Path,
+        default=METRICS_CSV,
+        metavar="CSV",
+        help="the log; default metrics/metrics.csv",
+    )
+    it.add_argument(
+        "--sync",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="have the row on the disk before returning (default: yes)",
+    )
+    it.add_argument(
+        "--allow-nonfinite", action="store_true", help="record NaN and infinity"
+    )
+    return it
+
+
+def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
+    """Return the fields of `name=value` words, or say all that is wrong with them."""
+    fields: dict[str, str] = {}
+    faults = []
+    for word in given:
+        name, equals, value = word.partition("=")
+        if not equals:
+            faults.append(f'"{word}" is not FIELD=VALUE')
+        elif name in fields:
+            faults.append(f'"{name}" is given twice')
+        else:
+            fields[name] = value
+    missing = [name for name in NEEDED if not fields.get(name)]
+    if missing:
+        faults.append(f"a row needs {', '.join(missing)}")
+    faults += typed(fields, allow_nonfinite)[1]
+    if faults:
+        raise Robo47Error(f"not recorded: {'; '.join(faults)}. Example: {EXAMPLE}")
+    return fields
+
+
+def summary(row: Row) -> str:
+    """Return a row in a few words."""
+    return f"{row['check']} {row['metric']} = {row['value']}"
+
+
+def look_after(args: argparse.Namespace) -> int:
+    """Check or restore; return the exit code."""
+    path = args.file
+    if args.restore:
+        print(f"{count(restore(path), 'row')} put back into {shown(path)}")
+        return cli.EXIT_OK
+    return show_check(path)
+
+
+def show_check(path: Path) -> int:
+    """Print what is wrong with the log; return 1 if anything is."""
+    rows, bad = 0, 0
+    back = came_back(path)
+    notes = []
+    for line in watched(scan(path), path):
+        rows += line.row is not None
+        if line.problem:
+            bad += 1
+            print(f"line {line.number}: {line.problem}{end_of(line)}")
+        elif line.text in back:
+            notes.append(line)
+    for line in notes:
+        print(
+            f"note, line {line.number}: a commit took this row out or edited it, and a"
+            f" merge brought it back; remove it if it should go{end_of(line)}"
+        )
+    if bad:
+        print("In an editor, correct or delete them. No other line is affected.")
+    waiting = unsaved_rows(path)
+    if waiting:
+        waits = f"{count(waiting, 'refused row')} {'waits' if waiting == 1 else 'wait'}"
+        print(f"{waits}. To add what waits: {command('--restore', path)}")
+    print(f"{shown(path)}: {count(rows, 'row')}, {count(bad, 'problem')}")
+    return cli.EXIT_FAILED if bad or waiting else cli.EXIT_OK
+
+
+def end_of(line: Line) -> str:
+    """Return a line's last characters, on a line of their own."""
+    text = line.text if len(line.text) <= 66 else "..." + line.text[-63:]
+    return f"\n    {text}"

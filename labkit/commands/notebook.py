@@ -1,0 +1,236 @@
+"""Turn a day's lab script into a notebook, for a headless machine or Colab.
+
+    make notebook DAY=1                              write it
+    python3 scripts/make_notebook.py --day 1         the same
+    python3 scripts/make_notebook.py --check         only say if it is old
+
+The script is the only source: its functions and the steps of its main() become
+cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
+"""
+
+import ast
+import contextlib
+import re
+import textwrap
+import tomllib
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, started_day
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
+MARKER = re.compile(r"^ *# (?:end)?region (\S+)\n", re.MULTILINE)
+# The function's own: the end marker of the one before it comes first.
+TASK = re.compile(r"^ *# region (\S+)$", re.MULTILINE)
+LAST = "Record the number"
+
+SETUP = """
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+REPOSITORY = ""  # on Colab: the address that you would give to git clone
+
+if importlib.util.find_spec("robo47") is None:  # Colab, or a kernel without the kit
+    kit = Path("robo47-kit")
+    if not kit.exists():
+        assert REPOSITORY, "set REPOSITORY above, then run this cell again"
+        subprocess.run(["git", "clone", "--depth=1", REPOSITORY, kit], check=True)
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--editable"]
+    subprocess.run([*pip, f"{kit}[notebook]"], check=True)
+    subprocess.run([sys.executable, kit / "scripts" / "fetch_menagerie.py"], check=True)
+    sys.path.insert(0, str(kit.resolve()))  # else it shows only after a restart
+
+from robo47.paths import ROOT
+
+sys.path.insert(0, str(ROOT / "WEEK" / "src"))
+__file__ = str(ROOT / "WEEK" / "src" / "SCRIPT.py")  # as in a script
+sys.argv = ["SCRIPT"]  # add "--no-log" to leave metrics/metrics.csv alone
+"""
+
+
+def build(day: Day) -> str:
+    """Return a day's notebook as the text of its file.
+
+    Raises:
+        Robo47Error: jupytext is not installed.
+    """
+    try:
+        import jupytext
+    except ModuleNotFoundError:
+        raise Robo47Error(
+            "jupytext is not installed; run make notebook, which brings it"
+        ) from None
+    source = day.source.read_text("utf-8")
+    tree, lines = ast.parse(source), source.splitlines(keepends=True)
+    cells = [*head(day, tree), *library(tree, lines), *lab(day, tree, lines)]
+    notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")
+    notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
+    for i, cell in enumerate(notebook.cells):
+        cell["id"] = f"cell-{i:02}"  # random ones would differ at every run
+    return jupytext.writes(notebook, fmt="ipynb").rstrip("\n") + "\n"
+
+
+def notebook_of(day: Day) -> Path:
+    """Return where a day's notebook is."""
+    return day.folder / "notebooks" / Path(day.script).with_suffix(".ipynb").name
+
+
+def extras(day: Day) -> dict[str, list[str]]:
+    """Return the cells that come after a step: {"1": [...], ..., "end": [...]}.
+
+    Raises:
+        Robo47Error: the day's notebook.toml is not right; says where.
+    """
+    path = day.own / "notebook.toml"
+    if not path.exists():
+        return {}
+    found: dict[str, list[str]] = {}
+    try:
+        for cell in tomllib.loads(path.read_text("utf-8"))["cells"]:
+            words, lines = cell["text"], cell.get("code", "")
+            found.setdefault(str(cell["after"]), []).extend(drawing(words, lines))
+    except (ValueError, KeyError, TypeError) as error:
+        raise Robo47Error(
+            f"{shown(path)}: {type(error).__name__}: {error}; expected [[cells]] with "
+            "after, text and code"
+        ) from None
+    return found
+
+
+def text(words: str) -> str:
+    """Return a cell of text."""
+    return "# %% [markdown]\n" + textwrap.indent(words.strip(), "# ", lambda _: True)
+
+
+def code(lines: str, tags: str = "") -> str:
+    """Return a cell of code, without the markers of a task's gap."""
+    return f"# %%{tags}\n{textwrap.dedent(MARKER.sub('', lines)).strip()}"
+
+
+def drawing(words: str, lines: str) -> list[str]:
+    """Return two cells; where nothing draws, "run all" goes on with the next."""
+    cells = [text(words)]
+    return [*cells, code(lines, ' tags=["raises-exception"]')] if lines else cells
+
+
+def head(day: Day, tree: ast.Module) -> list[str]:
+    """Return the title and the set-up."""
+    title, *about = (ast.get_docstring(tree) or "").split("\n\n")
+    prose = [part for part in about if not part.startswith(" ")]  # not the commands
+    made = (
+        f"Made from `{shown(day.source)}` by `make notebook`: change it there. "
+        "Run the cells from top to bottom."
+    )
+    setup = SETUP.replace("WEEK", day.folder.name)
+    setup = setup.replace("SCRIPT", Path(day.script).stem)
+    return [text("\n\n".join([f"# {title}", *prose, made])), code(setup)]
+
+
+def library(tree: ast.Module, lines: list[str]) -> list[str]:
+    """Return what stands before main(): the constants, then a function per cell."""
+    docstring, *nodes = tree.body[: tree.body.index(find_main(tree))]
+    constants, functions = "", []
+    end = docstring.end_lineno
+    for node in nodes:
+        segment = "".join(lines[end : node.end_lineno])
+        end = node.end_lineno
+        if isinstance(node, ast.Try):  # whose message is for a shell
+            wanted = lines[node.body[0].lineno - 1 : node.body[-1].end_lineno]
+            segment = "\n" + textwrap.dedent("".join(wanted))
+        if isinstance(node, ast.FunctionDef):
+            task = "".join(TASK.findall(segment)[:1])
+            name = f"{task} `{node.name}`".strip()
+            functions += [text(f"### {name}"), code(segment)]
+        elif ast.unparse(node) != "import kit":  # a notebook has its kernel already
+            constants += segment
+    return [code(constants), text("## The functions"), *functions]
+
+
+def lab(day: Day, tree: ast.Module, lines: list[str]) -> list[str]:
+    """Return main(): a heading and a cell per step, and what the day adds."""
+    cells, more = [text("## The lab")], extras(day)
+    for title, body in sections(day, tree, lines):
+        cells += [text(f"### {title}")] if title else []
+        cells.append(code(body))
+        cells += more.pop(title.partition(".")[0], [])
+    cells += more.pop("end", [])
+    if more:
+        raise Robo47Error(f"day {day.number}: no step {min(more)} to add a cell after")
+    return cells
+
+
+def sections(day: Day, tree: ast.Module, lines: list[str]) -> list[tuple[str, str]]:
+    """Return the titles and bodies of main()'s steps; the first has no title."""
+    docstring, *nodes = find_main(tree).body
+    names = literals(tree)
+    found, title, body = [], "", ""
+    end = docstring.end_lineno
+    for node in nodes:
+        segment = "".join(lines[end : node.end_lineno])
+        end = node.end_lineno
+        method, arguments = lab_call(node)
+        if isinstance(node, ast.Return) and node.value:
+            found.append((title, body))
+            title, body = LAST, f"\n    {ast.unparse(node.value)};"  # no "Out: 0"
+        elif method == "step":
+            found.append((title, body))
+            title, body = evaluate(arguments[0], names, day.script), ""
+        else:
+            body += segment
+    return [*found, (title, body)]
+
+
+def find_main(tree: ast.Module) -> ast.FunctionDef:
+    """Return the definition of main()."""
+    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
+    return next(node for node in functions if node.name == "main")
+
+
+def lab_call(node: ast.stmt) -> tuple[str, list[ast.expr]]:
+    """Return the method and the arguments of `lab.method(...)`, or "" and none."""
+    call = node.value if isinstance(node, ast.Expr) else None
+    if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+        return "", []
+    on_lab = isinstance(call.func.value, ast.Name) and call.func.value.id == "lab"
+    return (call.func.attr, call.args) if on_lab else ("", [])
+
+
+def literals(tree: ast.Module) -> dict[str, object]:
+    """Return the constants that headings may name, such as CONFIGURATIONS."""
+    names: dict[str, object] = {}
+    for node in tree.body:
+        if isinstance(node, ast.Assign):
+            with contextlib.suppress(ValueError):  # not a literal
+                value = ast.literal_eval(node.value)
+                exec(f"{ast.unparse(node.targets[0])} = value", {"value": value}, names)
+    return names
+
+
+def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
+    """Return the words of a heading, an f-string or a plain one."""
+    return str(eval(compile(ast.Expression(heading), script, "eval"), names))
+
+
+def main() -> int:
+    """Write a notebook, or check it."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--check", action="store_true", help="write nothing")
+    options = parser.parse_args()
+    day = find_day(options.day or started_day())
+    path, fresh = notebook_of(day), build(day)
+    if path.exists() and fresh == path.read_text("utf-8"):
+        print(f"{shown(path)} is up to date")
+        return cli.EXIT_OK
+    if options.check:
+        print(f"{shown(path)} is out of date: make notebook DAY={day.number}")
+        return cli.EXIT_FAILED
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(fresh, "utf-8", newline="\n")
+    print(f"{shown(path)} written")
+    print("Open it with Jupyter or VS Code (kernel .venv).")
+    return cli.EXIT_OK

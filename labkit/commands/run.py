@@ -1,0 +1,44 @@
+"""Run a day's lab: your own copy of it, or the kit's.
+
+    python3 scripts/run_day.py            your copy of the last day you began
+    python3 scripts/run_day.py 1          of day 1 (make run DAY=1)
+    python3 scripts/run_day.py 1 --kit    the kit's own, complete (make day1)
+
+Other options go to the lab, such as --no-log.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.lesson.day import find_day, started_day
+from labkit.lesson.originals import require_kits
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def main() -> int:
+    """Find the lab by its manifest and go on in it."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("--kit", action="store_true", help="the kit's, not yours")
+    options, others = parser.parse_known_args()
+    day = find_day(options.day or started_day())
+    if options.kit:
+        require_kits(day)
+    elif not day.work.is_file():
+        raise Robo47Error(
+            f"{shown(day.work)} is not there; first: make start DAY={day.number}"
+        )
+    return go_on(day.source if options.kit else day.work, others)
+
+
+def go_on(script: Path, arguments: list[str]) -> int:
+    """Run a script in place of this one, as if it had been started itself."""
+    command = [sys.executable, str(script), *arguments]
+    sys.stdout.flush()
+    if os.name == "nt":  # execv there returns to the shell before the script has ended
+        return subprocess.run(command, check=False).returncode
+    os.execv(command[0], command)

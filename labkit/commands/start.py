@@ -1,0 +1,90 @@
+"""Start a day: write your copy of its lab script, with the tasks left for you to do.
+
+    python3 scripts/start_day.py 1                 (make start DAY=1)
+    python3 scripts/start_day.py 1 --reset 1.4     put one task's gap back
+                                                  (make start RESET=1.4)
+
+A file that is there is never overwritten, and a reset keeps your old text beside it.
+"""
+
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.lesson.originals import require_kits
+from labkit.lesson.starter import make_starter, put_back, read_script
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def starter_of(day: Day) -> str:
+    """Return the starter of a day's lab script."""
+    return make_starter(read_script(day.source), shown(day.source), day.number)
+
+
+def start(day: Day) -> int:
+    """Write the starter, unless the student's file is there."""
+    work, first = day.work, day.tasks[0]
+    require_kits(day)
+    starter = starter_of(day)
+    work.parent.mkdir(parents=True, exist_ok=True)
+    copy_kit(day)
+    try:
+        with work.open("x", encoding="utf-8") as file:
+            file.write(starter)
+    except FileExistsError:
+        print(f"{shown(work)} is there already and stays as it is.")
+        print(f"To begin one task anew: make start RESET={first.id} (with its number);")
+        print(f"all of it: move that file away, then make start DAY={day.number}")
+        return cli.EXIT_OK
+    print(f"Day {day.number}: {day.title}, about {day.minutes} minutes.")
+    print(f"Your copy of the lab: {shown(work)}")
+    print(f"It has {len(day.tasks)} tasks, from {first.id} ({first.functions[0]}) on.")
+    print(f"Open it in your editor, then: make check DAY={day.number}")
+    return cli.EXIT_OK
+
+
+def copy_kit(day: Day) -> None:
+    """Put `kit.py` beside the student's file: it lets any Python run the lab."""
+    original, copy = day.source.with_name("kit.py"), day.work.with_name("kit.py")
+    if original.is_file() and not copy.exists():
+        copy.write_bytes(original.read_bytes())
+
+
+def reset(task_id: str) -> int:
+    """Put one task's gaps back; keep what stood there."""
+    day, task = find_task(task_id)
+    work = day.work
+    require_kits(day)
+    text = read_script(work)
+    if not text.strip():
+        raise Robo47Error(
+            f"{shown(work)} is empty. Delete it, then: make start DAY={day.number}"
+        )
+    crlf = b"\r\n" in work.read_bytes()
+    kept = free_name(work, task_id)
+    kept.write_bytes(work.read_bytes())
+    text = put_back(text, starter_of(day), task.functions)
+    work.write_text(text, "utf-8", newline="\r\n" if crlf else "\n")
+    print(f"task {task_id} is back at its start in {shown(work)}")
+    print(f"your file as it was: {shown(kept)}")
+    return cli.EXIT_OK
+
+
+def free_name(work: Path, task_id: str) -> Path:
+    """Return a name beside the student's file that nothing has yet."""
+    number = 1
+    while work.with_suffix(f".before-{task_id}-{number}.txt").exists():
+        number += 1
+    return work.with_suffix(f".before-{task_id}-{number}.txt")
+
+
+def main() -> int:
+    """Start a day or reset a task."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
+    options = parser.parse_args()
+    if options.reset:
+        return reset(options.reset)
+    return start(find_day(options.day or started_day()))

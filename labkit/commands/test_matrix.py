@@ -1,0 +1,96 @@
+"""Run the tests on the oldest and the newest MuJoCo and Python that the kit claims.
+
+    make test-matrix                                  all four
+    python3 scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
+    python3 scripts/test_matrix.py --pytest "-k se3"   only some of the tests
+
+Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that is
+not on this machine's PATH is named and left out.
+"""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from labkit.base import cli
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+PYTHONS = ("3.11", "3.13")
+MUJOCOS = ("3.3.0", "4.0.0")  # pyproject.toml's floor, and constraints.txt's pin
+FOLDER = ROOT / ".venv-matrix"
+
+
+def find_python(version: str) -> str | None:
+    """Return the path of a Python that starts and has that version."""
+    for name in (f"python{version}", "python3", sys.executable):
+        path = shutil.which(name)
+        test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
+        if (
+            path
+            and subprocess.run([path, "-c", test], capture_output=True).returncode == 0
+        ):
+            return path
+    return None
+
+
+def environment(python: str, version: str, mujoco: str) -> Path:
+    """Return the Python of an environment with that MuJoCo, making it on first use."""
+    home = FOLDER / f"python{version}-mujoco{mujoco}"
+    inside = home / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    ready = home / ".ready"
+    if ready.exists():
+        return inside
+    pins = (ROOT / "constraints.txt").read_text("utf-8").splitlines()
+    kept = [pin for pin in pins if not pin.startswith(("mujoco==", "mujoco-"))]
+    kept += [pin for pin in pins if pin.startswith("mujoco-menagerie==")]
+    FOLDER.mkdir(exist_ok=True)
+    constraints = FOLDER / f"constraints-{mujoco}.txt"
+    constraints.write_text("\n".join([*kept, f"mujoco=={mujoco}"]) + "\n", "utf-8")
+    run([python, "-m", "venv", "--clear", str(home)])
+    install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    run([str(inside), *install, "-c", str(constraints), "-e", ".[test]"])
+    ready.touch()
+    return inside
+
+
+def run(command: list[str]) -> None:
+    """Run a quiet command in the clone, or say how it failed."""
+    done = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if done.returncode != 0:
+        raise Robo47Error(
+            f"`{shlex.join(command)}` failed: {done.stderr[-500:].strip()}"
+        )
+
+
+def main() -> int:
+    """Run every pair and print one line for each."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--python", nargs="+", default=PYTHONS, metavar="X.Y")
+    parser.add_argument("--mujoco", nargs="+", default=MUJOCOS, metavar="X.Y.Z")
+    parser.add_argument("--pytest", default="", help="options for pytest, in quotes")
+    options = parser.parse_args()
+    failed, lines = False, []
+    for version in options.python:
+        path = find_python(version)
+        for mujoco in options.mujoco:
+            name = f"Python {version}, MuJoCo {mujoco}"
+            if path is None:
+                lines.append(f"left out  {name}: no such Python on this machine")
+                continue
+            print(f"matrix: {name} ...", flush=True)
+            inside = environment(path, version, mujoco)
+            tests = [str(inside), "-m", "pytest", "-q", *shlex.split(options.pytest)]
+            done = subprocess.run(tests, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+            failed |= done.returncode != 0
+            if done.returncode != 0:
+                print(done.stdout)
+            verdict = "PASS" if done.returncode == 0 else "FAIL"
+            lines.append(f"{verdict:8}  {name}: {done.stdout.splitlines()[-1]}")
+    print("\n".join(lines))
+    return cli.EXIT_FAILED if failed else cli.EXIT_OK

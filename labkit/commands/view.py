@@ -1,0 +1,173 @@
+"""See the arm, its frames, and your own code move it, beside MuJoCo's answer.
+
+    make view                        in your browser; DAY=2: that day's tabs
+    make view ARGS=--screenshot      a picture, without a window
+    make view ARGS="--clip arm.gif"  the arm moving, and your own code's arm
+    make view ARGS=--native          MuJoCo's own window
+    python3 scripts/view_panda.py 2  without make: the page of Day 2
+
+In the browser: drag a joint. Your own function draws a red arm wherever it
+differs from MuJoCo's, and is asked again at every save; it runs in the checker's
+sandbox. The page listens on this machine alone, at an address nobody else knows.
+"""
+
+import argparse
+import functools
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+
+from labkit.base import cli
+from labkit.inspector import native_viewer
+from labkit.lesson.day import Day, find_day, started_day
+from robo47 import panda
+from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.panda import files
+from robo47.paths import shown
+
+DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
+CONFIGURATIONS = ("ready", "home", "zero")
+
+
+def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
+    """Serve the inspector until Ctrl-C."""
+    if importlib.util.find_spec("viser") is None:
+        raise Robo47Error(
+            "the inspector needs viser, which this Python does not have. "
+            "`make view` installs it, or: python3 scripts/setup_env.py view"
+        )
+    from labkit.inspector.arm import Arm
+    from labkit.inspector.serve import Show, serve
+
+    about = panda.describe(entry)
+    print(about, flush=True)
+    if files.panda_folder() is None:
+        missing = (
+            "The robot's meshes are not here: simple shapes are drawn, with the same "
+            "frames (python3 scripts/fetch_menagerie.py fetches them)"
+        )
+        print(missing)
+        about = f"{about}. {missing}"
+    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
+    arm.move(arm.named_q[start])
+    dressed = functools.partial(panda.load, entry, meshes=True)
+    return serve(Show(day, arm, about, dressed, simple), port)
+
+
+def native() -> int:
+    """Open MuJoCo's window, or say in one line why not."""
+    why = native_viewer.obstacle()
+    if why:
+        raise Robo47Error(f"{why}. The browser needs none of that: make view")
+    return native_viewer.show()
+
+
+def screenshot(path: Path, start: str) -> int:
+    """Write a picture of the arm, drawn offscreen; overwrite nothing."""
+    if path.exists():
+        raise Robo47Error(
+            f"{shown(path)} is there already and stays as it is; name another file: "
+            "--screenshot other.png"
+        )
+    try:
+        from labkit.figures.screenshot import screenshot as draw
+    except ModuleNotFoundError as missing:
+        if missing.name != "PIL":
+            raise
+        raise Robo47Error(
+            "pictures need Pillow, which is not installed yet: "
+            "make view ARGS=--screenshot (or: python3 scripts/setup_env.py figures)"
+        ) from None
+    picture = draw(configuration(start), start)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    picture.save(path)
+    print(f"wrote {shown(path)}")
+    return cli.EXIT_OK
+
+
+def clip(path: Path, day: Day, file: Path | None) -> int:
+    """Write a clip of the arm with the student's own beside it; overwrite nothing."""
+    if path.exists():
+        raise Robo47Error(f"{shown(path)} is there already; name another file")
+    try:
+        from labkit.inspector.film import film
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"a clip needs {missing.name}, which is not installed yet: "
+            'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py view)'
+        ) from None
+    size = film(path, day, file)
+    print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
+    return cli.EXIT_OK
+
+
+def configuration(name: str) -> Array:
+    """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
+    if name == "ready":  # the handout's home_q; `home` is the model's own key
+        return panda.READY_Q
+    model = panda.load("panda_nohand")
+    return panda.home_q(model) if name == "home" else np.zeros(model.nq)
+
+
+def port(text: str) -> int:
+    """Return a port number, 0 to 65535."""
+    number = int(text)
+    if not 0 <= number <= 65535:
+        raise argparse.ArgumentTypeError(f"{number} is not a port; 0 to 65535 are")
+    return number
+
+
+def parse() -> argparse.Namespace:
+    """Read the command line."""
+    parser = cli.parser(__doc__)
+    add, how = parser.add_argument, parser.add_mutually_exclusive_group()
+    add("day", type=int, nargs="?", help="whose tabs and file; the last you started")
+    how.add_argument("--web", action="store_true", help="in a browser; the default")
+    how.add_argument("--native", action="store_true", help="MuJoCo's own window")
+    how.add_argument(
+        "--screenshot", metavar="FILE", nargs="?", type=Path, const=DAYS_OWN,
+        help="write a picture; without FILE the one that the day hands in",
+    )  # fmt: skip
+    how.add_argument(
+        "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
+    )
+    add("--file", type=Path, help="with --clip: whose code, in place of your own")
+    add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
+    add("--port", type=port, default=8080, help="8080; 0 for any")
+    says = "ready (the labs' home_q), home (the model's own key) or zero"
+    add("--start", choices=CONFIGURATIONS, default="ready", help=says)
+    says = "which model, for --web; panda has the hand"
+    add("--entry", choices=("panda_nohand", "panda"), help=says)
+    return parser.parse_args()
+
+
+def picture_of(options: argparse.Namespace) -> Path:
+    """Return which file a picture is written to.
+
+    Raises:
+        Robo47Error: no file is named, and the day hands no figure in.
+    """
+    if options.screenshot != DAYS_OWN:
+        return options.screenshot
+    day = find_day(options.day or started_day())
+    if not day.figure:
+        raise Robo47Error(f"day {day.number} hands no figure in; name a file")
+    return day.folder / day.figure
+
+
+def main() -> int:
+    """Show the Panda in the way that was asked for."""
+    options = parse()
+    if options.screenshot:
+        if options.entry:
+            raise Robo47Error("--entry is for --web; a picture has the hand on")
+        return screenshot(picture_of(options), options.start)
+    if options.native:
+        return native()
+    day = find_day(options.day or started_day())
+    if options.clip:
+        return clip(options.clip, day, options.file)
+    entry = options.entry or "panda_nohand"
+    return web(day, entry, options.start, options.port, options.simple)

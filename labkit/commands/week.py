@@ -1,0 +1,82 @@
+"""Run every lab of a week and print its numbers in one table.
+
+    python3 scripts/run_week.py 1           week 1 (make week1)
+    python3 scripts/run_week.py 1 --kit     the kit's labs alone
+
+Each day runs with your own file where you began it, else with the kit's. The numbers
+are the rows that the labs record, judged by the limits of the manifest; they are not
+added to your log.
+"""
+
+from collections.abc import Sequence
+
+from tqdm import tqdm
+
+from labkit.base import cli
+from labkit.base.words import count
+from labkit.lesson.lab import number_of
+from labkit.report.week_labs import Ran, days_of, name_of, run_labs
+
+Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
+HEAD = ("day", "whose", "check", "number", "limit", "")
+NAMED = 30  # columns of a number's name
+
+
+def lines_of(ran: Ran) -> list[Line]:
+    """Return a line per number of a day."""
+    lines: list[Line] = []
+    for metric in ran.day.metrics:
+        value = ran.value(metric)
+        number = "none" if value is None else number_of(value)
+        verdict = "PASS" if ran.passes(metric) else "FAIL"
+        name = name_of(ran.day, metric)[:NAMED]
+        whose = "yours" if ran.mine else "kit's"
+        lines.append((str(ran.day.number), whose, name, number, metric.limit, verdict))
+    return lines
+
+
+def as_table(lines: list[Line]) -> str:
+    """Return the table, its columns as wide as they must be."""
+    widths = [max(len(row[i]) for row in (HEAD, *lines)) for i in range(len(HEAD))]
+    rows = []
+    for line in (HEAD, *lines):
+        cells = "  ".join(map(str.ljust, line[:-1], widths))
+        mood = "good" if line[-1] == "PASS" else "bad"
+        rows.append(f"{cells}  {cli.paint(line[-1], mood)}" if line[-1] else cells)
+    return "\n".join(row.rstrip() for row in rows)
+
+
+def tell_failure(ran: Ran) -> str:
+    """Return which lab did not pass, why, and how to see it."""
+    number = ran.day.number
+    again = f"make run DAY={number}" if ran.mine else f"make day{number}"
+    why = ran.why or "a number is missing or beyond its limit"
+    return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
+
+
+def verdict(labs: Sequence[Ran], failed: int) -> int:
+    """Print one line on all of it; return the exit code."""
+    counted = count(len(labs), "lab")
+    if failed:
+        return cli.conclude(False, f"{failed} of {counted} did not pass")
+    numbers = count(sum(len(ran.day.metrics) for ran in labs), "number")
+    return cli.conclude(True, f"{counted}, {numbers} within their limits")
+
+
+def main() -> int:
+    """Run a week."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("week", type=int, nargs="?", default=1, help="default: 1")
+    parser.add_argument("--kit", action="store_true", help="the kit's labs alone")
+    parser.add_argument(
+        "--no-log", action="store_true", help="as the labs have it; a week never logs"
+    )
+    options = parser.parse_args()
+    days = days_of(options.week)
+    running = run_labs(days, kits=options.kit)
+    labs = list(tqdm(running, "labs", len(days), leave=False, disable=None))
+    print(as_table([line for ran in labs for line in lines_of(ran)]))
+    failed = [ran for ran in labs if not ran.passed]
+    for ran in failed:
+        print(tell_failure(ran))
+    return verdict(labs, len(failed))
