@@ -4,7 +4,7 @@ Widths are in per cent and texts in pixels, so a chart on a phone has shorter ba
 not smaller letters. No script is needed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -99,6 +99,15 @@ def _labels(label: str, base: int) -> list[str]:
         f'<text x="0" y="{base}" fill="var(--ink)"{kind}>{escape(text)}</text>'
         for kind, text in ways.items()
     ]
+
+
+def legend(words: Iterable[tuple[str, str]]) -> str:
+    """Return what the colours of a chart mean: each a role, and its word."""
+    marks = "".join(
+        f'<span><i style="background:{colour(role)}"></i>{word}</span>'
+        for role, word in words
+    )
+    return f'<p class="legend muted">{marks}</p>'
 
 
 def colour(role: str) -> str:
