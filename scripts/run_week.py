@@ -15,8 +15,7 @@ import kit  # noqa: F401 (goes on in the kit's own Python)
 from tqdm import tqdm
 
 from labkit.base import cli
-from labkit.base.words import count
-from labkit.lesson.lab import number_of
+from labkit.base.words import count, number_of
 from labkit.report.week_labs import Ran, days_of, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict

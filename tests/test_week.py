@@ -11,12 +11,13 @@ from dataclasses import replace
 import pytest
 from test_report import MEASURE, dom
 
+from labkit.base import store
 from labkit.check.journal import Met
-from labkit.handin.rows import file_mark
 from labkit.lesson.day import Metric, find_day
+from labkit.lesson.marks import file_mark
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
-from labkit.report.week_facts import DayFacts, hints_given, minutes_of
+from labkit.report.week_facts import DayFacts, minutes_of
 from labkit.report.week_labs import days_of, name_of, week_of
 from labkit.report.week_numbers import Number, numbers_of
 from robo47.errors import Robo47Error
@@ -180,9 +181,9 @@ def test_hints_that_cannot_be_read_are_none(tmp_path, text):
     (tmp_path / ".robo47").mkdir()
     file = tmp_path / ".robo47" / "hints.json"
     file.write_text(text)
-    assert hints_given(tmp_path) == {}
+    assert store.hints_given(tmp_path) == {}
     file.write_text(json.dumps({"1.1": 2}))
-    assert hints_given(tmp_path) == {"1.1": 2}
+    assert store.hints_given(tmp_path) == {"1.1": 2}
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
-from labkit.report.style import STYLE as REPORT_STYLE
-
 STATUS = {  # role of the colour, mark in the table, word in the legend
     "passed": ("pass", "✓", "passed"),
     "close": ("limit", "≈", "close"),
@@ -19,9 +17,7 @@ STATUS = {  # role of the colour, mark in the table, word in the legend
     "ungraded": ("dark", "?", "not graded"),
 }
 # Bars differ in lightness too, for those who do not tell red from green.
-STYLE = (
-    REPORT_STYLE
-    + """
+STYLE = """
 :root { --none: #b9c2cb; --dark: #4a525b; --broken: #7a4fa3; --bar-pass: #14602f;
   --bar-fail: #f28b7d; --bar-limit: #d8a53c; }
 @media (prefers-color-scheme: dark) { :root { --none: #4a5560; --dark: #b9c2cb;
@@ -53,7 +49,6 @@ td.mark, th.mark { text-align: center; padding-right: 8px; }
   td:first-child { max-width: 130px; overflow: hidden; text-overflow: ellipsis; } }
 h2 small { color: var(--muted); font-weight: 400; }
 """
-)
 LINE, TEXT, BAR = 40, 13, 12  # pixels: a row's height, a letter's, a bar's
 FITS = 28  # letters of a label on a phone, where the words at the right need room too
 

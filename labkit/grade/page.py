@@ -31,7 +31,6 @@ def render(course: Course) -> str:
     return printable(
         html.page(
             f"Day {day.number}: {escape(day.title)}",
-            STYLE,
             _about(course),
             _tiles(course, {state: len(some) for state, some in by_state.items()}),
             _mistakes(overview.diagnoses(day, class_), len(class_)),
@@ -40,6 +39,7 @@ def render(course: Course) -> str:
             list_alike(course),
             list_refused(course),
             table(course),
+            style=STYLE,
         )
     )
 

@@ -21,7 +21,7 @@ STYLE = PAGE_STYLE + "td.n, th.n { text-align: right; }\n"
 def render(week: Week) -> str:
     """Return the whole page."""
     title, about = _title(week.days), _about(week)
-    return printable(html.page(title, STYLE, about, _days(week), _table(week)))
+    return printable(html.page(title, about, _days(week), _table(week), style=STYLE))
 
 
 def _title(days: Sequence[Day]) -> str:

@@ -137,6 +137,18 @@ class Day:
         """The day's own folder: questions.py, submissions/ and so on."""
         return self.folder / f"day{self.number}"
 
+    @property
+    def files(self) -> dict[str, str]:
+        """What it hands in: paths from the clone's top, by what they are."""
+        week = self.folder.name
+        found = {
+            "script": f"{week}/work/{self.script}",
+            "worksheet": self.worksheet and f"{week}/{self.worksheet}",
+            "figure": self.figure and f"{week}/{self.figure}",
+            "log": self.metrics and "metrics/metrics.csv",
+        }
+        return {what: path for what, path in found.items() if path}
+
     @cached_property
     def _needs(self) -> dict[str, tuple[str, ...]]:
         closed: dict[str, set[str]] = {}

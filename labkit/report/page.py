@@ -9,7 +9,6 @@ from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
 from labkit.report.series import Report, Series, value_of
-from labkit.report.style import STYLE
 
 RECENT = 20  # runs listed under a plot
 LISTED = 200  # lines listed that need a look
@@ -38,7 +37,6 @@ def render(report: Report, heading: str, week: int | None = None) -> str:
     days = groupby(report.series, key=lambda series: series.day)
     return html.page(
         "robo47 metrics",
-        STYLE,
         escape(heading) + beside,
         _tiles(report),
         *([] if report.rows else [NOTHING]),

@@ -4,18 +4,16 @@ Hints and mistakes come from `.robo47/`, which git ignores: they are for the stu
 eyes and nobody else's.
 """
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from labkit.base import store
 from labkit.base.git import GitError, run
-from labkit.check import journal, own_functions
+from labkit.check import journal, states
 from labkit.check.journal import Met
-from labkit.handin.handin import day_files
 from labkit.lesson.day import Day
-from labkit.report.series import Series
-from labkit.report.thresholds import Key
+from labkit.report.series import Key, Series
 from labkit.report.week_numbers import Number, numbers_of
 from robo47.paths import ROOT
 
@@ -31,11 +29,13 @@ class DayFacts:
         numbers: the student's beside the kit's.
         passed: how many tasks pass; side quests are not counted.
         tasks: of how many.
-        own: how many of the day's functions the capstone takes from the student.
+        own: how many of the day's functions are in tasks that pass.
         functions: of how many.
         minutes: from the first to the last commit, None where git cannot tell.
         hints: how many were asked for.
         met: the named mistakes, in the order they were met.
+        checked: whether `make check` has seen all tasks in the file as it is; what it
+            has not seen does not count as passed.
     """
 
     day: Day
@@ -47,6 +47,7 @@ class DayFacts:
     minutes: int | None
     hints: int
     met: Sequence[Met]
+    checked: bool = True
 
     @property
     def begun(self) -> bool:
@@ -55,27 +56,27 @@ class DayFacts:
 
 
 def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
-    """Return how a day went; a file that changed since is checked in the sandbox.
+    """Return how a day went.
 
     Args:
         day: from its manifest.
         series: the log's rows, by day, check and metric.
         root: the clone.
     """
-    statuses = own_functions.statuses(day)
-    counted = [task.id for task in day.tasks if not task.optional]
-    own = own_functions.load([day])
+    known = states.known(day)
+    passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
     return DayFacts(
         day,
         numbers_of(day, series),
-        sum(statuses[id] == "passed" for id in counted),
-        len(counted),
-        len(own.yours),
-        own.total,
+        sum(not task.optional for task in passed),
+        sum(not task.optional for task in day.tasks),
+        sum(len(task.functions) for task in passed),
+        sum(len(task.functions) for task in day.tasks),
         minutes_of(day, root),
-        sum(n for task, n in hints_given(root).items() if task in ids),
+        sum(n for task, n in store.hints_given(root).items() if task in ids),
         [m for m in journal.mistakes_met(journal.read(root)) if m.task in ids],
+        len(known) == len(ids),
     )
 
 
@@ -89,7 +90,7 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     Returns:
         None where there are no two commits, or no git.
     """
-    files = day_files(day)
+    files = day.files
     own = [files[name] for name in ("script", "figure") if name in files]
     begun = _times(root, own)
     if not begun:
@@ -98,15 +99,6 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     if "worksheet" in files:  # its first commits are the kit's own
         times += [t for t in _times(root, [files["worksheet"]]) if t > min(begun)]
     return round((max(times) - min(times)) / 60) if len(times) > 1 else None
-
-
-def hints_given(root: Path = ROOT) -> dict[str, int]:
-    """Return how many hints were asked for, by task."""
-    try:
-        seen = json.loads((root / ".robo47" / "hints.json").read_text("utf-8"))
-        return {str(task): int(count) for task, count in seen.items()}
-    except (OSError, ValueError, TypeError, AttributeError):
-        return {}
 
 
 def _times(root: Path, paths: Sequence[str]) -> list[int]:

@@ -7,11 +7,10 @@ the student's can be told apart.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from labkit.handin.rows import mark_of, marks_of
 from labkit.lesson.day import Day, Metric
+from labkit.lesson.marks import mark_of, marks_of
 from labkit.log.rows import Row
-from labkit.report.series import Series, value_of
-from labkit.report.thresholds import Key
+from labkit.report.series import Key, Series, value_of
 
 
 @dataclass(frozen=True)

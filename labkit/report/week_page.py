@@ -4,15 +4,12 @@ from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
-from labkit.lesson.lab import number_of
-from labkit.report.style import STYLE as REPORT_STYLE
+from labkit.base.words import number_of
 from labkit.report.week_facts import DayFacts
 from labkit.report.week_labs import name_of, week_of
 from labkit.report.week_numbers import Number
 
-STYLE = (
-    REPORT_STYLE
-    + """
+STYLE = """
 body { max-width: 980px; }
 td.n, th.n { text-align: right; } td.day { font-weight: 600; }
 tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
@@ -30,7 +27,6 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 @media (max-width: 500px) { th, td { padding-right: 7px; } .card { padding: 10px; }
   .bar { display: none; } td.wide { min-width: 120px; } }
 """
-)
 
 
 def render(facts: Sequence[DayFacts], heading: str) -> str:
@@ -42,7 +38,6 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
     """
     return html.page(
         title_of(facts),
-        STYLE,
         escape(heading),
         _tiles(facts),
         _numbers(facts),
@@ -51,6 +46,7 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
         '<p class="muted last">Every run as a plot: '
         '<a href="report.html">report.html</a>. '
         "Hints and mistakes are on your machine alone.</p>",
+        style=STYLE,
     )
 
 
@@ -123,8 +119,7 @@ def _days(facts: Sequence[DayFacts]) -> str:
     rows = [
         f"<tr><td class=day>{one.day.number}</td>"
         f"<td class=wide>{escape(one.day.title)}</td>"
-        f"<td>{_bar(one.passed, one.tasks)}</td>"
-        f"<td>{one.own} of {one.functions}</td>"
+        f"{_counts(one)}"
         f"<td>{minutes_in_words(one.minutes)}</td>"
         f"<td>{one.hints or '–'}</td></tr>"
         for one in facts
@@ -152,6 +147,16 @@ def _mistakes(facts: Sequence[DayFacts]) -> str:
     nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
     listed = f'<div class="chips">{chips}</div>' if met else nothing
     return html.section("The mistakes you met", listed)
+
+
+def _counts(one: DayFacts) -> str:
+    if not one.checked:
+        command = f"make check DAY={one.day.number}"
+        return (
+            f"<td colspan=2>changed since it was checked: <code>{command}</code></td>"
+        )
+    bar = _bar(one.passed, one.tasks)
+    return f"<td>{bar}</td><td>{one.own} of {one.functions}</td>"
 
 
 def _bar(passed: int, of: int) -> str:
