@@ -9,7 +9,7 @@ is an entry of the file, and is read by its type (`table.py`).
 import math
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -287,16 +287,33 @@ def _load(manifest: Path, _state: tuple[int, int] | None) -> Day:
         table = tomllib.loads(manifest.read_text("utf-8"))
     except (OSError, ValueError) as error:
         raise Robo47Error(f"{where} cannot be read: {error}") from None
-    folder = manifest.parent
-    day: Day = fill(Day, table, where, folder=folder.parent)
-    if folder.name != f"day{day.number}":
-        why = f"number is {day.number}, but the folder is {folder.name}"
-        raise Robo47Error(f"{where}: {why}")
+    day: Day = fill(Day, table, where, folder=manifest.parent.parent)
+    for fault in _faults(day, manifest.parent.name):
+        raise Robo47Error(where + fault)
+    return day
+
+
+def _faults(day: Day, folder: str) -> Iterator[str]:
+    """Say what is wrong between entries that are right by themselves."""
+    if folder != f"day{day.number}":
+        yield f": number is {day.number}, but the folder is {folder}"
     for i, metric in enumerate(day.metrics, 1):
         if metric.min is None and metric.max is None:
-            raise Robo47Error(f"{where}, metrics {i}: it has neither max nor min")
-    _check_tasks(day, where)
-    return day
+            yield f", metrics {i}: it has neither max nor min"
+    earlier: set[str] = set()
+    functions: set[str] = set()
+    for task in day.tasks:
+        id = task.id
+        if not re.fullmatch(rf"{day.number}\.\d+", id):
+            yield f", tasks {id}: id {id} is not one of day {day.number}"
+        if id in earlier:
+            yield f": two tasks have the id {id}"
+        for need in [n for n in task.needs if n not in earlier]:
+            yield f": {id} needs {need}, which is no earlier task"
+        if twice := functions & set(task.functions):
+            yield f": {id}: another task has {min(twice)} already"
+        earlier.add(id)
+        functions |= set(task.functions)
 
 
 def _manifests(root: Path) -> dict[int, Path]:
@@ -309,27 +326,3 @@ def _manifests(root: Path) -> dict[int, Path]:
                     f"two days {number[1]}: {shown(other)}, {shown(path)}"
                 )
     return found
-
-
-def _check_tasks(day: Day, where: str) -> None:
-    """Refuse an id or a function that is there twice, and a need that is no earlier."""
-    earlier: set[str] = set()
-    functions: set[str] = set()
-    for task in day.tasks:
-        if not re.fullmatch(rf"{day.number}\.\d+", task.id):
-            raise Robo47Error(
-                f"{where}, tasks {task.id}: id {task.id} is not one of day {day.number}"
-            )
-        if task.id in earlier:
-            raise Robo47Error(f"{where}: two tasks have the id {task.id}")
-        for need in task.needs:
-            if need not in earlier:
-                raise Robo47Error(
-                    f"{where}: {task.id} needs {need}, which is no earlier task"
-                )
-        if twice := functions & set(task.functions):
-            raise Robo47Error(
-                f"{where}: {task.id}: another task has {min(twice)} already"
-            )
-        earlier.add(task.id)
-        functions |= set(task.functions)

@@ -74,7 +74,7 @@ def _read(value: Any, name: str, kind: Any, least: int, where: str) -> Any:
         value = _right(value, name, parts[0] if parts else kind, where)
         return float(value) if float in (kind, *parts) else value
     tables = dataclasses.is_dataclass(parts[0])
-    right: type = dict if tables else str
+    right: Any = dict if tables else str
     found = _right([] if tables and value is None else value, name, list, where)
     if len(found) < least:
         size = "is empty" if tables else f"has {len(found)} entries; expected {least}"
