@@ -84,13 +84,7 @@ def parser() -> argparse.ArgumentParser:
     )
     it.add_argument("--day", type=int, help="one day of the course")
     it.add_argument("--check", default="", metavar="NAME", help="one check")
-    it.add_argument(
-        "--file",
-        type=Path,
-        default=METRICS_CSV,
-        metavar="CSV",
-        help="the log; default metrics/metrics.csv",
-    )
+    cli.add_log(it)
     it.add_argument(
         "--out", type=Path, metavar="FOLDER", help="default: the log's own folder"
     )

@@ -9,7 +9,9 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 END_SECONDS = 5.0  # for a killed process to be gone
 # How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
@@ -23,6 +25,29 @@ def start_options() -> dict[str, object]:
         flags = subprocess.CREATE_NEW_PROCESS_GROUP | subprocess.CREATE_NO_WINDOW
         return {"creationflags": flags}
     return {"start_new_session": True}
+
+
+def run(
+    command: Sequence[str], *, env: Mapping[str, str], **more: Any
+) -> subprocess.CompletedProcess[str]:
+    """Run a program that reads no input; return what it printed, bad bytes as "?".
+
+    Args:
+        command: its words.
+        env: its environment.
+        more: as `subprocess.run`: cwd, timeout.
+    """
+    return subprocess.run(
+        command,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+        **more,
+    )
 
 
 def end(process: subprocess.Popen[bytes]) -> None:

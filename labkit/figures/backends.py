@@ -12,7 +12,7 @@ import subprocess
 import sys
 import textwrap
 
-from labkit.base import store
+from labkit.base import processes, store
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -62,16 +62,9 @@ def probe(variables: dict[str, str]) -> str:
         variables: what it adds to the environment.
     """
     try:
-        done = subprocess.run(
-            [sys.executable, "-c", PROBE],
-            env={**os.environ, **variables},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=TIMEOUT,
-            check=False,
-        )
+        command = [sys.executable, "-c", PROBE]
+        environment = {**os.environ, **variables}
+        done = processes.run(command, env=environment, timeout=TIMEOUT)
     except subprocess.TimeoutExpired:
         return f"gave no picture within {TIMEOUT} seconds"
     if said := done.stdout.split("\n")[0]:
