@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from dataclasses import replace
 
 import pytest
@@ -316,3 +317,43 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
     assert "t not negated <span class=pass>✓ left behind" in text
     assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
     assert "report-week" not in run_in(REPORT, "--day", "1").stdout
+
+
+def test_what_changed_since_the_check_is_not_counted_and_not_run(
+    run_in, begun, clone, diary
+):
+    page = clone / "metrics" / "report-week1.html"
+    for edit, known in (("", False), ("", True), ("raise SystemExit\n", False)):
+        begun.work.write_text(begun.work.read_text("utf-8") + edit, "utf-8")
+        if known:
+            run_in("scripts/check_day.py", "1")
+        assert run_in(REPORT).returncode == 0
+        text = page.read_text("utf-8")
+        assert ("make check DAY=1" in text) is not known
+        assert ("8 of 8" in text) is known
+        says = b"Not counted, for `make check` is yet to see it: day 1."
+        assert (says in diary.read_bytes()) is not known
+
+
+def test_a_check_of_one_task_tells_nothing_of_the_others(run_in, begun, clone):
+    run_in("scripts/check_day.py", "--task", "1.1")
+    run_in(REPORT)
+    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "make check DAY=1" in page
+    run_in("scripts/check_day.py", "1")
+    run_in("scripts/check_day.py", "--task", "1.1")
+    run_in(REPORT)
+    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "8 of 8" in page
+
+
+def test_the_weeks_facts_are_found_without_mujoco_and_the_sandbox():
+    script = (
+        "import sys, labkit.report.week_facts, labkit.report.week_page\n"
+        "heads = ('numpy', 'mujoco', 'labkit.sandbox', 'robo47.capstone')\n"
+        "print([name for name in sys.modules if name.startswith(heads)])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True
+    )
+    assert done.stdout == "[]\n"

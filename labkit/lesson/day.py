@@ -22,25 +22,15 @@ from robo47.paths import ROOT, shown
 
 @dataclass(frozen=True)
 class Task:
-    """One gap of the starter.
+    """One gap of the starter."""
 
-    Attributes:
-        id: day.task, such as "1.4"; the same in code, output and worksheet.
-        title: what it is about.
-        functions: what the student writes.
-        needs: ids of the tasks that its functions may call.
-        read: the section to re-read.
-        hints: questions and pointers, in the order to give them.
-        optional: a side quest: nothing that a day hands in or a grade counts.
-    """
-
-    id: str
+    id: str  # day.task, such as "1.4"; the same in code, output and worksheet
     title: str
-    functions: tuple[str, ...]
-    read: str
-    hints: tuple[str, ...] = entry(least=2)
-    needs: tuple[str, ...] = ()
-    optional: bool = False
+    functions: tuple[str, ...]  # what the student writes
+    read: str  # the section to re-read
+    hints: tuple[str, ...] = entry(least=2)  # in the order to give them
+    needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
+    optional: bool = False  # a side quest: no part of what is handed in or graded
 
 
 @dataclass(frozen=True)
@@ -89,48 +79,29 @@ class Metric:
 
 @dataclass(frozen=True, kw_only=True)
 class Day:
-    """One day of the course; paths are relative to the week's folder.
+    """One day of the course; paths are relative to the week's folder."""
 
-    Attributes:
-        number: of the day, from 1 to 47.
-        title: what it is about.
-        see: what its lab shows, for the week's table.
-        script: file name of the lab script, in `src/` and in `work/`.
-        guide: the lab guide.
-        minutes: how long it takes.
-        readings: what to read and watch.
-        library: modules of `robo47` that are this day's answers; student code of later
-            days may import them.
-        limit: what an error must be under where no metric says more.
-        tasks: in the order to do them.
-        figure: the student's picture, "" where the day has none.
-        kit_figures: pictures of the kit's own that do not count as the student's.
-        worksheet: the student's worksheet, "" where the day has none.
-        terms: what the worksheet's glossary defines.
-        drawings: how many drawings it holds.
-        questions: how many questions it asks.
-        metrics: rows of the log.
-        folder: the week's folder.
-    """
-
-    number: int
+    number: int  # from 1 to 47
     title: str
-    see: str
-    script: str
-    guide: str
-    minutes: int
-    readings: tuple[str, ...] = ()
+    see: str  # what its lab shows, for the week's table
+    script: str  # file name of the lab script, in src/ and in work/
+    guide: str  # the lab guide
+    minutes: int  # how long it takes
+    readings: tuple[str, ...] = ()  # what to read and watch
+    # Modules of robo47 that are its answers; later days may import them.
     library: tuple[str, ...] = ()
-    limit: float = 1e-8
-    tasks: tuple[Task, ...]
+    limit: float = 1e-8  # what an error must be under where no metric says more
+    tasks: tuple[Task, ...]  # in the order to do them
+    # The student's picture, "" where there is none; pictures that do not count as it.
     figure: str = entry("", at="figure.path", needed=True)
     kit_figures: tuple[str, ...] = entry((), at="figure.not_a_copy_of")
+    # The student's worksheet, "" where there is none; what its glossary defines.
     worksheet: str = entry("", at="worksheet.path", needed=True)
     terms: tuple[str, ...] = entry((), at="worksheet.terms")
-    drawings: int = entry(0, at="worksheet.drawings")
-    questions: int = entry(0, at="worksheet.questions")
-    metrics: tuple[Metric, ...] = ()
-    folder: Path = field(repr=False)
+    drawings: int = entry(0, at="worksheet.drawings")  # how many it holds
+    questions: int = entry(0, at="worksheet.questions")  # how many it asks
+    metrics: tuple[Metric, ...] = ()  # rows of the log
+    folder: Path = field(repr=False)  # the week's; no entry
 
     @property
     def source(self) -> Path:
