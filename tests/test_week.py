@@ -18,9 +18,8 @@ from labkit.lesson.day import Metric, find_day
 from labkit.lesson.marks import file_mark
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
-from labkit.report.week_facts import DayFacts, minutes_of
+from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
 from labkit.report.week_labs import days_of, name_of, week_of
-from labkit.report.week_numbers import Number, numbers_of
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit

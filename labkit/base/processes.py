@@ -1,4 +1,4 @@
-"""Memory, time and end of the sandbox's process, seen from outside, on each platform.
+"""Child processes: run, watched from outside, and ended, on each platform.
 
 The standard library alone: a student installs no process tool for this.
 """

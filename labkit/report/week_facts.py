@@ -1,7 +1,8 @@
-"""What a week was, read from what is on the student's own machine.
+"""The facts of a week, read from what is on the student's own machine.
 
 Hints and mistakes come from `.robo47/`, which git ignores: they are for the student's
-eyes and nobody else's.
+eyes and nobody else's. The student's own rows of the log and the kit's are told apart
+by the mark in their notes.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,12 +13,39 @@ from labkit.base import store
 from labkit.base.git import GitError, run
 from labkit.check import journal, states
 from labkit.check.journal import Met
-from labkit.lesson.day import Day
-from labkit.report.series import Key, Series
-from labkit.report.week_numbers import Number, numbers_of
+from labkit.lesson.day import Day, Metric
+from labkit.lesson.marks import mark_of, marks_of
+from labkit.log.rows import Row
+from labkit.report.series import Key, Series, value_of
 from robo47.paths import ROOT
 
 GIT_SECONDS = 10.0
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of a day; None where there is no row.
+
+    Attributes:
+        metric: what it must reach.
+        latest: the student's last run.
+        status: how that run stands, as `Metric.judge` says.
+        worst: the farthest from the limit's good side that the student logged.
+        kit: the kit's own last run on this machine.
+        runs: how often the student logged it.
+    """
+
+    metric: Metric
+    latest: float | None
+    status: str
+    worst: float | None
+    kit: float | None
+    runs: int
+
+    @property
+    def passed(self) -> bool:
+        """Whether the student's last run is within the limit."""
+        return self.status == "pass"
 
 
 @dataclass(frozen=True)
@@ -110,3 +138,45 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
     except GitError:
         return []
     return [int(word) for word in done.stdout.split() if word.isdecimal()]
+
+
+def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
+    """Return a day's numbers, in the manifest's order.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+    """
+    kits = marks_of(day.source.read_bytes() if day.source.is_file() else None)
+    return [_number(metric, _rows(day, metric, series), kits) for metric in day.metrics]
+
+
+def _rows(day: Day, metric: Metric, series: Mapping[Key, Series]) -> Sequence[Row]:
+    found = series.get((day.number, metric.check, metric.metric))
+    return found.rows if found else []
+
+
+def _number(metric: Metric, rows: Sequence[Row], kits: set[str]) -> Number:
+    mine = [r for r in rows if mark_of(r) and mark_of(r) not in kits]
+    own = [_value(r) for r in mine]
+    kit = [_value(r) for r in rows if mark_of(r) in kits]
+    return Number(
+        metric,
+        own[-1] if own else None,
+        metric.judge(mine[-1] if mine else None),
+        max(own, key=lambda value: _badness(metric, value), default=None),
+        kit[-1] if kit else None,
+        len(own),
+    )
+
+
+def _value(row: Row) -> float:
+    value = value_of(row)
+    return float("nan") if value is None else float(value)
+
+
+def _badness(metric: Metric, value: float) -> float:
+    """Return what grows as a value gets worse; a value that is no number is worst."""
+    if value != value:
+        return float("inf")
+    return -value if metric.max is None else value

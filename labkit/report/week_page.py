@@ -5,9 +5,8 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.words import number_of
-from labkit.report.week_facts import DayFacts
+from labkit.report.week_facts import DayFacts, Number
 from labkit.report.week_labs import name_of, week_of
-from labkit.report.week_numbers import Number
 
 STYLE = """
 body { max-width: 980px; }
