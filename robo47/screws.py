@@ -23,6 +23,7 @@ from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
 from robo47.fast import exponentials
+from robo47.fast.vectors import cross_of
 
 
 def skew(w: ArrayLike) -> Array:
@@ -80,7 +81,7 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
     """
     axis = checks.unit_vector(axis, "axis")
     point = checks.array(point, "point", (3,))
-    v = _cross(point, axis)
+    v = cross_of(point, axis)
     return np.concatenate([np.broadcast_to(axis, v.shape), v], axis=-1)
 
 
@@ -234,10 +235,3 @@ def fk_body(body_screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
     """
     B = checks.screws(body_screws, "body_screws")
     return fk_space(B @ np.swapaxes(adjoint(M), -1, -2), M, q)
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """Return a x b, written out: np.cross takes 45 us whatever it is given."""
-    a0, a1, a2 = np.moveaxis(a, -1, 0)
-    b0, b1, b2 = np.moveaxis(b, -1, 0)
-    return np.stack([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0], axis=-1)

@@ -18,8 +18,8 @@ import numpy as np
 from test_deliverables import png, worksheet
 
 from labkit import log
-from labkit.handin.rows import file_mark
 from labkit.lesson.day import find_day
+from labkit.lesson.marks import file_mark
 from labkit.lesson.starter import make_starter, put_back
 
 DAY = find_day(1)

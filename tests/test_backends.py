@@ -5,6 +5,7 @@ import os
 import pytest
 
 from conftest import need
+from labkit.base import store
 from labkit.figures import backends
 from robo47.errors import Robo47Error
 
@@ -14,7 +15,7 @@ pytestmark = pytest.mark.kit
 @pytest.fixture(autouse=True)
 def clean_slate(monkeypatch, tmp_path):
     monkeypatch.delenv("MUJOCO_GL", raising=False)
-    monkeypatch.setattr(backends, "CACHE", tmp_path / "gl_backend.json")
+    monkeypatch.setattr(backends, "ROOT", tmp_path)
 
 
 @pytest.fixture
@@ -71,7 +72,7 @@ def test_it_is_looked_for_again_when_it_fails_or_the_machine_changes(
 @pytest.mark.usefixtures("on_linux")
 @pytest.mark.parametrize("garbage", ["", "{", "[]", '{"key": 1}'])
 def test_a_broken_memory_is_ignored(probed, garbage):
-    backends.CACHE.write_text(garbage)
+    store.write_text(backends.NAME, garbage, backends.ROOT)
     assert backends.rendering_environment()["MUJOCO_GL"] == "osmesa"
     assert probed == ["egl", "osmesa"]
 
@@ -79,7 +80,7 @@ def test_a_broken_memory_is_ignored(probed, garbage):
 @pytest.mark.usefixtures("on_linux", "probed")
 def test_a_clone_that_cannot_be_written_to_is_no_obstacle(monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
-    monkeypatch.setattr(backends, "CACHE", tmp_path / "file" / "gl_backend.json")
+    monkeypatch.setattr(backends, "ROOT", tmp_path / "file")
     assert backends.rendering_environment()["MUJOCO_GL"] == "osmesa"
 
 

@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+from labkit.base import store
 from labkit.check import journal
 from labkit.judge import Verdict
 
@@ -39,7 +40,7 @@ def test_what_follows_from_another_task_is_no_mistake_of_its_own(tmp_path):
 
 def test_a_torn_or_odd_journal_loses_its_odd_lines_alone(tmp_path):
     journal.note(results(t1_1=("wrong", "a")), tmp_path)
-    with journal.path_of(tmp_path).open("ab") as file:
+    with store.path_of(journal.NAME, tmp_path).open("ab") as file:
         file.write(b'[1, "1.2"\n{"x": 1}\n\xff\xfe\nnull\n')
     journal.note(results(t1_1=("passed", "")), tmp_path)
     assert [entry.status for entry in journal.read(tmp_path)] == ["wrong", "passed"]

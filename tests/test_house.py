@@ -41,6 +41,17 @@ def imported(path):
             yield from (alias.name for alias in node.names)
 
 
+def test_one_file_knows_where_the_memory_is():
+    paths = [*ROOT.glob("labkit/**/*.py"), *ROOT.glob("scripts/*.py")]
+    knows = {path.name for path in paths if '".robo47"' in path.read_text("utf-8")}
+    assert knows == {"store.py", "alone.py"}  # old Pythons read the second
+
+
+def test_the_pages_have_one_head():
+    heads = [p.name for p in MODULES if "<!doctype" in p.read_text("utf-8").lower()]
+    assert heads == ["html.py"]
+
+
 def test_every_arrow_points_down():
     up = []
     for path in MODULES:

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from labkit.base.commit import short_sha
+from labkit.base.git import short_sha
 from labkit.log import COLUMNS, append_row, append_rows, logfile, read_rows
 from labkit.log.header import LINE
 from labkit.log.lock import warn_once

@@ -15,8 +15,7 @@ from labkit.log.header import LINE
 from labkit.log.rows import encode, normalise
 from labkit.log.scan import scan
 from labkit.report import page, plot
-from labkit.report.series import Report, Series, collect
-from labkit.report.thresholds import load
+from labkit.report.series import Report, Series, collect, thresholds
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -226,19 +225,19 @@ def test_each_point_names_its_commit(log):
 
 
 def test_the_weeks_manifest_of_this_kit_is_read():
-    limits = load()
+    limits = thresholds()
     assert limits[1, "fk_identity_check", "inv_err"].max == 1e-10
     assert limits[1, "fk_by_hand", "max_abs_err"].max == 1e-8
 
 
 def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
-    assert load(tmp_path) == {}
+    assert thresholds(tmp_path) == {}
     manifest = tmp_path / "w1-x" / "day1" / "day.toml"
     manifest.parent.mkdir(parents=True)
     for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
         with pytest.raises(Robo47Error, match=r"day\.toml"):
-            load(tmp_path)
+            thresholds(tmp_path)
 
 
 def test_the_command_writes_the_page(log):

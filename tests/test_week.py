@@ -6,19 +6,20 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from dataclasses import replace
 
 import pytest
 from test_report import MEASURE, dom
 
+from labkit.base import store
 from labkit.check.journal import Met
-from labkit.handin.rows import file_mark
 from labkit.lesson.day import Metric, find_day
+from labkit.lesson.marks import file_mark
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
-from labkit.report.week_facts import DayFacts, hints_given, minutes_of
+from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
 from labkit.report.week_labs import days_of, name_of, week_of
-from labkit.report.week_numbers import Number, numbers_of
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -180,9 +181,9 @@ def test_hints_that_cannot_be_read_are_none(tmp_path, text):
     (tmp_path / ".robo47").mkdir()
     file = tmp_path / ".robo47" / "hints.json"
     file.write_text(text)
-    assert hints_given(tmp_path) == {}
+    assert store.hints_given(tmp_path) == {}
     file.write_text(json.dumps({"1.1": 2}))
-    assert hints_given(tmp_path) == {"1.1": 2}
+    assert store.hints_given(tmp_path) == {"1.1": 2}
 
 
 @pytest.mark.parametrize(
@@ -315,3 +316,43 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
     assert "t not negated <span class=pass>✓ left behind" in text
     assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
     assert "report-week" not in run_in(REPORT, "--day", "1").stdout
+
+
+def test_what_changed_since_the_check_is_not_counted_and_not_run(
+    run_in, begun, clone, diary
+):
+    page = clone / "metrics" / "report-week1.html"
+    for edit, known in (("", False), ("", True), ("raise SystemExit\n", False)):
+        begun.work.write_text(begun.work.read_text("utf-8") + edit, "utf-8")
+        if known:
+            run_in("scripts/check_day.py", "1")
+        assert run_in(REPORT).returncode == 0
+        text = page.read_text("utf-8")
+        assert ("make check DAY=1" in text) is not known
+        assert ("8 of 8" in text) is known
+        says = b"Not counted, for `make check` is yet to see it: day 1."
+        assert (says in diary.read_bytes()) is not known
+
+
+def test_a_check_of_one_task_tells_nothing_of_the_others(run_in, begun, clone):
+    run_in("scripts/check_day.py", "--task", "1.1")
+    run_in(REPORT)
+    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "make check DAY=1" in page
+    run_in("scripts/check_day.py", "1")
+    run_in("scripts/check_day.py", "--task", "1.1")
+    run_in(REPORT)
+    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "8 of 8" in page
+
+
+def test_the_weeks_facts_are_found_without_mujoco_and_the_sandbox():
+    script = (
+        "import sys, labkit.report.week_facts, labkit.report.week_page\n"
+        "heads = ('numpy', 'mujoco', 'labkit.sandbox', 'robo47.capstone')\n"
+        "print([name for name in sys.modules if name.startswith(heads)])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True
+    )
+    assert done.stdout == "[]\n"

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TextIO
 
 from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.paths import METRICS_CSV, shown
 
 WIDTH = 80  # columns that everything the kit prints fits in
 EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
@@ -40,6 +40,17 @@ def parser(about: str | None) -> argparse.ArgumentParser:
         formatter_class=functools.partial(
             argparse.RawDescriptionHelpFormatter, width=WIDTH - 1
         ),
+    )
+
+
+def add_log(it: argparse.ArgumentParser) -> None:
+    """Add --file: which log."""
+    it.add_argument(
+        "--file",
+        type=Path,
+        default=METRICS_CSV,
+        metavar="CSV",
+        help="the log; default metrics/metrics.csv",
     )
 
 

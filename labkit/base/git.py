@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from labkit.base import processes
-from labkit.base.commit import git_folder
 
 SECONDS = 20.0
+SHA = 7  # letters, as `git rev-parse --short` prints for a repository of this size
 LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can claim more
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
 YEAR_2100 = 4_102_444_800
@@ -93,6 +93,18 @@ def read_history(clone: Path, wanted: Iterable[str], *, own: bool = False) -> Hi
     return History(True, commit, _time(text), blobs)
 
 
+def short_sha(folder: Path) -> str:
+    """Return the short commit id that HEAD names, or "" outside a repository.
+
+    Args:
+        folder: the working tree's top folder: a clone or a linked worktree.
+    """
+    try:
+        return (_git(folder / ".git", "rev-parse", "--verify", "HEAD") or "")[:SHA]
+    except GitError:
+        return ""
+
+
 def run(
     *arguments: str, folder: Path, seconds: float, say: str = "", **more: str
 ) -> subprocess.CompletedProcess[str]:
@@ -143,7 +155,7 @@ def _repository(clone: Path, own: bool) -> Path | None:
     git = clone / ".git"
     try:
         if own:
-            return Path(git_folder(str(clone))).absolute()
+            return git.absolute() if git.exists() else None
         if not stat.S_ISDIR(git.lstat().st_mode) or (git / "commondir").exists():
             return None
         modes = [(git / n).lstat().st_mode for n in _READ if os.path.lexists(git / n)]
@@ -168,7 +180,7 @@ def _git(git: Path, *arguments: str, say: str = "") -> str | None:
     try:
         done = run(
             *arguments,
-            folder=git,
+            folder=git if git.is_dir() else git.parent,  # in a worktree it is a file
             seconds=SECONDS,
             say=say,
             GIT_ALLOC_LIMIT=LARGEST_OBJECT,

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -83,6 +83,29 @@ def start_options() -> dict[str, object]:
         flags = subprocess.CREATE_NEW_PROCESS_GROUP | subprocess.CREATE_NO_WINDOW
         return {"creationflags": flags}
     return {"start_new_session": True}
+
+
+def run(
+    command: Sequence[str], *, env: Mapping[str, str], **more: Any
+) -> subprocess.CompletedProcess[str]:
+    """Run a program that reads no input; return what it printed, bad bytes as "?".
+
+    Args:
+        command: its words.
+        env: its environment.
+        more: as `subprocess.run`: cwd, timeout.
+    """
+    return subprocess.run(
+        command,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+        **more,
+    )
 
 
 def end(process: subprocess.Popen[bytes]) -> None:

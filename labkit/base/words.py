@@ -14,6 +14,13 @@ def count(number: int, thing: str) -> str:
     return f"{number:,} {thing}" if number == 1 else f"{number:,} {thing}s"
 
 
+def number_of(value: float) -> str:
+    """Return a number as a lab prints it: rounding errors short, others readable."""
+    if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
+        return f"{value:.1e}" if value else "0"
+    return f"{value:.4g}"
+
+
 def command(option: str, log: Path) -> str:
     """Return what to type, in the kit's folder, to look after a log.
 

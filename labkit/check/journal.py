@@ -9,10 +9,15 @@ import json
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from labkit.check.tasks import TaskResult
+from labkit.base import store
 from robo47.paths import ROOT
+
+if TYPE_CHECKING:
+    from labkit.check.tasks import TaskResult
+
+NAME = "journal.jsonl"
 
 # Verdicts that say that nothing was judged, not that a mistake was made.
 _NO_MISTAKE = {"", "unwritten", "waits", "does-not-load", "missing", "raise-left-in"}
@@ -42,12 +47,7 @@ class Met(NamedTuple):
     left_behind: bool
 
 
-def path_of(root: Path = ROOT) -> Path:
-    """Return where the journal is."""
-    return root / ".robo47" / "journal.jsonl"
-
-
-def note(results: Sequence[TaskResult], root: Path = ROOT) -> None:
+def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
     """Add what is new; a folder that cannot be written costs the memory alone."""
     last = {entry.task: entry for entry in read(root)}
     lines = []
@@ -58,22 +58,14 @@ def note(results: Sequence[TaskResult], root: Path = ROOT) -> None:
         state = (verdict.status, "" if verdict.follows else verdict.mistake)
         if known is None or (known.status, known.mistake) != state:
             entry = Entry(round(time.time(), 1), result.task.id, *state)
-            lines.append(json.dumps(entry) + "\n")
-    path = path_of(root)
-    with contextlib.suppress(OSError):
-        path.parent.mkdir(exist_ok=True)
-        with path.open("a", encoding="utf-8") as file:
-            file.writelines(lines)
+            lines.append(json.dumps(entry))
+    store.add_lines(NAME, lines, root)
 
 
 def read(root: Path = ROOT) -> list[Entry]:
     """Return the journal, oldest first; what cannot be read is left out."""
-    try:
-        lines = path_of(root).read_text("utf-8", errors="replace").splitlines()
-    except OSError:
-        return []
     found = []
-    for line in lines:
+    for line in store.read_text(NAME, root).splitlines():
         with contextlib.suppress(ValueError, TypeError):
             when, task, status, mistake = json.loads(line)
             found.append(Entry(float(when), str(task), str(status), str(mistake)))

@@ -8,21 +8,16 @@ The files run in this process, as `make run` runs them: they are the student's o
 their own machine. Whether a function passes is the checker's word, in its sandbox.
 """
 
-import hashlib
-import json
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
 from types import ModuleType, SimpleNamespace
-from typing import Any
 
+from labkit.check import states
 from labkit.check.tasks import check_tasks
-from labkit.judge import Verdict
 from labkit.lesson.day import Day, all_days
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
-from robo47.paths import ROOT
 
 
 @dataclass
@@ -71,26 +66,14 @@ def load(days: Iterable[Day] | None = None) -> Mine:
 def statuses(day: Day) -> dict[str, str]:
     """Return how each task of a day stands: "passed", "wrong", "to do" and so on.
 
-    The checker's word is remembered for as long as neither the file nor the kit
-    changes.
+    The checker is asked where its last word is not on the file as it is.
     """
-    if not day.work.is_file():
-        return {task.id: "not begun" for task in day.tasks}
-    path, key = ROOT / ".robo47" / "statuses.json", _key(day)
-    known = _read(path)
-    if key not in known:
+    found = states.known(day)
+    if len(found) < len(day.tasks):
+        key = states.key_of(day)
         with Sandbox() as sandbox:
-            results = check_tasks(day, day.work, sandbox)
-        known[key] = {r.task.id: _in_words(r.verdict) for r in results}
-        if all(result.verdict.mistake != "stopped" for result in results):
-            _write(path, known)  # a bad moment of this machine is not remembered
-    return {task.id: known[key].get(task.id, "to do") for task in day.tasks}
-
-
-def _in_words(verdict: Verdict) -> str:
-    if verdict.mistake == "does-not-load":
-        return "the file does not load"
-    return "to do" if verdict.status == "todo" else verdict.status
+            found = states.remember(key, check_tasks(day, day.work, sandbox))
+    return {task.id: found.get(task.id, "to do") for task in day.tasks}
 
 
 def _module(day: Day) -> ModuleType | None:
@@ -107,30 +90,3 @@ def _module(day: Day) -> ModuleType | None:
     finally:
         sys.path.remove(str(day.work.parent))
     return module
-
-
-def _key(day: Day) -> str:
-    """Return what changes with the student's files, the day's own and the kit's."""
-    digest = hashlib.sha256()
-    files = sorted(day.work.parent.glob("*.py"))
-    for folder in (ROOT / "robo47", ROOT / "labkit", day.own):
-        files += sorted(folder.rglob("*.py"))
-    for path in [day.work, *files]:
-        digest.update(path.read_bytes() if path.is_file() else b"")
-    return f"{day.number} {digest.hexdigest()[:16]}"
-
-
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        known = json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return known if isinstance(known, dict) else {}
-
-
-def _write(path: Path, known: dict[str, Any]) -> None:
-    try:
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(json.dumps(dict(list(known.items())[-50:])), "utf-8")
-    except OSError:
-        return  # a read-only folder costs the memory, not the answer

@@ -52,12 +52,14 @@ def check(day: Day, options: argparse.Namespace) -> int:
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
     # The sandbox warms up while MuJoCo is imported.
     with cli.busy("checking"), Sandbox() as sandbox:
-        from labkit.check import journal, report
+        from labkit.check import journal, report, states
         from labkit.check.tasks import check_tasks
 
+        key = states.key_of(day)
         results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
         journal.note(results)
+        states.remember(key, results)
     done = all(result.passed for result in results)
     found = report.Report(day, results, [] if options.task else handed_in(day, done))
     if options.json:

@@ -25,14 +25,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from labkit.base import cli
+from labkit.base import blocks, cli
 from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
 DOCUMENTS += [*sorted((ROOT / "w1-foundations").rglob("*.md"))]
-BLOCK = re.compile(r"(<!-- (run|days): (.+?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 # What depends on where the robot came from, and where among equals the worst was.
@@ -114,18 +113,20 @@ def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
     """
     drifted = []
 
-    def fresh(block: re.Match) -> str:
-        opening, kind, request, old, closing = block.groups()
-        if kind == "days":
-            body = days_table(request, folder)
-        else:
-            body = f"```text\n{wanted(request).rstrip()}\n```\n"
+    def renewed(request: str, old: str, body: str) -> str:
         if same(old, body):
-            return block.group()
+            return old
         drifted.append(request)
-        return opening + body + closing
+        return body
 
-    return BLOCK.sub(fresh, document), drifted
+    def run(request: str, old: str) -> str:
+        body = f"```text\n{wanted(request).rstrip()}\n```\n"
+        return renewed(request, old, body)
+
+    def days(week: str, old: str) -> str:
+        return renewed(week, old, days_table(week, folder))
+
+    return blocks.refill(document, {"run": run, "days": days}), drifted
 
 
 def main() -> int:

@@ -9,41 +9,12 @@ Each call gives one more hint and the section to re-read. What you have had is
 remembered in .robo47/, which git ignores.
 """
 
-import contextlib
-import json
-import os
-from pathlib import Path
-
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.lesson.day import Day, Task, find_day, find_task, started_day
 from labkit.lesson.starter import read_script, solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import ROOT, shown
-
-
-def seen_file() -> Path:
-    """Return where the hints that were given are counted."""
-    return ROOT / ".robo47" / "hints.json"
-
-
-def read_seen() -> dict[str, int]:
-    """Return {task: hints given}; a file that cannot be read counts as none."""
-    try:
-        seen = json.loads(seen_file().read_text("utf-8"))
-        return {str(task): int(count) for task, count in seen.items()}
-    except (OSError, ValueError, TypeError, AttributeError):
-        return {}
-
-
-def write_seen(seen: dict[str, int]) -> None:
-    """Remember the count; a read-only folder costs the memory, not the hint."""
-    path = seen_file()
-    with contextlib.suppress(OSError):
-        path.parent.mkdir(exist_ok=True)
-        new = path.with_suffix(".new")
-        new.write_text(json.dumps(seen), "utf-8")
-        os.replace(new, path)
+from robo47.paths import shown
 
 
 def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
@@ -83,10 +54,10 @@ def show_deliverable(day: Day, name: str) -> int:
 
 def show_hint(task: Task, again: bool) -> None:
     """Print the next hint, or the last one again."""
-    seen = read_seen()
+    seen = store.hints_given()
     count = min(seen.get(task.id, 0) + (not again), len(task.hints))
     seen[task.id] = count = max(count, 1)
-    write_seen(seen)
+    store.write("hints.json", seen)
     print(cli.wrapped(f"{task.id}  {task.title}: hint {count} of {len(task.hints)}"))
     print(f"\n{cli.wrapped(task.hints[count - 1])}")
     print(f"\n{cli.wrapped('Re-read: ' + task.read, '    ')}")

@@ -20,7 +20,7 @@ from labkit.log.rows import Row, typed
 from labkit.log.scan import Line, scan
 from labkit.log.upkeep import came_back, restore, unsaved_rows
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, shown
+from robo47.paths import shown
 
 NEEDED = ("check", "metric", "value")
 EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
@@ -50,13 +50,7 @@ def parser() -> argparse.ArgumentParser:
     does = it.add_mutually_exclusive_group()
     does.add_argument("--check", action="store_true", help="list every bad line")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
-    it.add_argument(
-        "--file",
-        type=Path,
-        default=METRICS_CSV,
-        metavar="CSV",
-        help="the log; default metrics/metrics.csv",
-    )
+    cli.add_log(it)
     it.add_argument(
         "--sync",
         action=argparse.BooleanOptionalAction,

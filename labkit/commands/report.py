@@ -22,8 +22,7 @@ from labkit.lesson.day import find_day, started_day
 from labkit.log.progress import watched
 from labkit.log.scan import scan
 from labkit.report import page
-from labkit.report.series import Report, collect
-from labkit.report.thresholds import load
+from labkit.report.series import Report, collect, thresholds
 from labkit.report.week_labs import week_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
@@ -34,7 +33,7 @@ def main() -> int:
     args = parser().parse_args()
     lines = watched(scan(args.file), args.file)
     since = args.since.isoformat() if args.since else ""
-    report = collect(lines, load(), since, args.day, args.check)
+    report = collect(lines, thresholds(), since, args.day, args.check)
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
@@ -60,8 +59,7 @@ def write_week(report: Report, heading: str, out: Path, week: int, log: Path) ->
     from labkit.report.week_labs import days_of
 
     series = {(one.day, one.check, one.metric): one for one in report.series}
-    with cli.busy("looking at your tasks"):
-        facts = [facts_of(day, series) for day in days_of(week)]
+    facts = [facts_of(day, series) for day in days_of(week)]
     write(out / f"report-week{week}.html", week_page.render(facts, heading).encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
         for path in week_retro.fill(facts):
@@ -79,13 +77,7 @@ def parser() -> argparse.ArgumentParser:
     )
     it.add_argument("--day", type=int, help="one day of the course")
     it.add_argument("--check", default="", metavar="NAME", help="one check")
-    it.add_argument(
-        "--file",
-        type=Path,
-        default=METRICS_CSV,
-        metavar="CSV",
-        help="the log; default metrics/metrics.csv",
-    )
+    cli.add_log(it)
     it.add_argument(
         "--out", type=Path, metavar="FOLDER", help="default: the log's own folder"
     )

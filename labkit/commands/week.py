@@ -13,8 +13,7 @@ from collections.abc import Sequence
 from tqdm import tqdm
 
 from labkit.base import cli
-from labkit.base.words import count
-from labkit.lesson.lab import number_of
+from labkit.base.words import count, number_of
 from labkit.report.week_labs import Ran, days_of, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict

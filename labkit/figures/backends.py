@@ -6,17 +6,17 @@ imports no MuJoCo. Nothing in this process's environment is changed.
 """
 
 import importlib.metadata
-import json
 import os
 import platform
 import subprocess
 import sys
 import textwrap
 
+from labkit.base import processes, store
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-CACHE = ROOT / ".robo47" / "gl_backend.json"
+NAME = "gl_backend.json"  # in the kit's memory
 RENDERS = "renders"
 LINUX = ("egl", "osmesa", "glfw")  # fastest first; glfw needs a display
 DEBIAN_PACKAGES = {"egl": "libegl1 libgl1", "osmesa": "libosmesa6"}
@@ -62,16 +62,9 @@ def probe(variables: dict[str, str]) -> str:
         variables: what it adds to the environment.
     """
     try:
-        done = subprocess.run(
-            [sys.executable, "-c", PROBE],
-            env={**os.environ, **variables},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=TIMEOUT,
-            check=False,
-        )
+        command = [sys.executable, "-c", PROBE]
+        environment = {**os.environ, **variables}
+        done = processes.run(command, env=environment, timeout=TIMEOUT)
     except subprocess.TimeoutExpired:
         return f"gave no picture within {TIMEOUT} seconds"
     if said := done.stdout.split("\n")[0]:
@@ -110,7 +103,7 @@ def rendering_environment(*, forget: bool = False) -> dict[str, str]:
     for name, variables in options.items():
         reasons[name] = probe(variables)
         if reasons[name] == RENDERS:
-            _remember(name)
+            store.write(NAME, {"key": _key(), "backend": name}, ROOT)
             return {**os.environ, **variables}
     raise Robo47Error(_advice(reasons))
 
@@ -147,17 +140,5 @@ def _key() -> dict[str, str]:
 
 
 def _recall() -> str | None:
-    try:
-        record = json.loads(CACHE.read_text("utf-8"))
-        return record["backend"] if record["key"] == _key() else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-
-
-def _remember(backend: str) -> None:
-    try:
-        CACHE.parent.mkdir(exist_ok=True)
-        record = {"key": _key(), "backend": backend}
-        CACHE.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
-    except OSError:
-        pass  # a clone that cannot be written to is probed every time
+    record = store.read(NAME, ROOT)
+    return record.get("backend") if record.get("key") == _key() else None

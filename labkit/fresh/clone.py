@@ -1,13 +1,12 @@
 """A clone of the last commit, set up from nothing, as somebody else would have it."""
 
 import os
-import subprocess
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from labkit.base import git
+from labkit.base import git, processes
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root
 
@@ -72,14 +71,16 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
     if not anew:
         environment["PYTHONPATH"] = str(root)
         return Clone(root, sys.executable, environment)
-    done = _script(root, environment, sys.executable, "scripts/setup_env.py")
+    setup = [sys.executable, "scripts/setup_env.py"]
+    done = processes.run(setup, env=environment, cwd=root)
     if done.returncode != 0:
         says = " ".join((done.stdout + done.stderr).split())[-400:]
         raise Robo47Error(f"the clone could not be set up: {says}")
     own = ("Scripts", "python.exe") if os.name == "nt" else ("bin", "python")
     python = str(root.joinpath(".venv", *own))
     if not robot.is_dir():  # without a network the embedded twin serves
-        _script(root, environment, python, "scripts/fetch_menagerie.py", "--daily")
+        fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
+        processes.run(fetch, env=environment, cwd=root)
     return Clone(root, python, environment)
 
 
@@ -106,22 +107,6 @@ def ignored_by(path: str, root: Path = ROOT) -> str:
         return ""
     source, line, *_ = found.split(":")
     return f"{source}, line {line}"
-
-
-def _script(
-    root: Path, environment: Mapping[str, str], python: str, *words: str
-) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [python, *words],
-        cwd=root,
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-    )
 
 
 def _git(*arguments: str, folder: Path) -> str:

@@ -7,10 +7,10 @@ be within its limit again. A physical one must be the same within a factor of tw
 from collections.abc import Mapping
 from pathlib import Path
 
+from labkit.base.words import number_of
 from labkit.handin.handin import read_handin
 from labkit.handin.rows import own_rows
 from labkit.lesson.day import Metric
-from labkit.lesson.lab import number_of
 from labkit.log.rows import Row
 from labkit.report.week_labs import Ran, name_of
 from robo47.errors import Robo47Error

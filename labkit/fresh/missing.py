@@ -7,7 +7,6 @@ from pathlib import Path
 
 from labkit.base.words import count
 from labkit.fresh.clone import ignored_by, uncommitted
-from labkit.handin.handin import day_files
 from labkit.lesson.day import Day
 from labkit.report.week_retro import no_numbers
 from robo47.paths import ROOT
@@ -40,7 +39,7 @@ def _only_here(
 ) -> dict[str, str]:
     """Return what is in the student's folder and not in the commit, with the reason."""
     lacks = uncommitted(root)
-    for name in sorted({n for day in days for n in day_files(day).values()}):
+    for name in sorted({n for day in days for n in day.files.values()}):
         here, there = (root / name).is_file(), (clone / name).is_file()
         if here and not there and name not in lacks:
             rule = ignored_by(name, root)
@@ -61,7 +60,7 @@ def _unfinished(days: Sequence[Day], clone: Path) -> Iterator[tuple[str, str]]:
     Whether what is written there is good, `make check` says.
     """
     for day in days:
-        files = day_files(day)
+        files = day.files
         if not (clone / files["script"]).is_file():
             continue
         for what, name in files.items():

@@ -4,11 +4,9 @@ Widths are in per cent and texts in pixels, so a chart on a phone has shorter ba
 not smaller letters. No script is needed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
-
-from labkit.report.style import STYLE as REPORT_STYLE
 
 STATUS = {  # role of the colour, mark in the table, word in the legend
     "passed": ("pass", "✓", "passed"),
@@ -19,9 +17,7 @@ STATUS = {  # role of the colour, mark in the table, word in the legend
     "ungraded": ("dark", "?", "not graded"),
 }
 # Bars differ in lightness too, for those who do not tell red from green.
-STYLE = (
-    REPORT_STYLE
-    + """
+STYLE = """
 :root { --none: #b9c2cb; --dark: #4a525b; --broken: #7a4fa3; --bar-pass: #14602f;
   --bar-fail: #f28b7d; --bar-limit: #d8a53c; }
 @media (prefers-color-scheme: dark) { :root { --none: #4a5560; --dark: #b9c2cb;
@@ -53,7 +49,6 @@ td.mark, th.mark { text-align: center; padding-right: 8px; }
   td:first-child { max-width: 130px; overflow: hidden; text-overflow: ellipsis; } }
 h2 small { color: var(--muted); font-weight: 400; }
 """
-)
 LINE, TEXT, BAR = 40, 13, 12  # pixels: a row's height, a letter's, a bar's
 FITS = 28  # letters of a label on a phone, where the words at the right need room too
 
@@ -99,6 +94,15 @@ def _labels(label: str, base: int) -> list[str]:
         f'<text x="0" y="{base}" fill="var(--ink)"{kind}>{escape(text)}</text>'
         for kind, text in ways.items()
     ]
+
+
+def legend(words: Iterable[tuple[str, str]]) -> str:
+    """Return what the colours of a chart mean: each a role, and its word."""
+    marks = "".join(
+        f'<span><i style="background:{colour(role)}"></i>{word}</span>'
+        for role, word in words
+    )
+    return f'<p class="legend muted">{marks}</p>'
 
 
 def colour(role: str) -> str:

@@ -22,7 +22,6 @@ from labkit.check.tasks import TaskResult, check_tasks
 from labkit.grade.package import Package, unpack
 from labkit.grade.result import Mark, Result, counted, ungraded
 from labkit.handin import check_files
-from labkit.handin.handin import day_files
 from labkit.handin.item import Item
 from labkit.judge import Verdict
 from labkit.lesson.day import Day, find_day
@@ -83,7 +82,7 @@ def grade(package: Package, day: Day) -> Result:
 
 def _tasks(package: Package, day: Day, folder: Path) -> tuple[list[TaskResult], str]:
     """Return the tasks' results, and why there is nothing to run or ""."""
-    name, handin = day_files(day)["script"], package.handin
+    name, handin = day.files["script"], package.handin
     if name not in handin.files:
         if name in handin.unread:
             says = f"{name} {handin.unread[name]}."

@@ -4,8 +4,9 @@ import time
 from collections.abc import Callable
 from html import escape
 
+from labkit.base import html
 from labkit.grade import overview
-from labkit.grade.charts import STATUS, STYLE, Row, chart, colour
+from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.overview import Course, Diagnosis, Standing
 from labkit.grade.people import list_alike, list_people, list_refused, table
 from labkit.grade.sheet import printable
@@ -27,26 +28,18 @@ def render(course: Course) -> str:
         state: [g for g in class_ if overview.state(g) == state]
         for state in (*STATES, "done")
     }
-    title = f"Day {day.number}: {escape(day.title)}"
     return printable(
-        "\n".join(
-            [
-                '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-                # a student's text cannot become a script even if escaping failed
-                '<meta http-equiv="Content-Security-Policy" content="default-src'
-                " 'none'; style-src 'unsafe-inline'\">",
-                '<meta name="viewport" content="width=device-width, initial-scale=1">',
-                f"<title>{title}</title><style>{STYLE}</style></head><body>",
-                f'<h1>{title}</h1><p class="muted">{_about(course)}</p>',
-                _tiles(course, {state: len(some) for state, some in by_state.items()}),
-                _mistakes(overview.diagnoses(day, class_), len(class_)),
-                _standings(course),
-                *(list_people(STATES[s], by_state[s], course) for s in STATES),
-                list_alike(course),
-                list_refused(course),
-                table(course),
-                "</body></html>\n",
-            ]
+        html.page(
+            f"Day {day.number}: {escape(day.title)}",
+            _about(course),
+            _tiles(course, {state: len(some) for state, some in by_state.items()}),
+            _mistakes(overview.diagnoses(day, class_), len(class_)),
+            _standings(course),
+            *(list_people(STATES[s], by_state[s], course) for s in STATES),
+            list_alike(course),
+            list_refused(course),
+            table(course),
+            style=STYLE,
         )
     )
 
@@ -70,12 +63,7 @@ def _tiles(course: Course, count: dict[str, int]) -> str:
         ("limit" if count["ungraded"] else "none", count["ungraded"], "not graded"),
         ("", len(course.alike), "groups alike"),
     ]
-    cells = "".join(
-        f'<div class="tile"><b class="{role}">{number:,}</b>'
-        f'<span class="muted">{label}</span></div>'
-        for role, number, label in tiles
-    )
-    return f'<div class="tiles">{cells}</div>'
+    return html.tiles((role, f"{number:,}", label) for role, number, label in tiles)
 
 
 def _mistakes(found: list[Diagnosis], size: int) -> str:
@@ -94,50 +82,45 @@ def _mistakes(found: list[Diagnosis], size: int) -> str:
     bars = chart(rows, "students by mistake, the most common first")
     words = "".join(map(_diagnosis, shown))
     if more := "".join(map(_diagnosis, found[CHARTED:])):
-        words += f"<details><summary>the others</summary>{more}</details>"
+        words += html.folded("the others", more)
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if len(found) > CHARTED else ""
-    return (
-        "<section><h2>What to explain again tomorrow</h2>"
-        f'<div class="two"><div class="card"><h3>{kinds}{rest}</h3>'
-        '<p class="muted">Counted where they were made, once per student</p>'
-        f'{bars}</div><div class="card"><h3>In the words the students saw</h3>'
-        f"{words}</div></div></section>"
+    counted = '<p class="muted">Counted where they were made, once per student</p>'
+    return html.section(
+        "What to explain again tomorrow",
+        '<div class="two">',
+        html.card(f"{kinds}{rest}", counted, bars),
+        html.card("In the words the students saw", words),
+        "</div>",
     )
 
 
 def _diagnosis(one: Diagnosis) -> str:
     who = ", ".join(map(escape, one.who))
-    return (
-        f"<details><summary>{escape(one.task)} <b>{escape(one.mistake)}</b>, "
-        f'{_students(len(one.who))}</summary><p class="says">{escape(one.example)}</p>'
-        f'<p class="muted">{who}</p></details>'
+    return html.folded(
+        f"{escape(one.task)} <b>{escape(one.mistake)}</b>, {_students(len(one.who))}",
+        f'<p class="says">{escape(one.example)}</p><p class="muted">{who}</p>',
     )
 
 
 def _standings(course: Course) -> str:
     functions = {t.id: ", ".join(t.functions) for t in course.day.tasks}
     tasks = overview.tasks_standing(course.class_)
-    legend = "".join(
-        f'<span><i style="background:{colour(role)}"></i>{word}</span>'
-        for role, _, word in STATUS.values()
-    )
+    marks = legend((role, word) for role, _, word in STATUS.values())
 
     def card(
         heading: str, some: list[Standing], label: Callable[[Standing], str]
     ) -> str:
         rows = [_standing(one, label(one), len(course.class_)) for one in some]
-        return (
-            f'<div class="card"><h3>{heading}</h3><p class="legend muted">{legend}</p>'
-            f"{chart(rows, heading)}</div>"
-        )
+        return html.card(heading, marks, chart(rows, heading))
 
     items = overview.items_standing(course.class_)
-    return (
-        '<section><h2>Which tasks stop people</h2><div class="two">'
-        + card("Tasks", tasks, lambda one: f"{one.id}  {functions[one.id]}")
-        + card("Deliverables", items, lambda one: one.id)
-        + "</div></section>"
+    return html.section(
+        "Which tasks stop people",
+        '<div class="two">',
+        card("Tasks", tasks, lambda one: f"{one.id}  {functions[one.id]}"),
+        card("Deliverables", items, lambda one: one.id),
+        "</div>",
     )
 
 

@@ -3,6 +3,7 @@
 from html import escape
 from urllib.parse import quote
 
+from labkit.base import html
 from labkit.base.text import visible
 from labkit.grade.charts import STATUS
 from labkit.grade.overview import Course, shown_status
@@ -23,9 +24,14 @@ def list_people(heading: str, some: list[Graded], course: Course) -> str:
 
     oldest = sorted(some, key=place)
     rows = "".join(_person(graded, course) for graded in oldest)
-    return (
-        f"<section><h2>{heading} <small>{len(some):,}</small></h2>"
-        f'<div class="card"><ul>{rows}</ul></div></section>'
+    return _listed(heading, len(some), "", rows)
+
+
+def _listed(heading: str, size: int, about: str, rows: str, rest: str = "") -> str:
+    says = f'<p class="muted">{about}</p>' if about else ""
+    return html.section(
+        f"{heading} <small>{size:,}</small>",
+        f'<div class="card">{says}<ul>{rows}</ul>{rest}</div>',
     )
 
 
@@ -87,15 +93,14 @@ def list_alike(course: Course) -> str:
     )
     more = len(course.alike) - MOST
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
-    return (
-        f"<section><h2>Similar submissions <small>{len(course.alike):,}</small>"
-        '</h2><div class="card"><p class="muted">A hint of where to look, not a '
+    about = (
+        "A hint of where to look, not a "
         "verdict: friends who learn together and a good book also write alike. The "
         "starter's text and what much of the class writes are left out; names do not "
         "count. The number is that of the two most similar; beside the kit's solution, "
-        "the share of one's own code that stands in it.</p>"
-        f"<ul>{rows}</ul>{rest}</div></section>"
+        "the share of one's own code that stands in it."
     )
+    return _listed("Similar submissions", len(course.alike), about, rows, rest)
 
 
 def list_refused(course: Course) -> str:
@@ -108,12 +113,8 @@ def list_refused(course: Course) -> str:
         f'<p class="says">{escape("; ".join(graded.result.refused))}</p></li>'
         for graded in some[:MOST]
     )
-    return (
-        f"<section><h2>What the sandbox refused <small>{len(some):,}</small></h2>"
-        '<div class="card"><p class="muted">A task needs nothing but its arguments. '
-        "Most of these are accidents: ask.</p>"
-        f"<ul>{rows}</ul></div></section>"
-    )
+    about = "A task needs nothing but its arguments. Most of these are accidents: ask."
+    return _listed("What the sandbox refused", len(some), about, rows)
 
 
 def table(course: Course) -> str:
@@ -121,11 +122,12 @@ def table(course: Course) -> str:
     first = course.class_[0].result
     names = ["tasks", *(mark.id for mark in (*first.tasks, *first.items)), "commit is"]
     head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)
-    body = "".join(_line(graded, course.deadline) for graded in course.class_)
-    return (
-        '<section><h2>Everyone</h2><p class="muted wider">The table is wider than the '
-        'screen: move it sideways.</p><div class="card scroll all"><table>'
-        f"<tr><th>name</th>{head}</tr>{body}</table></div></section>"
+    body = (_line(graded, course.deadline) for graded in course.class_)
+    return html.section(
+        "Everyone",
+        '<p class="muted wider">The table is wider than the '
+        "screen: move it sideways.</p>",
+        html.table(f"<th>name</th>{head}", body, "card scroll all"),
     )
 
 

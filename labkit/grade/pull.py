@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from labkit.base.git import GitError, run
+from labkit.base.store import replace
 from labkit.base.text import visible
 from labkit.grade.roster import Student
 
@@ -97,9 +98,7 @@ def _read(marks: Path) -> dict[str, str | None]:
 
 
 def _write(marks: Path, ours: dict[str, str | None]) -> None:
-    new = marks.with_name(marks.name + ".new")
-    new.write_text(json.dumps(ours, indent=1), "ascii")
-    new.replace(marks)
+    replace(marks, json.dumps(ours, indent=1).encode())
 
 
 def _git(folder: Path, *arguments: str) -> str:

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from html import escape
 
+from labkit.base import html
 from labkit.base.words import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
-from labkit.grade.charts import Row, chart, colour
+from labkit.grade.charts import Row, chart, legend
 from labkit.grade.roster import Student
 from labkit.grade.sheet import printable
 from labkit.grade.week import STATES, Standing, Week, percent_of
@@ -19,23 +20,8 @@ STYLE = PAGE_STYLE + "td.n, th.n { text-align: right; }\n"
 
 def render(week: Week) -> str:
     """Return the whole page."""
-    title = _title(week.days)
-    return printable(
-        "\n".join(
-            [
-                '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-                # a student's text cannot become a script even if escaping failed
-                '<meta http-equiv="Content-Security-Policy" content="default-src'
-                " 'none'; style-src 'unsafe-inline'\">",
-                '<meta name="viewport" content="width=device-width, initial-scale=1">',
-                f"<title>{title}</title><style>{STYLE}</style></head><body>",
-                f'<h1>{title}</h1><p class="muted">{_about(week)}</p>',
-                _days(week),
-                _table(week),
-                "</body></html>\n",
-            ]
-        )
-    )
+    title, about = _title(week.days), _about(week)
+    return printable(html.page(title, about, _days(week), _table(week), style=STYLE))
 
 
 def _title(days: Sequence[Day]) -> str:
@@ -50,17 +36,15 @@ def _about(week: Week) -> str:
 
 def _days(week: Week) -> str:
     rows = [_bar(week, day) for day in week.days]
-    legend = "".join(
-        f'<span><i style="background:{colour(role)}"></i>{escape(state)}</span>'
-        for state, role in ROLES.items()
-    )
+    marks = legend((role, escape(state)) for state, role in ROLES.items())
+    bars = chart(rows, "students by how they stand, day by day")
     mistakes = "".join(_mistakes(week, day) for day in week.days)
-    return (
-        '<section><h2>The days</h2><div class="two"><div class="card">'
-        f'<h3>How far the class is</h3><p class="legend muted">{legend}</p>'
-        f"{chart(rows, 'students by how they stand, day by day')}</div>"
-        '<div class="card"><h3>Which mistakes were common</h3>'
-        f"<ul>{mistakes}</ul></div></div></section>"
+    return html.section(
+        "The days",
+        '<div class="two">',
+        html.card("How far the class is", marks, bars),
+        html.card("Which mistakes were common", f"<ul>{mistakes}</ul>"),
+        "</div>",
     )
 
 
@@ -87,11 +71,13 @@ def _table(week: Week) -> str:
         f'<th class=n><a href="day{day.number}/class.html">{day.number}</a></th>'
         for day in week.days
     )
-    rows = "".join(_row(week, student) for student in week.students)
-    return (
-        "<section><h2>Everybody <small>tasks that pass, by day</small></h2>"
-        '<div class="card scroll all"><table><tr><th>name</th>'
-        f"<th class=n>per cent</th>{head}</tr>{rows}</table></div></section>"
+    return html.section(
+        "Everybody <small>tasks that pass, by day</small>",
+        html.table(
+            f"<th>name</th><th class=n>per cent</th>{head}",
+            (_row(week, student) for student in week.students),
+            "card scroll all",
+        ),
     )
 
 

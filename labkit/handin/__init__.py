@@ -14,7 +14,7 @@ from pathlib import Path
 from labkit.base.git import GitError, read_history
 from labkit.handin.commit import check_commit, wanted_names
 from labkit.handin.figure import check_figure
-from labkit.handin.handin import Handin, day_files, read_handin
+from labkit.handin.handin import Handin, read_handin
 from labkit.handin.item import Item
 from labkit.handin.rows import check_rows
 from labkit.handin.worksheet import check_worksheet
@@ -73,7 +73,7 @@ def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[It
         handin: what the student's folder holds.
         tasks_pass: whether the day's tasks do; until then no row counts.
     """
-    files = day_files(day)
+    files = day.files
     found: dict[str, Item] = {}
     checks = {
         "figure": lambda: [check_figure(day, handin)],

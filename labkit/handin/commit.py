@@ -2,7 +2,7 @@
 
 from labkit.base.git import History
 from labkit.base.text import visible
-from labkit.handin.handin import Handin, day_files
+from labkit.handin.handin import Handin
 from labkit.handin.item import Item
 from labkit.lesson.day import Day
 
@@ -10,7 +10,7 @@ from labkit.lesson.day import Day
 def wanted_names(day: Day, handin: Handin) -> list[str]:
     """Return the files to commit: what the day asks for, helpers and drawings."""
     own = [name for name, is_kits in handin.pictures.items() if not is_kits]
-    return list(dict.fromkeys([*day_files(day).values(), *handin.files, *own]))
+    return list(dict.fromkeys([*day.files.values(), *handin.files, *own]))
 
 
 def check_commit(day: Day, handin: Handin, history: History) -> Item:

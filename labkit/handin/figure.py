@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from labkit.handin.handin import Handin, day_files
+from labkit.handin.handin import Handin
 from labkit.handin.item import Item
 from labkit.lesson.day import Day
 
@@ -32,7 +32,7 @@ def check_figure(day: Day, handin: Handin) -> Item:
         day: from the kit's manifest.
         handin: what the student's folder holds.
     """
-    name = day_files(day)["figure"]
+    name = day.files["figure"]
     data = handin.files.get(name)
     if data is None:
         command = f"make view DAY={day.number} ARGS=--screenshot"

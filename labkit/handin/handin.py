@@ -52,19 +52,6 @@ class Handin:
     pictures: Mapping[str, bool] = field(default_factory=dict)
 
 
-def day_files(day: Day) -> dict[str, str]:
-    """Return the paths of what a day asks for, by what it is, from the clone's top."""
-    week = day.folder.name
-    files = {"script": f"{week}/work/{day.script}"}
-    if day.worksheet:
-        files["worksheet"] = f"{week}/{day.worksheet}"
-    if day.figure:
-        files["figure"] = f"{week}/{day.figure}"
-    if day.metrics:
-        files["log"] = "metrics/metrics.csv"
-    return files
-
-
 def read_handin(day: Day, root: Path) -> Handin:
     """Return what a student hands in.
 
@@ -77,7 +64,7 @@ def read_handin(day: Day, root: Path) -> Handin:
     """
     files: dict[str, bytes] = {}
     unread: dict[str, str] = {}
-    wanted = day_files(day)
+    wanted = day.files
     for what, name in wanted.items():
         try:
             data = read(root, name, LIMITS[what])

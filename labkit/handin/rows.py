@@ -1,24 +1,15 @@
 """The day's numbers in the metrics log: the student's own, and within their limits."""
 
-import hashlib
 import io
-import re
 
 from labkit.base.text import visible
-from labkit.handin.handin import Handin, day_files
+from labkit.handin.handin import Handin
 from labkit.handin.item import Item
 from labkit.lesson.day import Day, Metric
+from labkit.lesson.marks import mark_of, marks_of
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file
 from robo47.errors import Robo47Error
-
-# The lab ends the notes of each row with the script that wrote it, as it was then.
-_FILE = re.compile(r"\bfile ([0-9a-f]{8})$")
-
-
-def file_mark(script: bytes) -> str:
-    """Return what the notes of a script's rows end with: "file 1234abcd"."""
-    return f"file {hashlib.sha256(script).hexdigest()[:8]}"
 
 
 def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
@@ -36,7 +27,7 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
         rows = _rows(day, handin)
     except Robo47Error as error:
         return Item("metrics", "wrong", visible(error))
-    own = marks_of(handin.files.get(day_files(day)["script"]))
+    own = marks_of(handin.files.get(day.files["script"]))
     latest = latest_of(rows, own)
     missing = [m for m in day.metrics if (m.check, m.metric) not in latest]
     if missing:
@@ -58,7 +49,7 @@ def own_rows(day: Day, handin: Handin) -> dict[tuple[str, str], Row]:
     Raises:
         Robo47Error: the log cannot be read.
     """
-    script = handin.files.get(day_files(day)["script"])
+    script = handin.files.get(day.files["script"])
     return latest_of(_rows(day, handin), marks_of(script))
 
 
@@ -70,7 +61,7 @@ def latest_of(rows: list[Row], marks: set[str]) -> dict[tuple[str, str], Row]:
 
 def _rows(day: Day, handin: Handin) -> list[Row]:
     """Return the log's rows of the day's metrics, oldest first."""
-    name = day_files(day)["log"]
+    name = day.files["log"]
     lines = scan_file(io.BytesIO(handin.files.get(name, b"")), name)
     rows = [line.row for line in lines if line.row is not None]
     wanted = {(day.number, m.check, m.metric) for m in day.metrics}
@@ -93,17 +84,3 @@ def _why_missing(
     if "" in marks:
         return "The rows that are there do not say that your file wrote them."
     return "Your file has changed since it logged its rows."
-
-
-def mark_of(row: Row) -> str:
-    """Return the mark of the file that wrote a row, or ""."""
-    found = _FILE.search(str(row["notes"]))
-    return f"file {found[1]}" if found else ""
-
-
-def marks_of(script: bytes | None) -> set[str]:
-    """Return a file's mark with either line end: git may have changed them."""
-    if script is None:
-        return set()
-    unix = script.replace(b"\r\n", b"\n")
-    return {file_mark(data) for data in (script, unix, unix.replace(b"\n", b"\r\n"))}

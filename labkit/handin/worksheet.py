@@ -3,7 +3,7 @@
 import re
 
 from labkit.base.text import visible
-from labkit.handin.handin import Handin, day_files, image_names, picture_path
+from labkit.handin.handin import Handin, image_names, picture_path
 from labkit.handin.item import Item
 from labkit.lesson.day import Day
 
@@ -33,7 +33,7 @@ def check_worksheet(day: Day, handin: Handin) -> list[Item]:
         day: from the kit's manifest.
         handin: what the student's folder holds.
     """
-    where = day_files(day)["worksheet"]
+    where = day.files["worksheet"]
     names = ("definitions", "drawings", "checklist")
     data = handin.files.get(where)
     if data is None:

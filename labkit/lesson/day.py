@@ -2,18 +2,180 @@
 
 One file that the starter, the checker, the hints, the lab and the report all read.
 Whatever is missing, empty or misspelt in it is found here, at loading, and named; a
-day whose manifest is broken costs that day alone.
+day whose manifest is broken costs that day alone. A field of `Day`, `Task` or `Metric`
+is an entry of the file, and is read by its type (`table.py`).
 """
 
+import math
 import re
-from functools import lru_cache
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from pathlib import Path
+from typing import Any
 
-from labkit.lesson import entries
-from labkit.lesson.content import Day, Metric, Task
-from labkit.lesson.entries import Entries
+from labkit.lesson.table import entry, fill
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
+
+
+@dataclass(frozen=True)
+class Task:
+    """One gap of the starter."""
+
+    id: str  # day.task, such as "1.4"; the same in code, output and worksheet
+    title: str
+    functions: tuple[str, ...]  # what the student writes
+    read: str  # the section to re-read
+    hints: tuple[str, ...] = entry(least=2)  # in the order to give them
+    needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
+    optional: bool = False  # a side quest: no part of what is handed in or graded
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A row that the log must hold, and the range of its value; None is no bound."""
+
+    check: str
+    metric: str
+    max: float | None = None
+    min: float | None = None
+
+    @property
+    def limit(self) -> str:
+        """The range as people write it: "under 1e-08"."""
+        parts = [] if self.min is None else [f"over {self.min:g}"]
+        parts += [] if self.max is None else [f"under {self.max:g}"]
+        return " and ".join(parts)
+
+    def passes(self, value: float) -> bool:
+        """Return whether a value is within the range; NaN never is."""
+        high = self.max is None or value < self.max
+        return value == value and high and (self.min is None or value > self.min)
+
+    def judge(self, row: Mapping[str, Any] | None) -> str:
+        """Return how a row of the log stands: "pass", "fail", or "none" without one.
+
+        Nothing else in the kit decides this.
+        """
+        if row is None:
+            return "none"
+        return "fail" if self.fault(row) else "pass"
+
+    def fault(self, row: Mapping[str, Any]) -> str:
+        """Return what is wrong with a row's number; "" where it is as it must be."""
+        value = row["value"]
+        if not isinstance(value, int | float) or not math.isfinite(value):
+            return f"is {value}, not a number"
+        if value < 0 and self.min is None:
+            return f"is {value:.3g}, and an error is never negative"
+        if not self.passes(value):
+            return f"is {value:.3g}; it must be {self.limit}"
+        if failures := row["n_failures"]:
+            return f"failed in {failures} of {row['n_trials'] or '?'} trials"
+        return ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Day:
+    """One day of the course; paths are relative to the week's folder."""
+
+    number: int  # from 1 to 47
+    title: str
+    see: str  # what its lab shows, for the week's table
+    script: str  # file name of the lab script, in src/ and in work/
+    guide: str  # the lab guide
+    minutes: int  # how long it takes
+    readings: tuple[str, ...] = ()  # what to read and watch
+    # Modules of robo47 that are its answers; later days may import them.
+    library: tuple[str, ...] = ()
+    limit: float = 1e-8  # what an error must be under where no metric says more
+    tasks: tuple[Task, ...]  # in the order to do them
+    # The student's picture, "" where there is none; pictures that do not count as it.
+    figure: str = entry("", at="figure.path", needed=True)
+    kit_figures: tuple[str, ...] = entry((), at="figure.not_a_copy_of")
+    # The student's worksheet, "" where there is none; what its glossary defines.
+    worksheet: str = entry("", at="worksheet.path", needed=True)
+    terms: tuple[str, ...] = entry((), at="worksheet.terms")
+    drawings: int = entry(0, at="worksheet.drawings")  # how many it holds
+    questions: int = entry(0, at="worksheet.questions")  # how many it asks
+    metrics: tuple[Metric, ...] = ()  # rows of the log
+    folder: Path = field(repr=False)  # the week's; no entry
+
+    @property
+    def source(self) -> Path:
+        """The complete script."""
+        return self.folder / "src" / self.script
+
+    @property
+    def work(self) -> Path:
+        """The student's script."""
+        return self.folder / "work" / self.script
+
+    @property
+    def own(self) -> Path:
+        """The day's own folder: questions.py, submissions/ and so on."""
+        return self.folder / f"day{self.number}"
+
+    @property
+    def files(self) -> dict[str, str]:
+        """What it hands in: paths from the clone's top, by what they are."""
+        week = self.folder.name
+        found = {
+            "script": f"{week}/work/{self.script}",
+            "worksheet": self.worksheet and f"{week}/{self.worksheet}",
+            "figure": self.figure and f"{week}/{self.figure}",
+            "log": self.metrics and "metrics/metrics.csv",
+        }
+        return {what: path for what, path in found.items() if path}
+
+    @cached_property
+    def _needs(self) -> dict[str, tuple[str, ...]]:
+        closed: dict[str, set[str]] = {}
+        for task in self.tasks:  # needs are earlier tasks, so they are closed already
+            closed[task.id] = set(task.needs).union(*(closed[n] for n in task.needs))
+        order = [task.id for task in self.tasks]
+        return {
+            id: tuple(n for n in order if n in found) for id, found in closed.items()
+        }
+
+    def needs(self, task_id: str) -> tuple[str, ...]:
+        """Return the ids of the tasks that a task builds on, however indirectly."""
+        return self._needs[task_id]
+
+    def task(self, task_id: str) -> Task:
+        """Return a task by its id.
+
+        Raises:
+            Robo47Error: the day has no such task; names those it has.
+        """
+        for task in self.tasks:
+            if task.id == task_id:
+                return task
+        known = ", ".join(task.id for task in self.tasks)
+        raise Robo47Error(f"day {self.number} has no task {task_id}; it has {known}")
+
+    def metric(self, check: str, metric: str = "") -> Metric:
+        """Return what a recorded number must reach.
+
+        Args:
+            check: its name.
+            metric: of which there may be several to a check; "" where there is one.
+
+        Raises:
+            Robo47Error: the manifest has no such row, or several.
+        """
+        found = [m for m in self.metrics if m.check == check]
+        found = [m for m in found if metric in ("", m.metric)]
+        if len(found) != 1:
+            rows = ", ".join(f"{m.check} ({m.metric})" for m in self.metrics)
+            wanted = f"{check} ({metric})" if metric else check
+            raise Robo47Error(
+                f"day {self.number}'s day.toml has {len(found)} metrics {wanted}; "
+                f"it has {rows}"
+            )
+        return found[0]
 
 
 def day_numbers(root: Path = ROOT) -> list[int]:
@@ -91,39 +253,38 @@ def load_day(manifest: Path) -> Day:
 
 @lru_cache(64)  # one command asks for the same manifests many times
 def _load(manifest: Path, _state: tuple[int, int] | None) -> Day:
-    top = entries.read(manifest)
-    number = top.get("number", int)
-    if manifest.parent.name != f"day{number}":
-        raise top.refuse(
-            f"number is {number}, but the folder is {manifest.parent.name}"
-        )
-    tasks = tuple(_task(table, number) for table in top.tables("tasks", at_least=1))
-    _check_order(tasks, top)
-    figure = top.inner("figure") or Entries({}, "")
-    worksheet = top.inner("worksheet") or Entries({}, "")
-    day = Day(
-        number=number,
-        title=top.get("title", str),
-        see=top.get("see", str),
-        script=top.get("script", str),
-        guide=top.get("guide", str),
-        minutes=top.get("minutes", int),
-        readings=top.texts("readings", at_least=0),
-        library=top.texts("library", at_least=0),
-        limit=float(top.maybe("limit", float, 1e-8)),
-        tasks=tasks,
-        figure=figure.get("path", str) if figure.table else "",
-        kit_figures=figure.texts("not_a_copy_of", at_least=0),
-        worksheet=worksheet.get("path", str) if worksheet.table else "",
-        terms=worksheet.texts("terms", at_least=0),
-        drawings=worksheet.maybe("drawings", int, 0),
-        questions=worksheet.maybe("questions", int, 0),
-        metrics=tuple(_metric(row) for row in top.tables("metrics")),
-        folder=manifest.parent.parent,
-    )
-    for table in (figure, worksheet, top):
-        table.finish()
+    where = shown(manifest)
+    try:
+        table = tomllib.loads(manifest.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise Robo47Error(f"{where} cannot be read: {error}") from None
+    day: Day = fill(Day, table, where, folder=manifest.parent.parent)
+    for fault in _faults(day, manifest.parent.name):
+        raise Robo47Error(where + fault)
     return day
+
+
+def _faults(day: Day, folder: str) -> Iterator[str]:
+    """Say what is wrong between entries that are right by themselves."""
+    if folder != f"day{day.number}":
+        yield f": number is {day.number}, but the folder is {folder}"
+    for i, metric in enumerate(day.metrics, 1):
+        if metric.min is None and metric.max is None:
+            yield f", metrics {i}: it has neither max nor min"
+    earlier: set[str] = set()
+    functions: set[str] = set()
+    for task in day.tasks:
+        id = task.id
+        if not re.fullmatch(rf"{day.number}\.\d+", id):
+            yield f", tasks {id}: id {id} is not one of day {day.number}"
+        if id in earlier:
+            yield f": two tasks have the id {id}"
+        for need in [n for n in task.needs if n not in earlier]:
+            yield f": {id} needs {need}, which is no earlier task"
+        if twice := functions & set(task.functions):
+            yield f": {id}: another task has {min(twice)} already"
+        earlier.add(id)
+        functions |= set(task.functions)
 
 
 def _manifests(root: Path) -> dict[int, Path]:
@@ -136,44 +297,3 @@ def _manifests(root: Path) -> dict[int, Path]:
                     f"two days {number[1]}: {shown(other)}, {shown(path)}"
                 )
     return found
-
-
-def _metric(row: Entries) -> Metric:
-    low, high = row.maybe("min", float), row.maybe("max", float)
-    if low is None and high is None:
-        raise row.refuse("it has neither max nor min")
-    metric = Metric(row.get("check", str), row.get("metric", str), high, low)
-    row.finish()
-    return metric
-
-
-def _task(table: Entries, day: int) -> Task:
-    task = Task(
-        id=table.get("id", str),
-        title=table.get("title", str),
-        functions=table.texts("functions"),
-        needs=table.texts("needs", at_least=0),
-        read=table.get("read", str),
-        hints=table.texts("hints", at_least=2),
-        optional=table.maybe("optional", bool, False),
-    )
-    table.finish()
-    if not re.fullmatch(rf"{day}\.\d+", task.id):
-        raise table.refuse(f"id {task.id} is not one of day {day}")
-    return task
-
-
-def _check_order(tasks: tuple[Task, ...], top: Entries) -> None:
-    """Refuse an id or a function that is there twice, and a need that is no earlier."""
-    earlier: set[str] = set()
-    functions: set[str] = set()
-    for task in tasks:
-        if task.id in earlier:
-            raise top.refuse(f"two tasks have the id {task.id}")
-        for need in task.needs:
-            if need not in earlier:
-                raise top.refuse(f"{task.id} needs {need}, which is no earlier task")
-        if twice := functions & set(task.functions):
-            raise top.refuse(f"{task.id}: another task has {min(twice)} already")
-        earlier.add(task.id)
-        functions |= set(task.functions)

@@ -20,13 +20,11 @@ from numpy.typing import ArrayLike
 
 from labkit import log
 from labkit.base import cli
-from labkit.base.words import count
+from labkit.base.words import count, number_of
 from labkit.lesson.day import Day, Metric, find_day
+from labkit.lesson.marks import file_mark
 from robo47.errors import Robo47Error
-from robo47.panda.files import hash_file
 from robo47.paths import METRICS_CSV, shown
-
-STAMP = 8  # hex digits of the script's hash in a row's notes: which file wrote it
 
 
 class Lab:
@@ -115,6 +113,7 @@ class Lab:
         trials = np.abs(trials) if wanted.min is None else trials
         value = _worst(trials, wanted)
         self._judge(label or check.replace("_", " "), wanted, value)
+        mark = file_mark(self.script.read_bytes())
         row = {
             "run_id": self.script.stem,
             "day": self.day.number,
@@ -125,7 +124,7 @@ class Lab:
             "n_failures": int(sum(not wanted.passes(x) for x in trials)),
             "metric": wanted.metric,
             "value": value,
-            "notes": f"limit {_bounds(wanted)}; file {stamp(self.script)}",
+            "notes": f"limit {_bounds(wanted)}; {mark}",
         }
         self.rows.append({**row, **fields})
 
@@ -172,18 +171,6 @@ def day_of(script: Path) -> Day:
     if not found:
         raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
     return find_day(int(found[1]))
-
-
-def stamp(script: Path) -> str:
-    """Return the first digits of a script's hash: which file wrote a row."""
-    return hash_file(script)[:STAMP]
-
-
-def number_of(value: float) -> str:
-    """Return a number as a lab prints it: rounding errors short, others readable."""
-    if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
-        return f"{value:.1e}" if value else "0"
-    return f"{value:.4g}"
 
 
 def _bounds(wanted: Metric) -> str:

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from html import escape
 from itertools import groupby
 
+from labkit.base import html
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
 from labkit.report.series import Report, Series, value_of
-from labkit.report.style import STYLE
 
 RECENT = 20  # runs listed under a plot
 LISTED = 200  # lines listed that need a look
@@ -18,6 +18,10 @@ STATUS = {
     "open": ("•", "no threshold"),
     "none": ("○", "not run yet"),
 }
+NOTHING = (
+    '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
+    "<code>make run DAY=1</code></p>"
+)
 
 
 def render(report: Report, heading: str, week: int | None = None) -> str:
@@ -31,23 +35,15 @@ def render(report: Report, heading: str, week: int | None = None) -> str:
     link = f' · <a href="report-week{week}.html">Week {week}</a>'
     beside = "" if week is None else link
     days = groupby(report.series, key=lambda series: series.day)
-    return "\n".join(
-        [
-            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-            # text from the log cannot become a script even if escaping failed
-            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\';'
-            " style-src 'unsafe-inline'\">",
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<title>robo47 metrics</title><style>{STYLE}</style></head><body>",
-            f'<h1>robo47 metrics</h1><p class="muted">{escape(heading)}{beside}</p>',
-            _tiles(report),
-            *([] if report.rows else [_nothing()]),
-            _jumps(report),
-            *(_day(day, list(series)) for day, series in days),
-            _look("Repaired while reading", report.repaired),
-            _look("Could not be read", report.unread),
-            "</body></html>\n",
-        ]
+    return html.page(
+        "robo47 metrics",
+        escape(heading) + beside,
+        _tiles(report),
+        *([] if report.rows else [NOTHING]),
+        _jumps(report),
+        *(_day(day, list(series)) for day, series in days),
+        _look("Repaired while reading", report.repaired),
+        _look("Could not be read", report.unread),
     )
 
 
@@ -61,19 +57,7 @@ def _tiles(report: Report) -> str:
         ("", report.rows, "rows"),
         ("fail" if attention else "none", attention, "lines to look at"),
     ]
-    cells = "".join(
-        f'<div class="tile"><b class="{role}">{count:,}</b>'
-        f'<span class="muted">{label}</span></div>'
-        for role, count, label in tiles
-    )
-    return f'<div class="tiles">{cells}</div>'
-
-
-def _nothing() -> str:
-    return (
-        '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
-        "<code>make run DAY=1</code></p>"
-    )
+    return html.tiles((role, f"{count:,}", label) for role, count, label in tiles)
 
 
 def _title(day: int | None) -> str:
@@ -149,15 +133,12 @@ def _recent(rows: list[Row]) -> str:
     names = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
     heads = ("date", "value", "commit", "failures", "config", "method", "notes")
     shown = list(reversed(rows[-RECENT:]))
-    body = "".join("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
+    body = ("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
     title = "1 run" if len(rows) == 1 else f"{len(rows):,} runs"
     if len(rows) > RECENT:
         title = f"The latest {RECENT} of {title}"
     head = "".join(f"<th>{name}</th>" for name in heads)
-    return (
-        f'<details><summary>{title}</summary><div class="scroll"><table>'
-        f"<tr>{head}</tr>{body}</table></div></details>"
-    )
+    return html.folded(title, html.table(head, body, "scroll"))
 
 
 def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
@@ -175,19 +156,18 @@ def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
 def _look(title: str, lines: list[Line]) -> str:
     if not lines:
         return ""
-    rows = "".join(
+    rows = (
         f"<tr><td>{line.number}</td><td class=note>{escape(line.problem)}</td>"
         f"<td class=note><code>{escape(_clipped(line.text))}</code></td></tr>"
         for line in lines[:LISTED]
     )
     more = len(lines) - LISTED
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
-    return (
-        f'<section><h2>{title} ({len(lines):,})</h2><div class="card scroll"><table>'
-        f"<tr><th>line</th><th>why</th><th>text</th></tr>{rows}</table>{rest}"
+    rest += (
         '<p class="muted">More: <code>python3 scripts/log_metric.py --check</code></p>'
-        "</div></section>"
     )
+    head = "<th>line</th><th>why</th><th>text</th>"
+    return html.section(f"{title} ({len(lines):,})", html.table(head, rows, below=rest))
 
 
 def _clipped(text: str, most: int = 300) -> str:

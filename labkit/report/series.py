@@ -3,11 +3,14 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from labkit.lesson.day import Metric
+from labkit.lesson.day import Metric, all_days
 from labkit.log.rows import Row
 from labkit.log.scan import Line
-from labkit.report.thresholds import Key
+from robo47.paths import ROOT
+
+Key = tuple[int | None, str, str]  # day, check, metric
 
 
 class Series:
@@ -75,6 +78,22 @@ class Report:
     def count(self, status: str) -> int:
         """Return how many series have that status."""
         return sum(one.status == status for one in self.series)
+
+
+def thresholds(root: Path = ROOT) -> dict[Key, Metric]:
+    """Return what the days' manifests ask for, by day, check and metric.
+
+    Args:
+        root: the clone.
+
+    Raises:
+        Robo47Error: a manifest is not right; names the entry.
+    """
+    return {
+        (day.number, metric.check, metric.metric): metric
+        for day in all_days(root)
+        for metric in day.metrics
+    }
 
 
 def value_of(row: Row) -> float | None:

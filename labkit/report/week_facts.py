@@ -1,25 +1,51 @@
 """Facts of a week, read from what is on the student's own machine.
 
 Hints and mistakes come from `.robo47/`, which git ignores: they are for the student's
-eyes and nobody else's.
+eyes and nobody else's. The student's own rows of the log and the kit's are told apart
+by the mark in their notes.
 """
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from labkit.base import store
 from labkit.base.git import GitError, run
-from labkit.check import journal, own_functions
+from labkit.check import journal, states
 from labkit.check.journal import Met
-from labkit.handin.handin import day_files
-from labkit.lesson.day import Day
-from labkit.report.series import Series
-from labkit.report.thresholds import Key
-from labkit.report.week_numbers import Number, numbers_of
+from labkit.lesson.day import Day, Metric
+from labkit.lesson.marks import mark_of, marks_of
+from labkit.log.rows import Row
+from labkit.report.series import Key, Series, value_of
 from robo47.paths import ROOT
 
 GIT_SECONDS = 10.0
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of a day; None where there is no row.
+
+    Attributes:
+        metric: what it must reach.
+        latest: the student's last run.
+        status: how that run stands, as `Metric.judge` says.
+        worst: the farthest from the limit's good side that the student logged.
+        kit: the kit's own last run on this machine.
+        runs: how often the student logged it.
+    """
+
+    metric: Metric
+    latest: float | None
+    status: str
+    worst: float | None
+    kit: float | None
+    runs: int
+
+    @property
+    def passed(self) -> bool:
+        """Whether the student's last run is within the limit."""
+        return self.status == "pass"
 
 
 @dataclass(frozen=True)
@@ -31,11 +57,13 @@ class DayFacts:
         numbers: the student's beside the kit's.
         passed: how many tasks pass; side quests are not counted.
         tasks: of how many.
-        own: how many of the day's functions the capstone takes from the student.
+        own: how many of the day's functions are in tasks that pass.
         functions: of how many.
         minutes: from the first to the last commit, None where git cannot tell.
         hints: how many were asked for.
         met: the named mistakes, in the order they were met.
+        checked: whether `make check` has seen all tasks in the file as it is; what it
+            has not seen does not count as passed.
     """
 
     day: Day
@@ -47,6 +75,7 @@ class DayFacts:
     minutes: int | None
     hints: int
     met: Sequence[Met]
+    checked: bool = True
 
     @property
     def begun(self) -> bool:
@@ -55,27 +84,27 @@ class DayFacts:
 
 
 def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
-    """Return how a day went; a file that changed since is checked in the sandbox.
+    """Return how a day went.
 
     Args:
         day: from its manifest.
         series: the log's rows, by day, check and metric.
         root: the clone.
     """
-    statuses = own_functions.statuses(day)
-    counted = [task.id for task in day.tasks if not task.optional]
-    own = own_functions.load([day])
+    known = states.known(day)
+    passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
     return DayFacts(
         day,
         numbers_of(day, series),
-        sum(statuses[id] == "passed" for id in counted),
-        len(counted),
-        len(own.yours),
-        own.total,
+        sum(not task.optional for task in passed),
+        sum(not task.optional for task in day.tasks),
+        sum(len(task.functions) for task in passed),
+        sum(len(task.functions) for task in day.tasks),
         minutes_of(day, root),
-        sum(n for task, n in hints_given(root).items() if task in ids),
+        sum(n for task, n in store.hints_given(root).items() if task in ids),
         [m for m in journal.mistakes_met(journal.read(root)) if m.task in ids],
+        len(known) == len(ids),
     )
 
 
@@ -89,7 +118,7 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     Returns:
         None where there are no two commits, or no git.
     """
-    files = day_files(day)
+    files = day.files
     own = [files[name] for name in ("script", "figure") if name in files]
     begun = _times(root, own)
     if not begun:
@@ -98,15 +127,6 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     if "worksheet" in files:  # its first commits are the kit's own
         times += [t for t in _times(root, [files["worksheet"]]) if t > min(begun)]
     return round((max(times) - min(times)) / 60) if len(times) > 1 else None
-
-
-def hints_given(root: Path = ROOT) -> dict[str, int]:
-    """Return how many hints were asked for, by task."""
-    try:
-        seen = json.loads((root / ".robo47" / "hints.json").read_text("utf-8"))
-        return {str(task): int(count) for task, count in seen.items()}
-    except (OSError, ValueError, TypeError, AttributeError):
-        return {}
 
 
 def _times(root: Path, paths: Sequence[str]) -> list[int]:
@@ -118,3 +138,45 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
     except GitError:
         return []
     return [int(word) for word in done.stdout.split() if word.isdecimal()]
+
+
+def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
+    """Return a day's numbers, in the manifest's order.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+    """
+    kits = marks_of(day.source.read_bytes() if day.source.is_file() else None)
+    return [_number(metric, _rows(day, metric, series), kits) for metric in day.metrics]
+
+
+def _rows(day: Day, metric: Metric, series: Mapping[Key, Series]) -> Sequence[Row]:
+    found = series.get((day.number, metric.check, metric.metric))
+    return found.rows if found else []
+
+
+def _number(metric: Metric, rows: Sequence[Row], kits: set[str]) -> Number:
+    mine = [r for r in rows if mark_of(r) and mark_of(r) not in kits]
+    own = [_value(r) for r in mine]
+    kit = [_value(r) for r in rows if mark_of(r) in kits]
+    return Number(
+        metric,
+        own[-1] if own else None,
+        metric.judge(mine[-1] if mine else None),
+        max(own, key=lambda value: _badness(metric, value), default=None),
+        kit[-1] if kit else None,
+        len(own),
+    )
+
+
+def _value(row: Row) -> float:
+    value = value_of(row)
+    return float("nan") if value is None else float(value)
+
+
+def _badness(metric: Metric, value: float) -> float:
+    """Return what grows as a value gets worse; a value that is no number is worst."""
+    if value != value:
+        return float("inf")
+    return -value if metric.max is None else value

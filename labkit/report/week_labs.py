@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from labkit.base import processes
 from labkit.lesson.day import Day, Metric, all_days
 from labkit.log import read_rows
 from labkit.log.rows import Row
@@ -111,16 +112,8 @@ def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> R
     script = day.work if mine else day.source
     with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
         log = Path(folder) / "metrics.csv"
-        done = subprocess.run(
-            [python, str(script)],
-            env={**environment, "ROBO47_METRICS": str(log), "COLUMNS": "80"},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            errors="replace",
-            check=False,
-        )
+        variables = {**environment, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
+        done = processes.run([python, str(script)], env=variables)
         rows = read_rows(log) if log.exists() else []
     latest = {(str(r["check"]), str(r["metric"])): r for r in rows}
     numbers = {k: row for k, row in latest.items() if row["value"] is not None}

@@ -3,15 +3,12 @@
 from collections.abc import Sequence
 from html import escape
 
-from labkit.lesson.lab import number_of
-from labkit.report.style import STYLE as REPORT_STYLE
-from labkit.report.week_facts import DayFacts
+from labkit.base import html
+from labkit.base.words import number_of
+from labkit.report.week_facts import DayFacts, Number
 from labkit.report.week_labs import name_of, week_of
-from labkit.report.week_numbers import Number
 
-STYLE = (
-    REPORT_STYLE
-    + """
+STYLE = """
 body { max-width: 980px; }
 td.n, th.n { text-align: right; } td.day { font-weight: 600; }
 tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
@@ -29,7 +26,6 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 @media (max-width: 500px) { th, td { padding-right: 7px; } .card { padding: 10px; }
   .bar { display: none; } td.wide { min-width: 120px; } }
 """
-)
 
 
 def render(facts: Sequence[DayFacts], heading: str) -> str:
@@ -39,25 +35,17 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
         facts: of the week's days, in order.
         heading: one line of plain text on where this comes from.
     """
-    title = title_of(facts)
-    return "\n".join(
-        [
-            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-            # text from the log cannot become a script even if escaping failed
-            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\';'
-            " style-src 'unsafe-inline'\">",
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<title>{title}</title><style>{STYLE}</style></head><body>",
-            f'<h1>{title}</h1><p class="muted">{escape(heading)}</p>',
-            _tiles(facts),
-            _numbers(facts),
-            _days(facts),
-            _mistakes(facts),
-            '<p class="muted last">Every run as a plot: '
-            '<a href="report.html">report.html</a>. '
-            "Hints and mistakes are on your machine alone.</p>",
-            "</body></html>\n",
-        ]
+    return html.page(
+        title_of(facts),
+        escape(heading),
+        _tiles(facts),
+        _numbers(facts),
+        _days(facts),
+        _mistakes(facts),
+        '<p class="muted last">Every run as a plot: '
+        '<a href="report.html">report.html</a>. '
+        "Hints and mistakes are on your machine alone.</p>",
+        style=STYLE,
     )
 
 
@@ -88,14 +76,11 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
         (sum(f.own for f in facts), sum(f.functions for f in facts), "functions yours"),
         (sum(m.left_behind for m in met), len(met), "mistakes left behind"),
     ]
-    cells = "".join(
-        f'<div class="tile"><b class="{"pass" if n and n == of else ""}">{n:,} of'
-        f' {of:,}</b><span class="muted">{label}</span></div>'
+    cells = [
+        ("pass" if n and n == of else "", f"{n:,} of {of:,}", label)
         for n, of, label in tiles
-    )
-    hints = sum(f.hints for f in facts)
-    words = f'<b>{hints:,}</b><span class="muted">hints asked</span>'
-    return f'<div class="tiles">{cells}<div class="tile">{words}</div></div>'
+    ]
+    return html.tiles([*cells, ("", f"{sum(f.hints for f in facts):,}", "hints asked")])
 
 
 def _numbers(facts: Sequence[DayFacts]) -> str:
@@ -106,13 +91,12 @@ def _numbers(facts: Sequence[DayFacts]) -> str:
         for i, number in enumerate(one.numbers)
     ]
     # What counts stands left: a phone shows the first four columns.
-    return _table(
-        "The numbers",
+    head = (
         "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
         "<th class=n>your worst on the way</th>"
-        + ("<th class=n>the kit's here</th>" if kits else ""),
-        rows,
+        + ("<th class=n>the kit's here</th>" if kits else "")
     )
+    return html.section("The numbers", html.table(head, rows))
 
 
 def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
@@ -134,18 +118,16 @@ def _days(facts: Sequence[DayFacts]) -> str:
     rows = [
         f"<tr><td class=day>{one.day.number}</td>"
         f"<td class=wide>{escape(one.day.title)}</td>"
-        f"<td>{_bar(one.passed, one.tasks)}</td>"
-        f"<td>{one.own} of {one.functions}</td>"
+        f"{_counts(one)}"
         f"<td>{minutes_in_words(one.minutes)}</td>"
         f"<td>{one.hints or '–'}</td></tr>"
         for one in facts
     ]
-    return _table(
-        "The days",
+    head = (
         "<th>day</th><th></th><th>tasks that pass</th><th>functions yours</th>"
-        "<th>first to last commit</th><th>hints</th>",
-        rows,
+        "<th>first to last commit</th><th>hints</th>"
     )
+    return html.section("The days", html.table(head, rows))
 
 
 def _mistakes(facts: Sequence[DayFacts]) -> str:
@@ -162,17 +144,18 @@ def _mistakes(facts: Sequence[DayFacts]) -> str:
         for m in met
     )
     nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
-    return (
-        "<section><h2>The mistakes you met</h2>"
-        f'{f"""<div class="chips">{chips}</div>""" if met else nothing}</section>'
-    )
+    listed = f'<div class="chips">{chips}</div>' if met else nothing
+    return html.section("The mistakes you met", listed)
 
 
-def _table(heading: str, head: str, rows: Sequence[str]) -> str:
-    return (
-        f'<section><h2>{heading}</h2><div class="card scroll"><table><tr>{head}</tr>'
-        f"{''.join(rows)}</table></div></section>"
-    )
+def _counts(one: DayFacts) -> str:
+    if not one.checked:
+        command = f"make check DAY={one.day.number}"
+        return (
+            f"<td colspan=2>changed since it was checked: <code>{command}</code></td>"
+        )
+    bar = _bar(one.passed, one.tasks)
+    return f"<td>{bar}</td><td>{one.own} of {one.functions}</td>"
 
 
 def _bar(passed: int, of: int) -> str:

@@ -4,17 +4,15 @@
 them is written anew; every other byte is the student's and stays as it is.
 """
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from labkit.lesson.lab import number_of
+from labkit.base import blocks, store
+from labkit.base.words import number_of
 from labkit.report.week_facts import DayFacts
 from labkit.report.week_labs import name_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
-
-_MARKS = re.compile(rb"(<!-- numbers -->[ \t]*\r?\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
 def fill(facts: Sequence[DayFacts]) -> list[Path]:
@@ -60,6 +58,7 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
             *rows,
             "",
             f"Tasks passed: {passed} of {tasks}. Functions of my own: {own} of {of}.",
+            *_not_checked(facts),
             f"Named mistakes met: {len(met)}; left behind: {left}.",
             "",
             "",
@@ -67,10 +66,15 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
     )
 
 
+def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
+    days = ", ".join(str(one.day.number) for one in facts if not one.checked)
+    return [f"Not counted, for `make check` is yet to see it: day {days}."] * bool(days)
+
+
 def no_numbers(text: str) -> bool:
     """Return whether a retrospective's numbers are still to be filled in."""
-    found = _MARKS.findall(text.encode())
-    return len(found) == 1 and not found[0][1].strip()
+    found = blocks.contents(text, "numbers")
+    return len(found) == 1 and not found[0].strip()
 
 
 def _cell(value: float | None) -> str:
@@ -80,17 +84,12 @@ def _cell(value: float | None) -> str:
 def _fill(path: Path, text: str) -> bool:
     """Replace what is between the marks; return whether that changed the file."""
     try:
-        before = path.read_bytes()
-        found = _MARKS.findall(before)
-        if len(found) != 1:  # no marks, or somebody wrote about them: not ours
-            return False
-        newline = "\r\n" if found[0][0].endswith(b"\r\n") else "\n"
-        inner = text.replace("\n", newline).encode()
-        after = _MARKS.sub(lambda m: m[1] + inner + m[3], before)
+        before = path.read_bytes().decode("utf-8", "surrogateescape")
+        if len(blocks.contents(before, "numbers")) != 1:
+            return False  # no marks, or somebody wrote about them: not ours
+        after = blocks.refill(before, {"numbers": lambda *_: text})
         if after != before:
-            new = path.with_name(path.name + ".new")
-            new.write_bytes(after)
-            new.replace(path)
+            store.replace(path, after.encode("utf-8", "surrogateescape"))
         return after != before
     except OSError as error:
         raise Robo47Error(

@@ -48,12 +48,7 @@ def mujoco_bias(model: mujoco.MjModel, qpos: ArrayLike, qvel: ArrayLike) -> Arra
     Returns:
         qfrc_bias, N m, (..., nv). Damping is not in it.
     """
-
-    def read(data: mujoco.MjData) -> Array:
-        mujoco.mj_forward(model, data)
-        return data.qfrc_bias
-
-    return _ask(model, read, qpos=qpos, qvel=qvel)
+    return _after(mujoco.mj_forward, "qfrc_bias", model, qpos=qpos, qvel=qvel)
 
 
 def mujoco_inverse_dynamics(
@@ -70,12 +65,8 @@ def mujoco_inverse_dynamics(
     Returns:
         qfrc_inverse, N m, (..., nv), with armature and damping: mj_rne has neither.
     """
-
-    def read(data: mujoco.MjData) -> Array:
-        mujoco.mj_inverse(model, data)
-        return data.qfrc_inverse
-
-    return _ask(model, read, qpos=qpos, qvel=qvel, qacc=qacc)
+    state = {"qpos": qpos, "qvel": qvel, "qacc": qacc}
+    return _after(mujoco.mj_inverse, "qfrc_inverse", model, **state)
 
 
 def mujoco_acceleration(
@@ -92,12 +83,7 @@ def mujoco_acceleration(
     Returns:
         qacc of mj_forward, rad/s^2, (..., nv).
     """
-
-    def read(data: mujoco.MjData) -> Array:
-        mujoco.mj_forward(model, data)
-        return data.qacc
-
-    return _ask(model, read, qpos=qpos, qvel=qvel, ctrl=ctrl)
+    return _after(mujoco.mj_forward, "qacc", model, qpos=qpos, qvel=qvel, ctrl=ctrl)
 
 
 def mujoco_step(
@@ -114,12 +100,7 @@ def mujoco_step(
     Returns:
         qvel, rad/s, (..., nv).
     """
-
-    def read(data: mujoco.MjData) -> Array:
-        mujoco.mj_step(model, data)
-        return data.qvel
-
-    return _ask(model, read, qpos=qpos, qvel=qvel, ctrl=ctrl)
+    return _after(mujoco.mj_step, "qvel", model, qpos=qpos, qvel=qvel, ctrl=ctrl)
 
 
 def mujoco_site_jacobian(
@@ -152,6 +133,21 @@ def mujoco_site_jacobian(
         return J.reshape(6, model.nv)
 
     return _ask(model, read, qpos=qpos)
+
+
+def _after(
+    function: Callable[[mujoco.MjModel, mujoco.MjData], None],
+    name: str,
+    model: mujoco.MjModel,
+    **state: ArrayLike,
+) -> Array:
+    """Return what `data` holds under a name after one of MuJoCo's functions."""
+
+    def read(data: mujoco.MjData) -> Array:
+        function(model, data)
+        return getattr(data, name)
+
+    return _ask(model, read, **state)
 
 
 def _ask(

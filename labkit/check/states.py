@@ -1,0 +1,82 @@
+"""Task states by the checker's last word: `.robo47/statuses.json`.
+
+A state counts for as long as neither the student's files nor the kit change. It is read
+without MuJoCo and the sandbox.
+"""
+
+import functools
+import hashlib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from labkit.base import store
+from labkit.lesson.day import Day
+from robo47.paths import ROOT
+
+if TYPE_CHECKING:
+    from labkit.check.tasks import TaskResult
+    from labkit.judge import Verdict
+
+NAME = "statuses.json"
+KEPT = 50  # keys
+
+
+def known(day: Day) -> dict[str, str]:
+    """Return how tasks stand in the file as it is: "passed", "wrong", "to do" ...
+
+    Returns:
+        By task; a task that was not checked since a change is not in it.
+    """
+    if not day.work.is_file():
+        return {task.id: "not begun" for task in day.tasks}
+    return _of(store.read(NAME), key_of(day))
+
+
+def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
+    """Keep the checker's word; return it, by task.
+
+    Args:
+        key: of the files that it checked, from before it did.
+        results: of all tasks of a day, or of some.
+    """
+    states = {result.task.id: _in_words(result.verdict) for result in results}
+    if all(result.verdict.mistake != "stopped" for result in results):
+        # a bad moment of this machine is not remembered
+        memory = store.read(NAME)
+        before = _of(memory, key)
+        memory.pop(key, None)
+        newest = {**memory, key: {**before, **states}}
+        store.write(NAME, dict(list(newest.items())[-KEPT:]))
+    return states
+
+
+def key_of(day: Day) -> str:
+    """Return what changes with the student's files, the day's own and the kit's."""
+    files = [day.work, *sorted(day.work.parent.glob("*.py"))]
+    digest = _digest([*files, *sorted(day.own.rglob("*.py"))], _kit())
+    return f"{day.number} {digest.hex()[:16]}"
+
+
+@functools.cache
+def _kit() -> bytes:
+    folders = (ROOT / "robo47", ROOT / "labkit")
+    return _digest(path for folder in folders for path in sorted(folder.rglob("*.py")))
+
+
+def _digest(files: Iterable[Path], before: bytes = b"") -> bytes:
+    digest = hashlib.sha256(before)
+    for path in files:
+        digest.update(path.read_bytes() if path.is_file() else b"")
+    return digest.digest()
+
+
+def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
+    found = memory.get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def _in_words(verdict: "Verdict") -> str:
+    if verdict.mistake == "does-not-load":
+        return "the file does not load"
+    return "to do" if verdict.status == "todo" else verdict.status
