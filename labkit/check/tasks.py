@@ -3,23 +3,18 @@
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
-from labkit.check.verdicts import not_utf8, verdict_of, why_not_loaded
-from labkit.judge.ask import Ask, Robot
-from labkit.judge.exchange import LoadError, Model, Question, Reply
+from labkit.check.verdicts import not_utf8, verdict_of
+from labkit.judge.ask import Ask, Asked, make_round
+from labkit.judge.exchange import Exchange, LoadError, replies
 from labkit.judge.mistake import Verdict
-from labkit.judge.rounds import Round, make_round, robots
+from labkit.judge.problems import not_loaded
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
-from labkit.sandbox import model_copy
 from labkit.sandbox.library import library_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-
-PANDA = Robot()  # what a file that loads the robot at its top is given
 
 
 @dataclass(frozen=True)
@@ -74,41 +69,37 @@ def check_tasks(
     if why := not_utf8(script) if script.is_file() else "":
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
-    models = [PANDA, *robots(one for some in rounds.values() for one in some)]
-    questions = {
-        task.id: [_sent(q, models) for one in rounds[task.id] for q in one.questions]
-        for task in asked
-    }
     try:
-        replies = sandbox.run(
+        sandbox.run(
             script,
-            [question for some in questions.values() for question in some],
-            [packed(robot) for robot in models],
-            model_copy.facts(),
+            [exchange for some in rounds.values() for exchange in _exchanges(some)],
             library_of(day),
             {task.id: set(day.needs(task.id)) for task in asked},
         )
     except LoadError as error:
-        verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
+        verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
     source = script.read_text("utf-8", errors="replace")
-    come = iter(replies)
     results: dict[str, TaskResult] = {}
     for task in asked:
-        own = [next(come) for _ in questions[task.id]]
-        found = _result(task, verdict_of(task, rounds[task.id], own, source), own)
+        found = _result(task, rounds[task.id], source)
         results[task.id] = _following(found, day, results)
     return [results[task.id] for task in wanted]
 
 
-def _result(task: Task, verdict: Verdict, replies: Sequence[Reply]) -> TaskResult:
-    """Return a verdict with what its task's functions printed and were refused."""
-    printed = next((reply.printed for reply in replies if reply.printed), "")
-    refused = tuple(dict.fromkeys(what for r in replies for what in r.refused))
-    return TaskResult(task, verdict, printed, refused)
+def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
+    return [exchange for one in asked for exchange in one.exchanges]
 
 
-def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Round]]:
+def _result(task: Task, asked: Sequence[Asked], source: str) -> TaskResult:
+    """Return a task's verdict, what its functions printed and what was refused."""
+    came = replies(_exchanges(asked))
+    printed = next((reply.printed for reply in came if reply.printed), "")
+    refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
+    return TaskResult(task, verdict_of(task, asked, source), printed, refused)
+
+
+def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Asked]]:
     """Return the questions to every function of some tasks, by task.
 
     Raises:
@@ -121,21 +112,6 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
         task.id: [make_round(task.id, f, rows[f], seed) for f in task.functions]
         for task in tasks
     }
-
-
-@lru_cache(8)  # a class is asked with the same few robots
-def packed(robot: Robot) -> dict[str, Any]:
-    """Return a robot as it travels; only an unchanged one is what `load` returns."""
-    return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
-
-
-def _sent(question: Question, models: Sequence[Robot]) -> Question:
-    """Return a question as it travels: a robot as its place among the models."""
-    args = tuple(
-        Model(models.index(arg)) if isinstance(arg, Robot) else arg
-        for arg in question.args
-    )
-    return Question(question.task, question.function, args)
 
 
 def _following(

@@ -10,9 +10,9 @@ from labkit.judge.ask import Ask
 from labkit.judge.exchange import Reply
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
+from labkit.judge.problems import stops_with
 from robo47.checks import Array
 
-ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
 
@@ -96,18 +96,8 @@ def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Findi
     for slip in ask.slips:
         if re.search(slip.error, text) and re.search(slip.source, source):
             return Finding(slip.slug, slip.says)
-    where = f" (line {first.line}" if first.line else ""
-    if callers := [f"line {line}" for line in first.callers]:
-        where += f", called from {', from '.join(callers)}"
-    where += ")" if where else ""
-    often = f"in {len(broken)} of {asked} calls"
-    why = ONLY_NUMPY if first.kind == "ModuleNotFoundError" else ""
-    return Finding("raises", f"It stops with {_tidy(text)}{where}, {often}.{why}")
-
-
-def _tidy(text: str) -> str:
-    """Return an exception's text; one that says nothing keeps its name alone."""
-    return text.rstrip().removesuffix(":")
+    often = f", in {len(broken)} of {asked} calls"
+    return Finding("raises", stops_with(first, often))
 
 
 def _differs(reply: Reply) -> bool:

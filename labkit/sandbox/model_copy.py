@@ -1,15 +1,24 @@
 """A compiled model as plain data, for the sandbox's fake of MjModel."""
 
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from labkit.judge.ask import Robot
 from labkit.sandbox.inside.fake_model import KINDS
 from labkit.sandbox.inside.wire import pack_array
 from robo47 import panda
 from robo47.paths import ROOT
+
+
+@lru_cache(8)  # a class is asked with the same few robots
+def copy_of(robot: Robot | mujoco.MjModel) -> dict[str, Any]:
+    """Return a robot as it travels; only an unchanged one is what `load` returns."""
+    if isinstance(robot, mujoco.MjModel):
+        return copy_model(robot)
+    return copy_model(robot.model, "" if robot.change else robot.entry)
 
 
 def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:

@@ -1,0 +1,299 @@
+"""The judge: from a function's questions and replies to a verdict and its name."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import answers, near_miss
+from labkit.judge.ask import (
+    Ask,
+    Asked,
+    Case,
+    HeldOut,
+    held_out_answers,
+    in_words,
+    parts,
+    right_answers,
+    stacked,
+)
+from labkit.judge.compare import difference, matches
+from labkit.judge.exchange import Exchange, Question, replies
+from labkit.judge.mistake import Finding, Mistake, Verdict, capitalised
+from robo47.checks import Array
+
+Parts = tuple[Array, ...]
+
+
+def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
+    """Return what the replies to a function's questions show.
+
+    Args:
+        asked: the questions, with their replies.
+        source: the student's file, for slips that show in it.
+        names: of the function's arguments, for sentences.
+
+    Raises:
+        ValueError: a question has no reply.
+    """
+    S = answers.read(replies(asked.main), asked.ask, source)
+    if isinstance(S, Finding):
+        return Verdict("wrong", *S)
+    if state := answers.kept_state(replies([*asked.main, *asked.fresh])):
+        return Verdict("wrong", *state)
+    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
+        if asked.ask.accept:
+            return _judge_accepted(asked, S, names)
+        return _judge_values(asked, S, names)
+
+
+def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
+    ask = asked.ask
+    T = right_answers(ask, asked.main)
+    case = _case(asked, S, T, names)
+    measured = _measured(case, S, T)
+    off = off_by(ask, S, T)
+    if off > ask.near:
+        return Verdict("wrong", *diagnose(case, S, T), measured)
+    if off > ask.tolerance:
+        return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
+    return _second_look(asked, measured)
+
+
+def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
+    if off <= near_miss.SINGLE and answers.single_precision(replies(asked.main), S):
+        says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
+        return Finding("float32", says)
+    i = worst_part(case.ask, S, T)
+    found = case.ask.near_miss(case) if case.ask.near_miss else None
+    return found or near_miss.explain(S[i], T[i])
+
+
+def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
+    """Return the verdict on right answers: how did they come about?"""
+    ask, note = asked.ask, ""
+    if shared := answers.shared_memory(replies([*asked.main, *asked.fresh])):
+        return Verdict("wrong", *shared, measured)
+    if asked.fresh and ask.truth:
+        S = answers.read(replies(asked.fresh), ask, "")
+        off = np.inf
+        if not isinstance(S, Finding):
+            off = off_by(ask, S, right_answers(ask, asked.fresh))
+        if off > ask.near:
+            says = (
+                "Right for the inputs that are always asked, but off by "
+                f"{off:.3g} for fresh ones: some inputs take another way through your "
+                "function, or the answers are not computed from them."
+            )
+            return Verdict("wrong", "looked-up", says, measured)
+    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
+        if _found(held, ask, exchanges):
+            if held.status != "passed":
+                return Verdict(held.status, held.slug, held.says, measured)
+            note = f"{note} {held.says}".strip()
+    return Verdict("passed", "", note, measured)
+
+
+def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
+    """Return whether answers to held-out questions give the mistake away."""
+    S = answers.read(replies(exchanges), ask, "")
+    if isinstance(S, Finding):
+        return held.mistaken is None  # no answer is no sign of one certain mistake
+    off = off_by(ask, S, held_out_answers(held, ask, exchanges))
+    return off <= ask.near if held.mistaken else off > ask.near
+
+
+def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
+    """Return the verdict of a function to which many answers are right."""
+    ask = asked.ask
+    assert ask.accept is not None
+    fresh = answers.read(replies(asked.fresh), ask, "")
+    if isinstance(fresh, Finding):
+        return Verdict("wrong", *fresh)
+    questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
+    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
+    wrong: list[tuple[Question, Finding]] = []
+    for question, row in zip(questions, zip(*columns, strict=True), strict=True):
+        answer = row[0] if len(row) == 1 else row
+        args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
+        if why := ask.accept(*args, answer):
+            found = why if isinstance(why, Finding) else Finding("not-accepted", why)
+            wrong.append((question, found))
+    if not wrong:
+        return _second_look(asked, ())
+    if named := redone(ask, stacked(asked.main), S, None):
+        return Verdict("wrong", *named)
+    question, found = wrong[0]
+    given = in_words(question, names)
+    often = sum(other.slug == found.slug for _, other in wrong)
+    where = f" (For {often} of {len(questions)} inputs"
+    where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
+    return Verdict("wrong", found.slug, found.message + where)
+
+
+def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
+    def plain(some: Parts) -> Any:
+        return some[0] if len(some) == 1 else some
+
+    answered = zip(asked.probes, replies(asked.probes), strict=True)
+    probes = [
+        (probe.question.args, None if reply.kind else reply.value)
+        for probe, reply in answered
+    ]
+    given = [in_words(exchange.question, names) for exchange in asked.main]
+    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+
+
+def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
+    ask = case.ask
+    gap = gaps(ask, S, T)
+    lines = [
+        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)}",
+    ]
+    for kind, s, t in zip(ask.kinds, S, T, strict=True):
+        lines += kind.measured(s, t)
+    return (*lines, *(ask.measured(case) if ask.measured else ()))
+
+
+def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
+    """Return the first of: a named mistake, one place, what is wrong."""
+    ask = case.ask
+    if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
+        return found
+    if found := _not_finite(S, case.given):
+        return found
+    i = worst_part(ask, S, T)
+    kind = ask.kinds[i]
+    if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
+        return found
+    if ask.unnamed and (found := ask.unnamed(case)):
+        return found
+    found = kind.what_is_wrong(S[i], T[i])
+    called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
+    where = ""
+    if found.slug != "one-factor-off":  # every entry, so where does not matter
+        where = _where(kind, S[i], T[i], case.given, ask.near)
+    return Finding(found.slug, f"{called}{found.message}{where}")
+
+
+def named_mistake(
+    mistakes: Sequence[Mistake], arguments: tuple[Any, ...], ask: Ask, S: Any, T: Any
+) -> Finding | None:
+    """Return the first mistake that, made on purpose, gives the student's answers.
+
+    Args:
+        mistakes: the candidates.
+        arguments: all questions' arguments stacked.
+        ask: the function's row.
+        S: the student's answers: per part, (n, ...).
+        T: the right ones, or None where many are right.
+    """
+    for mistake in mistakes:
+        try:
+            again = parts(mistake.redo(*arguments))
+        except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
+            continue
+        pairs = list(zip(S, again, ask.kinds, strict=False))
+        if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in pairs):
+            says = capitalised(mistake.says)
+            says += "" if says.endswith("?") else "."
+            if T is not None:
+                i = worst_part(ask, S, T)
+                says += f" (Off by up to {ask.kinds[i].apart(S[i], T[i])}; "
+                says += f"{mistake.redone} gives your numbers exactly.)"
+            return Finding(mistake.slug, says)
+    return None
+
+
+def redone(
+    ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts | None
+) -> Finding | None:
+    """Return a named mistake of the function, or a general one of its kind."""
+    if found := named_mistake(ask.named, arguments, ask, S, T):
+        return found
+    if T is None:
+        return None
+    for i, kind in enumerate(ask.kinds):
+        right = [part for j, part in enumerate(T) if j != i]
+        others = [part for j, part in enumerate(S) if j != i]
+        if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
+            continue
+        one = Ask(ask.inputs, kind, truth=ask.truth)
+        found = named_mistake(list(kind.general()), (T[i],), one, (S[i],), (T[i],))
+        if found:
+            called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
+            return Finding(found.slug, called + found.message)
+    return None
+
+
+def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
+    """Return per call the largest difference of an entry, in units of its scale."""
+    gaps = [
+        difference(s.reshape(len(s), -1), t.reshape(len(t), -1)) / kind.scale
+        for s, t, kind in zip(S, T, ask.kinds, strict=True)
+    ]
+    return np.max(gaps, axis=0)
+
+
+def off_by(ask: Ask, S: Parts, T: Parts) -> float:
+    """Return the largest difference of any entry, in units of its scale."""
+    return float(gaps(ask, S, T).max())
+
+
+def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
+    """Return the first part of an answer that is wrong, or the one furthest off."""
+    off = [
+        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
+        for s, t, kind in zip(S, T, ask.kinds, strict=True)
+    ]
+    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
+
+
+def _nothing_there(S: Parts) -> Finding | None:
+    if any(part.any() for part in S):
+        return None
+    return Finding(
+        "all-zeros",
+        "Every entry is 0, whatever the input: was the array made, but never filled? "
+        "(MuJoCo's own results look so before mj_forward.)",
+    )
+
+
+def _not_finite(S: Parts, given: Sequence[str]) -> Finding | None:
+    finite = [np.isfinite(part).reshape(len(part), -1).all(axis=1) for part in S]
+    bad = ~np.all(finite, axis=0)
+    if not bad.any():
+        return None
+    says = f"NaN or infinity comes out for {bad.sum()} of {len(bad)} inputs"
+    return Finding("not-finite", f"{says}{_first(bad, given, 'first for')}.")
+
+
+def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
+    """Return that the answer does not depend on the input, though it should."""
+    if len(S) < 2 or difference(S, np.broadcast_to(S[0], S.shape)).max() > 1e-8:
+        return None
+    off = f"(Off by up to {kind.apart(S, T)}.)"
+    square = S.ndim == 3 and S.shape[1] == S.shape[2]
+    if square and np.array_equal(S[0], np.eye(S.shape[1])):
+        says = f"It returns the identity, whatever it is given. {off}"
+        return Finding("always-the-identity", says)
+    says = (
+        f"The answer is the same, whatever the input: it does not depend on it. {off}"
+    )
+    return Finding("ignores-its-input", says)
+
+
+def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
+    flat = difference(S.reshape(len(S), -1), T.reshape(len(T), -1))
+    wrong = flat > near * kind.scale
+    if wrong.all():
+        return ""
+    right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"
+    return f"{right}{_first(wrong, given, 'but not for')}."
+
+
+def _first(which: Any, given: Sequence[str], word: str) -> str:
+    words = given[int(np.argmax(which))]
+    return f", {word} {words}" if 0 < len(words) <= 90 else ""
