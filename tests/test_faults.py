@@ -194,7 +194,7 @@ class TestAMachineThatStartsNoProcess:
         code = (
             "import runpy, sys, errno\n"
             f"sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
-            "from labkit.check import process\n"
+            "from labkit.sandbox import process\n"
             "def fails(*_): raise OSError(errno.EAGAIN, 'no more processes')\n"
             "process._start = fails\n"
             f"sys.argv = ['check', '1', '--file', {str(DAY.source)!r}]\n"

@@ -8,7 +8,7 @@ import pytest
 from labkit.judge import Robot
 from labkit.judge.exchange import Question
 from labkit.sandbox.inside import fake_model, wire
-from labkit.sandbox.model_copy import copy_model
+from labkit.sandbox.messages import copy_model
 from robo47 import panda
 
 pytestmark = pytest.mark.kit

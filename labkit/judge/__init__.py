@@ -5,8 +5,7 @@
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians and others; rigid_kinds: rotations, poses)
     draw        inputs for questions
-    problems    what a reply means that is no answer
-    answers     did an answer come back, of the right shape and type?
+    problems    did an answer come back, of the right shape and type? If not, the words
     mistake     a mistake that has a name, and the same mistake made on purpose
     finished    mistakes made with a finished rotation or pose
     near_miss   right in method, not in all digits

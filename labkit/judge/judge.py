@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge import answers, near_miss
+from labkit.judge import near_miss, problems
 from labkit.judge.ask import (
     Ask,
     Asked,
@@ -36,10 +36,10 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
-    S = answers.read(replies(asked.main), asked.ask, source)
+    S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *S)
-    if state := answers.kept_state(replies([*asked.main, *asked.fresh])):
+    if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
         if asked.ask.accept:
@@ -61,7 +61,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
-    if off <= near_miss.SINGLE and answers.single_precision(replies(asked.main), S):
+    if off <= near_miss.SINGLE and problems.single_precision(replies(asked.main), S):
         says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
         return Finding("float32", says)
     i = worst_part(case.ask, S, T)
@@ -72,10 +72,10 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
 def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask, note = asked.ask, ""
-    if shared := answers.shared_memory(replies([*asked.main, *asked.fresh])):
+    if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
-        S = answers.read(replies(asked.fresh), ask, "")
+        S = problems.read(replies(asked.fresh), ask, "")
         off = np.inf
         if not isinstance(S, Finding):
             off = off_by(ask, S, right_answers(ask, asked.fresh))
@@ -96,7 +96,7 @@ def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     """Return whether answers to held-out questions give the mistake away."""
-    S = answers.read(replies(exchanges), ask, "")
+    S = problems.read(replies(exchanges), ask, "")
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = off_by(ask, S, held_out_answers(held, ask, exchanges))
@@ -107,7 +107,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
     assert ask.accept is not None
-    fresh = answers.read(replies(asked.fresh), ask, "")
+    fresh = problems.read(replies(asked.fresh), ask, "")
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
@@ -181,7 +181,7 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
 def named_mistake(
     mistakes: Sequence[Mistake], arguments: tuple[Any, ...], ask: Ask, S: Any, T: Any
 ) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers.
+    """Return the first mistake that, made on purpose, gives the student's problems.
 
     Args:
         mistakes: the candidates.

@@ -1,14 +1,22 @@
-"""Replies that are no answer: what each kind of them means, in the checker's words."""
+"""What keeps replies from being judged: no answer, a wrong shape, memory, state."""
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from labkit.judge.ask import Ask
 from labkit.judge.exchange import Reply
-from labkit.judge.mistake import Verdict
+from labkit.judge.kinds import Kind
+from labkit.judge.mistake import Finding, Verdict
+from robo47.checks import Array
 from robo47.paths import ROOT
 
 ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
+SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
 
 def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
@@ -109,6 +117,149 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why
 
 
+def read(
+    replies: Sequence[Reply], ask: Ask, source: str
+) -> tuple[Array, ...] | Finding:
+    """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
+
+    Args:
+        replies: one per question.
+        ask: the function's row.
+        source: the student's file, for the slips that show in it.
+    """
+    if broken := [reply for reply in replies if reply.kind]:
+        return _raised(broken, len(replies), ask, source)
+    if nothing := sum(reply.value is None for reply in replies):
+        says = (
+            "It returns nothing (None): the result is worked out, but not handed back."
+        )
+        if nothing < len(replies):
+            says = f"It returns None for {nothing} of {len(replies)} inputs."
+        return Finding("nothing-returned", says)
+    kinds = ask.kinds
+    columns: list[list[Array]] = [[] for _ in kinds]
+    for reply in replies:
+        row = _parts(reply.value, kinds)
+        if isinstance(row, Finding):
+            return row
+        for column, part in zip(columns, row, strict=True):
+            column.append(part)
+    return tuple(np.stack(column).astype(np.float64) for column in columns)
+
+
+def kept_state(replies: Sequence[Reply]) -> Finding | None:
+    """Return that a function keeps something between its calls, if it does.
+
+    Args:
+        replies: to questions that were asked twice, apart from each other.
+    """
+    differ = [reply for reply in replies if _differs(reply)]
+    if differ:
+        return Finding(
+            "kept-between-calls",
+            "The same input gave two different answers when it was asked twice, for "
+            f"{len(differ)} of {len(replies)} inputs: something is kept between calls "
+            "(a default argument such as T=np.eye(4), a matrix or list at the top of "
+            "the file, the last call's input). Make it anew in the function.",
+        )
+    return None
+
+
+def shared_memory(replies: Sequence[Reply]) -> Finding | None:
+    """Return that right answers are not a function's own arrays, if so."""
+    shared = [name for reply in replies for name in reply.shares]
+    if "another answer" in shared:
+        return Finding(
+            "one-array-for-all",
+            "It hands out one and the same array at every call, so the next call "
+            "overwrites the last answer. Make a new one in the function.",
+        )
+    if shared:
+        return Finding(
+            "shares-its-argument",
+            f"Its answer is (a part of) its argument {shared[0]} itself, so changing "
+            f"one changes the other; return a copy: {shared[0]}.copy().",
+        )
+    return None
+
+
+def single_precision(replies: Sequence[Reply], S: Sequence[Array]) -> bool:
+    """Return whether all numbers came as float32, or are ones that float32 can hold."""
+    if all(getattr(r.value, "dtype", None) == np.float32 for r in replies):
+        return True
+    with np.errstate(over="ignore"):
+        return all(np.array_equal(part.astype(np.float32), part) for part in S)
+
+
 def _line_of(script: Path, reply: Reply) -> str:
     lines = script.read_text("utf-8", errors="replace").splitlines()
     return lines[reply.line - 1] if reply.line and reply.line <= len(lines) else ""
+
+
+def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Finding:
+    first = broken[0]
+    text = f"{first.kind}: {first.error}"
+    for slip in ask.slips:
+        if re.search(slip.error, text) and re.search(slip.source, source):
+            return Finding(slip.slug, slip.says)
+    often = f", in {len(broken)} of {asked} calls"
+    return Finding("raises", stops_with(first, often))
+
+
+def _differs(reply: Reply) -> bool:
+    if reply.kind or reply.again_error:
+        return bool(reply.kind) != bool(reply.again_error)
+    first, second = _flat(reply.value), _flat(reply.again)
+    if first is None or second is None or first.shape != second.shape:
+        return not (first is None and second is None)
+    scale = max(1.0, float(np.abs(first[np.isfinite(first)]).max(initial=0.0)))
+    return not np.allclose(first, second, rtol=0.0, atol=SAME * scale, equal_nan=True)
+
+
+def _flat(value: Any) -> Array | None:
+    if value is None:
+        return None
+    some = value if isinstance(value, tuple) else (value,)
+    return np.concatenate([np.asarray(v, dtype=np.float64).ravel() for v in some])
+
+
+def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Array, ...] | Finding:
+    """Return one answer's parts, checked."""
+    if len(kinds) == 1:
+        part = _array(value, kinds[0])
+        return part if isinstance(part, Finding) else (part,)
+    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+    if isinstance(value, np.ndarray) and value.ndim:  # numbers, that travel as one
+        value = tuple(value)
+    if not isinstance(value, tuple) or len(value) != len(kinds):
+        got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
+        return Finding("parts", f"It returns {got}; expected are {expected}.")
+    found: list[Array] = []
+    for part, kind in zip(value, kinds, strict=True):
+        array = _array(part, kind)
+        if isinstance(array, Finding):
+            return Finding(
+                array.slug, f"{kind.called or 'One result'}: {array.message}"
+            )
+        found.append(array)
+    return tuple(found)
+
+
+def _array(value: object, kind: Kind) -> Array | Finding:
+    try:
+        array = np.asarray(value)
+    except ValueError:  # parts of different shapes
+        some = value if isinstance(value, tuple | list) else ()
+        shapes = ", ".join(str(np.shape(part)) for part in some)
+        says = f"It returns parts of shapes {shapes}; expected is {kind.expected}."
+        return Finding("shape", says)
+    if array.dtype.kind not in "fiub":
+        says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
+        return Finding("not-numbers", f"{says} numbers.")
+    if array.shape != kind.shape:
+        text = f"It returns shape {array.shape}; expected is {kind.expected}"
+        if str(kind.shape) not in text.partition(";")[2]:
+            text += f", shape {kind.shape}"
+        reason = kind.why_shape(array.shape)
+        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+    return array

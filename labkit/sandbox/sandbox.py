@@ -12,7 +12,6 @@ for want of memory, and the process held little of it, a FaultError says so. The
 of time do not count what a process waits for a processor.
 """
 
-import base64
 import contextlib
 import time
 from collections import defaultdict
@@ -20,7 +19,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from labkit.judge.ask import Robot
 from labkit.judge.exchange import (
     Exchange,
     LoadError,
@@ -29,13 +27,11 @@ from labkit.judge.exchange import (
     stopped,
     twice,
 )
-from labkit.sandbox import messages, model_copy
+from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
 from labkit.sandbox.process import CHANNEL, EndedError, Process
-from labkit.sandbox.source import code_of
 from robo47.errors import FaultError
 
-PANDA = Robot()  # what a file that loads the robot at its top is given
 CALL_SECONDS = 3.0
 TASK_SECONDS = 10.0  # for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
@@ -86,8 +82,10 @@ class Sandbox:
             FaultError: no process starts, or this machine ended it.
             Robo47Error: there is no such file, or it is no script.
         """
-        robots = messages.robots_of(exchange.question for exchange in exchanges)
-        request = _request(script, robots, library, keep=True, cpu_seconds=CPU_SECONDS)
+        robots = messages.robots_of([exchange.question for exchange in exchanges])
+        request = messages.request(
+            script, robots, library, keep=True, cpu_seconds=CPU_SECONDS
+        )
         deadline, killed = time.monotonic() + RUN_SECONDS, False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
             rounds = _Rounds(left, deadline)
@@ -125,7 +123,7 @@ class Sandbox:
             LoadError: the file does not load.
             Robo47Error: there is no such file, it is no script, or no process starts.
         """
-        request = _request(
+        request = messages.request(
             script, robots, library, keep=False, cpu_seconds=SESSION_CPU_SECONDS
         )
         process = self._take()
@@ -256,28 +254,6 @@ class _Rounds:
                 )
             elif task in waiting:
                 exchange.reply = Reply(error=f"task {culprit}", kind="waits")
-
-
-def _request(
-    script: Path,
-    robots: Robots,
-    library: Mapping[str, str] | None,
-    **others: Any,
-) -> dict[str, Any]:
-    """Return what a process is told before the first question."""
-    request = {**code_of(script), "library": dict(library or {}), **others}
-    copies = [model_copy.copy_of(robot) for robot in robots]
-    known = [copy["entry"] for copy in copies]
-    if PANDA.entry not in known and _names_panda(request):
-        copies.append(model_copy.copy_of(PANDA))
-    return {**request, "models": copies, "facts": model_copy.facts()}
-
-
-def _names_panda(request: dict[str, Any]) -> bool:
-    """Return whether code that is sent may load the robot."""
-    own = map(base64.b64decode, [request["code"], *request["beside"].values()])
-    library = any("panda" in source for source in request["library"].values())
-    return library or any(b"panda" in source for source in own)
 
 
 def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:
