@@ -113,7 +113,7 @@ def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
     finally:
         manifest.write_text(text)
     assert entry["mistake"] == "not-by-hand"
-    assert "labkit.inspector.native_viewer.anything" in entry["message"]
+    assert "robo47.simulate.anything" in entry["message"]
 
 
 def test_its_lab_runs_logs_and_is_judged_by_max_and_min(kit, run, begun):

@@ -19,21 +19,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from labkit.judge.exchange import (
-    Exchange,
-    LoadError,
-    Question,
-    Reply,
-    stopped,
-    twice,
-)
+from labkit.judge.exchange import Exchange, LoadError, Question, Reply, stopped, twice
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
 from labkit.sandbox.process import CHANNEL, EndedError, Process
 from robo47.errors import FaultError
 
-CALL_SECONDS = 3.0
-TASK_SECONDS = 10.0  # for all calls of a task
+CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
@@ -241,18 +233,20 @@ class _Rounds:
 
     def fill(self, needs: Mapping[str, Iterable[str]]) -> None:
         """Fill in what was answered twice, and what is not asked again."""
-        at, why = self.ended or (None, None)
-        culprit = at.question.task if at else ""
-        waiting = _dependents(culprit, needs) if at else set()
+        for exchange, again in self.second.items():
+            exchange.reply = twice(self.first[exchange], again)
+        if not self.ended:
+            return
+        at, why = self.ended
+        culprit, at.reply = at.question.task, why
+        waiting = _dependents(culprit, needs)
         for exchange in self.left:
-            task, once = exchange.question.task, self.first.get(exchange)
-            if once and exchange in self.second:
-                exchange.reply = twice(once, self.second[exchange])
-            elif at and task == culprit:
-                exchange.reply = (
-                    twice(once, once) if once and exchange is not at else why
-                )
-            elif task in waiting:
+            if exchange.reply is not None:
+                continue
+            if exchange.question.task == culprit:
+                once = self.first.get(exchange)
+                exchange.reply = twice(once, once) if once else why
+            elif exchange.question.task in waiting:
                 exchange.reply = Reply(error=f"task {culprit}", kind="waits")
 
 
