@@ -169,6 +169,24 @@ def test_a_tab_may_ask_any_function(desk):
     np.testing.assert_array_equal(got[0].value, 2 * np.eye(4))
 
 
+@pytest.mark.parametrize(
+    ("reply", "says"),
+    [
+        (Reply(np.eye(4)), ""),
+        (
+            Reply(kind="missing"),
+            "The file has no function f. To put its gap back: make start RESET=1.6.",
+        ),
+        (
+            Reply(kind="ValueError", error="no", line=3),
+            "f: It stops with ValueError: no (line 3).",
+        ),
+    ],
+)
+def test_what_is_no_answer_is_told_in_the_words_of_make_check(reply, says):
+    assert checker_calls.describe({"f": "1.6"}, "f", reply) == says
+
+
 def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp_path):
     script = tmp_path / "day1_transforms.py"
     load = "from robo47 import panda\nMODEL = panda.load()\n"

@@ -6,7 +6,7 @@ import pytest
 from labkit.judge import Robot
 from labkit.judge.exchange import LoadError, Path, Question
 from labkit.lesson.day import find_day
-from labkit.sandbox import process, sandbox
+from labkit.sandbox import messages, process, sandbox
 from robo47.paths import ROOT
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -298,6 +298,13 @@ class TestWhatItMayImport:
         code = "from robo47 import panda\ndef f(hand): return panda.load('panda').nq"
         (reply,) = ask(code, Question("", "f", (Robot("panda"),)))
         assert reply.value == 9
+
+    def test_is_sent_the_panda_only_where_code_names_it(self, student):
+        assert messages.request(student("x = 1"), [], None)["models"] == []
+        script = student("from robo47 import panda")
+        (copy,) = messages.request(script, [], None)["models"]
+        assert copy["entry"] == "panda_nohand"
+        assert messages.request(script, [Robot()], None)["models"] == [copy]
 
     def test_is_no_module_that_does_not_exist(self, ask):
         with pytest.raises(LoadError, match=r"named 'robo47\.nothing'"):
