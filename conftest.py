@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import sys
 import textwrap
-from functools import cache
 from pathlib import Path
 
 import hypothesis
@@ -211,28 +210,18 @@ def student(tmp_path):
     return write
 
 
-@cache
-def plain_panda():
-    """Return the Panda as the sandbox gets it."""
-    from labkit.sandbox.model_copy import copy_model
-
-    return copy_model(panda.load("panda_nohand"), "panda_nohand")
-
-
 @pytest.fixture
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from labkit.judge.exchange import Question
-    from labkit.sandbox.model_copy import facts
+    from labkit.judge.exchange import Exchange, Question, replies
     from labkit.sandbox.sandbox import Sandbox
 
     def run(code, *questions, library=None, needs=None):
+        asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
-            models = [plain_panda()]
-            asked = questions or [Question("1.1", "f", ())]
-            file = student(code)
-            return sandbox.run(file, asked, models, facts(), library, needs)
+            sandbox.run(student(code), asked, library, needs)
+        return replies(asked)
 
     return run
 

@@ -11,31 +11,27 @@ from pathlib import Path as File
 
 import numpy as np
 
-from labkit.judge.exchange import LoadError, Model, Path, Reply
-from robo47 import panda
+from labkit.judge import Robot
+from labkit.judge.exchange import LoadError, Path, Reply
 
 
 class InProcess:
     """Runs a file as `Sandbox.run` does; robo47 and MuJoCo are the real ones."""
 
-    def run(self, script, questions, models, facts, library, needs=None):
-        """Ask every question, load the file anew, and ask again from the end."""
-        self.models = [panda.load("panda_nohand")] * len(models)
-        self.models = _originals(models) or self.models
-        first = self._load(script)
-        kept = []
-        replies = [self._ask(first, q, kept) for q in questions]
-        second, again = self._load(script), []
-        for question in reversed(questions):
-            again.append(self._ask(second, question, []))
-        return [
-            _with(reply, other)
-            for reply, other in zip(replies, reversed(again), strict=True)
-        ]
-
     def __init__(self, instead=None):
         """Take functions that stand in the file in place of its own, by name."""
         self.instead = instead or {}
+
+    def run(self, script, exchanges, library, needs=None):
+        """Ask every question, load the file anew, and ask again from the end."""
+        first = self._load(script)
+        kept = []
+        for exchange in exchanges:
+            exchange.reply = self._ask(first, exchange.question, kept)
+        second = self._load(script)
+        for exchange in reversed(exchanges):
+            again = self._ask(second, exchange.question, [])
+            exchange.reply = _with(exchange.reply, again)
 
     def _load(self, script):
         module = types.ModuleType(script.stem)
@@ -79,15 +75,11 @@ class InProcess:
         )
 
     def _argument(self, arg):
-        if isinstance(arg, Model):
-            return self.models[arg.index]
+        if isinstance(arg, Robot):
+            return arg.model
         if isinstance(arg, Path):
             return list(arg.pairs)
         return arg.copy() if isinstance(arg, np.ndarray) else arg
-
-
-def _originals(models):
-    return [m for m in models if hasattr(m, "nq")]
 
 
 def _copied(value):
@@ -132,11 +124,7 @@ def _describe(error, script):
 
 def verdicts(day, script: File, only=None, seed=1, instead=None):
     """Return {task: verdict} of a file of ours, some of its functions replaced."""
-    from labkit.check import tasks
+    from labkit.check.tasks import check_tasks
 
-    packed, tasks.packed = tasks.packed, lambda robot: robot.model
-    try:
-        results = tasks.check_tasks(day, script, InProcess(instead), only, seed)
-    finally:
-        tasks.packed = packed
+    results = check_tasks(day, script, InProcess(instead), only, seed)
     return {result.task.id: result.verdict for result in results}

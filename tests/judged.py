@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from labkit.judge.ask import held_out_answers, make_round, parts, right_answers
 from labkit.judge.exchange import Reply
-from labkit.judge.judging import judge
-from labkit.judge.rounds import held_out_answers, make_round, parts, right_answers
+from labkit.judge.judge import judge
 
 FRESH_SEED = 4711
+NONE = Reply(kind="TypeError", error="no such argument")
 
 
 def round_of(ask, function="f"):
@@ -19,7 +20,7 @@ def right(ask):
     return right_answers(ask, round_of(ask).main)
 
 
-def replies_of(values, ask):
+def replies_of(values):
     """Return replies with these answers, per part (n, ...), twice the same."""
     columns = parts(values) if isinstance(values, tuple) else (np.asarray(values),)
     found = []
@@ -30,27 +31,27 @@ def replies_of(values, ask):
     return found
 
 
+def answered(exchanges, replies):
+    """Give each question its reply."""
+    for exchange, reply in zip(exchanges, replies, strict=True):
+        exchange.reply = reply
+
+
 def judged(ask, values, source=""):
     """Return the verdict on main answers; all further questions are answered right."""
-    asked = round_of(ask)
-    return judge(asked, [*replies_of(values, ask), *rest_of(asked)], source)
+    return judged_replies(ask, replies_of(values), source)
 
 
 def judged_replies(ask, replies, source=""):
-    """Return the verdict on replies to the main questions."""
+    """Return the verdict on replies to the main questions, the rest being right."""
     asked = round_of(ask)
-    return judge(asked, [*replies, *rest_of(asked)], source)
-
-
-def rest_of(asked):
-    """Return right replies to all but the main questions; no answer to a probe."""
-    ask = asked.ask
-    found = replies_of(right_answers(ask, asked.fresh), ask) if asked.fresh else []
-    for held, questions in zip(ask.held_out, asked.held_out, strict=True):
-        if held.mistaken:
-            found += [Reply(kind="TypeError", error="no such argument")] * len(
-                questions
-            )
-        else:
-            found += replies_of(held_out_answers(held, ask, questions), ask)
-    return found + [Reply(kind="TypeError")] * len(asked.probes)
+    answered(asked.main, replies)
+    if asked.fresh:
+        answered(asked.fresh, replies_of(right_answers(ask, asked.fresh)))
+    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
+        answers = [NONE] * len(exchanges)
+        if not held.mistaken:
+            answers = replies_of(held_out_answers(held, ask, exchanges))
+        answered(exchanges, answers)
+    answered(asked.probes, [NONE] * len(asked.probes))
+    return judge(asked, source)

@@ -437,7 +437,6 @@ class TestAForgedMessage:
         assert len(odd.printed) < 10_000
 
     def test_flood_between_two_rounds_is_bounded(self, student, monkeypatch):
-        from labkit.sandbox.model_copy import facts
 
         code = (
             self.FIND
@@ -450,7 +449,7 @@ class TestAForgedMessage:
         """
         )
         with sandbox.Sandbox() as box:
-            session = box.session(student(code), [], facts())
+            session = box.session(student(code))
             session._process.ask([{"function": "g", "args": []}])
             time.sleep(0.5)
             assert session._process._in.qsize() <= process.MOST_WAITING

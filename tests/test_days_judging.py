@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from judged import judged, right, round_of
 
+from labkit.judge.ask import parts, stacked
 from labkit.judge.compare import matches
-from labkit.judge.naming import off_by
-from labkit.judge.rounds import parts, stacked
+from labkit.judge.judge import off_by
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import all_days
@@ -124,8 +124,8 @@ def test_a_nearly_right_answer_is_close_and_never_a_mistake(number, name, ask):
 @every
 def test_questions_are_the_same_every_time_and_of_one_shape(number, name, ask):
     first, again = round_of(ask), round_of(ask)
-    for question, same in zip(first.questions, again.questions, strict=True):
-        for arg, equal in zip(question.args, same.args, strict=True):
+    for one, same in zip(first.exchanges, again.exchanges, strict=True):
+        for arg, equal in zip(one.question.args, same.question.args, strict=True):
             np.testing.assert_equal(arg, equal)
-    shapes = {tuple(np.shape(arg) for arg in q.args) for q in first.main}
+    shapes = {tuple(np.shape(arg) for arg in one.question.args) for one in first.main}
     assert len(shapes) == 1

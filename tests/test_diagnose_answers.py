@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
-from judged import judged, judged_replies, replies_of, right
+from judged import answered, judged, judged_replies, replies_of, right, round_of
 
 from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
+from labkit.judge.ask import number
 from labkit.judge.exchange import Reply
-from labkit.judge.rounds import number, robots
+from labkit.judge.judge import judge
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from labkit.sandbox.messages import robots_of
 
 DAY1 = folder.load(find_day(1), "questions").QUESTIONS
 MAKE_T = DAY1["make_T"]
@@ -41,7 +43,7 @@ def test_what_is_no_pose_at_all_is_told_by_its_form(value, slug, word):
 
 
 def test_an_exception_is_told_with_its_line_and_how_often_it_happens():
-    replies = replies_of(right(MAKE_T)[0], MAKE_T)
+    replies = replies_of(right(MAKE_T)[0])
     replies[3] = Reply(error="float division", kind="ZeroDivisionError", line=31)
     verdict = judged_replies(MAKE_T, replies)
     assert (verdict.status, verdict.mistake) == ("wrong", "raises")
@@ -75,15 +77,10 @@ def test_memory_that_is_shared_never_passes(shares, slug):
 
 def test_answers_looked_up_fail_at_fresh_inputs():
     ask = Ask(lambda rng: [(x,) for x in rng.uniform(size=5)], Scalar(), truth=np.sin)
-    from judged import replies_of as replied
-    from judged import round_of
-
-    from labkit.judge.judging import judge
-
     asked = round_of(ask)
-    table = replied(right(ask)[0], ask)
-    wrong = [Reply(value=np.array(9.0), again=np.array(9.0))] * len(asked.fresh)
-    assert judge(asked, [*table, *wrong]).mistake == "looked-up"
+    answered(asked.main, replies_of(right(ask)[0]))
+    answered(asked.fresh, replies_of(np.full(len(asked.fresh), 9.0)))
+    assert judge(asked).mistake == "looked-up"
 
 
 def test_a_held_out_question_tells_how_an_answer_came_about():
@@ -95,15 +92,12 @@ def test_a_held_out_question_tells_how_an_answer_came_about():
         held_out=[held],
         fresh=0,
     )
-    from judged import round_of
-
-    from labkit.judge.judging import judge
 
     def verdict(answer):
-        found = [
-            Reply(value=np.array(x), again=np.array(x)) for x in (1.0, 4.0, answer)
-        ]
-        return judge(round_of(ask), found).mistake
+        asked = round_of(ask)
+        answered(asked.main, replies_of([1.0, 4.0]))
+        answered(asked.held_out[0], replies_of([answer]))
+        return judge(asked).mistake
 
     assert verdict(np.sqrt(8.0)) == "by-halves"
     assert verdict(8.0) == ""
@@ -137,13 +131,9 @@ def test_accepting_needs_no_truth_and_says_why_not():
 
 
 def told_many(ask, answer):
-    from judged import round_of
-
-    from labkit.judge.judging import judge
-
     asked = round_of(ask)
-    value = np.array(answer)
-    return judge(asked, [Reply(value=value, again=value)] * len(asked.questions))
+    answered(asked.exchanges, replies_of([answer] * len(asked.exchanges)))
+    return judge(asked)
 
 
 def test_a_row_has_either_a_truth_or_a_judge():
@@ -151,9 +141,9 @@ def test_a_row_has_either_a_truth_or_a_judge():
         Ask(lambda rng: [], Scalar())
 
 
-def test_not_one_reply_per_question_is_the_callers_error():
-    with pytest.raises(ValueError, match="replies to"):
-        judged_replies(MAKE_T, [])
+def test_a_question_without_a_reply_is_the_callers_error():
+    with pytest.raises(ValueError, match="no reply to"):
+        judge(round_of(MAKE_T))
 
 
 @pytest.mark.parametrize(
@@ -194,7 +184,7 @@ def test_a_robot_is_compiled_once_and_may_be_changed():
     plain, changed = Robot(), Robot(change=longer)
     assert plain.model is plain.model
     np.testing.assert_array_equal(changed.model.body_pos, 2 * plain.model.body_pos)
-    assert robots([]) == []
+    assert robots_of([]) == []
 
 
 def test_drawn_configurations_are_within_the_limits_and_typable():

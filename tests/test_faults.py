@@ -25,7 +25,6 @@ from labkit.grade.roster import Student
 from labkit.handin import check_deliverables, handin
 from labkit.judge.exchange import Question
 from labkit.sandbox import process, sandbox, wall
-from labkit.sandbox.model_copy import facts
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import FaultError, Robo47Error
@@ -116,7 +115,7 @@ class TestASandboxThatIsKilled:
         kill(1)
         monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with Sandbox() as box:
-            session = box.session(student(FINE), [], facts())
+            session = box.session(student(FINE))
             (reply,) = session.ask([Question("", "f", ())])
         assert reply.kind == "stopped"
         assert "ran out of memory" in reply.error
@@ -187,7 +186,7 @@ class TestAMachineThatStartsNoProcess:
             one = Process()
             monkeypatch.setattr(box, "_take", lambda: one)
             monkeypatch.setattr(sandbox, "Process", _no_process)
-            session = box.session(student(FINE), [], facts())
+            session = box.session(student(FINE))
             assert session.ask([Question("", "f", ())])[0].value == 47
         assert one.process.poll() is not None
 
@@ -281,7 +280,7 @@ class TestTime:
     def test_of_waiting_long_ago_is_over(self, student, monkeypatch):
         monkeypatch.setattr(processes, "scheduled", lambda _: (0.1, 50.0))
         with Sandbox() as box:
-            session = box.session(student("def f():\n    while True: 0"), [], facts())
+            session = box.session(student("def f():\n    while True: 0"))
             (reply,) = session.ask([Question("", "f", ())], 0.3)
             assert reply.error == process.ENDLESS
             assert session._process.waited < 1

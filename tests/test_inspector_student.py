@@ -8,7 +8,7 @@ import pytest
 from labkit.inspector import checker_calls
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.student import Source, Student
-from labkit.judge.exchange import LoadError, Model, Question, Reply
+from labkit.judge.exchange import LoadError, Question, Reply
 from labkit.lesson.day import find_day
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
@@ -169,12 +169,31 @@ def test_a_tab_may_ask_any_function(desk):
     np.testing.assert_array_equal(got[0].value, 2 * np.eye(4))
 
 
+@pytest.mark.parametrize(
+    ("reply", "says"),
+    [
+        (Reply(np.eye(4)), ""),
+        (
+            Reply(kind="missing"),
+            "The file has no function f. To put its gap back: make start RESET=1.6.",
+        ),
+        (
+            Reply(kind="ValueError", error="no", line=3),
+            "f: It stops with ValueError: no (line 3).",
+        ),
+    ],
+)
+def test_what_is_no_answer_is_told_in_the_words_of_make_check(reply, says):
+    assert checker_calls.describe({"f": "1.6"}, "f", reply) == says
+
+
 def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp_path):
     script = tmp_path / "day1_transforms.py"
     load = "from robo47 import panda\nMODEL = panda.load()\n"
     script.write_text(load + "def f(model): return model.nq + MODEL.nq")
-    question = Question("view", "f", (Model(0),))
+    model = panda.load()
+    question = Question("view", "f", (model,))
     with Sandbox() as sandbox:
-        source = checker_calls.source_of(find_day(1), panda.load(), sandbox)
+        source = checker_calls.source_of(find_day(1), model, sandbox)
         (reply,) = source.open(script).ask([question], SECONDS)
     assert reply.value == 14, reply.error

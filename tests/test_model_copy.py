@@ -5,9 +5,10 @@ import copy
 import numpy as np
 import pytest
 
-from labkit.judge.exchange import Model, Question
+from labkit.judge import Robot
+from labkit.judge.exchange import Question
 from labkit.sandbox.inside import fake_model, wire
-from labkit.sandbox.model_copy import copy_model
+from labkit.sandbox.messages import copy_model
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
@@ -69,5 +70,5 @@ class TestTheFakeMjModel:
                 assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_HINGE
                 return np.array(i)
         """
-        (reply,) = ask(code, Question("1.6", "f", (Model(0),)))
+        (reply,) = ask(code, Question("1.6", "f", (Robot(),)))
         assert reply.value == panda.load("panda_nohand").body("link4").id

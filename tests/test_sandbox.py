@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from labkit.judge.exchange import LoadError, Model, Path, Question
+from labkit.judge import Robot
+from labkit.judge.exchange import LoadError, Path, Question
 from labkit.lesson.day import find_day
-from labkit.sandbox import process, sandbox
-from labkit.sandbox.model_copy import copy_model, facts
-from robo47 import panda
+from labkit.sandbox import messages, process, sandbox
 from robo47.paths import ROOT
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -76,7 +75,7 @@ class TestWhatComesBack:
 
     def test_gets_fresh_arguments_at_every_call(self, ask):
         code = "def f(model, q):\n    model.body_pos[:] = 7\n    q += 1\n    return q"
-        question = Question("1.6", "f", (Model(0), np.zeros(2)))
+        question = Question("1.6", "f", (Robot(), np.zeros(2)))
         first, second = ask(code, question, question)
         assert first.value.tolist() == second.value.tolist() == [1, 1]
 
@@ -170,7 +169,7 @@ class TestASecondAsking:
             ZERO, ROWS = np.zeros(3), [[1.0, 2.0]]
             def f(model, x): {body}
         """
-        question = Question("1.1", "f", (Model(0), np.ones(3)))
+        question = Question("1.1", "f", (Robot(), np.ones(3)))
         for reply in ask(code, question, question):
             assert reply.shares == shares
 
@@ -295,13 +294,17 @@ class TestWhatItMayImport:
         assert refused in caught.value.reply.refused[0]
         assert caught.value.reply.line == 3
 
-    def test_does_not_take_one_panda_for_the_other(self, student):
-        hand = copy_model(panda.load("panda"), "panda")
-        code = "from robo47 import panda\ndef f(): return panda.load('panda').nq"
-        with sandbox.Sandbox() as box:
-            asked = [Question("", "f", ())]
-            (reply,) = box.run(student(code), asked, [hand], facts())
+    def test_does_not_take_one_panda_for_the_other(self, ask):
+        code = "from robo47 import panda\ndef f(hand): return panda.load('panda').nq"
+        (reply,) = ask(code, Question("", "f", (Robot("panda"),)))
         assert reply.value == 9
+
+    def test_is_sent_the_panda_only_where_code_names_it(self, student):
+        assert messages.request(student("x = 1"), [], None)["models"] == []
+        script = student("from robo47 import panda")
+        (copy,) = messages.request(script, [], None)["models"]
+        assert copy["entry"] == "panda_nohand"
+        assert messages.request(script, [Robot()], None)["models"] == [copy]
 
     def test_is_no_module_that_does_not_exist(self, ask):
         with pytest.raises(LoadError, match=r"named 'robo47\.nothing'"):
@@ -330,7 +333,7 @@ class TestASession:
 
     def test_answers_round_after_round(self, student):
         with sandbox.Sandbox() as box:
-            session = box.session(student(self.CODE), [], facts())
+            session = box.session(student(self.CODE))
             for n in range(1, 200):
                 (reply,) = session.ask([Question("", "f", (1.0,))])
                 assert reply.value == n + 1
@@ -343,22 +346,22 @@ class TestASession:
     def test_ends_with_a_loop_and_another_can_be_opened(self, student):
         with sandbox.Sandbox() as box:
             script = student(self.CODE)
-            session = box.session(script, [], facts())
+            session = box.session(script)
             questions = [Question("", name, args) for name, args in (("f", (1,)),)]
             questions += [Question("", "loop", ())] * 2
             kinds = [reply.kind for reply in session.ask(questions, seconds=0.5)]
             assert kinds == ["", "stopped", "stopped"]
             assert not session.alive
             assert session.ask(questions)[0].kind == "stopped"
-            other = box.session(script, [], facts())
+            other = box.session(script)
             assert other.ask(questions[:1])[0].value == 2
 
     def test_says_why_the_file_does_not_load(self, student):
         with sandbox.Sandbox() as box, pytest.raises(LoadError, match="division"):
-            box.session(student("1 / 0"), [], facts())
+            box.session(student("1 / 0"))
 
     def test_ends_with_its_sandbox(self, student):
         with sandbox.Sandbox() as box:
-            session = box.session(student(self.CODE), [], facts())
+            session = box.session(student(self.CODE))
         assert session.ask([Question("", "f", (1,))])[0].kind == "stopped"
         assert session._process.process.returncode is not None

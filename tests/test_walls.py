@@ -13,9 +13,8 @@ import pytest
 
 from conftest import need
 from labkit.base import processes
-from labkit.judge.exchange import Question
+from labkit.judge.exchange import Exchange, Question
 from labkit.sandbox import wall
-from labkit.sandbox.model_copy import facts
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -225,10 +224,10 @@ def attacked(request, places, tmp_path_factory):
     script.write_text(code)
     replies = {}
     with standing(request.param), Sandbox() as box:
-        session = box.session(script, [], facts())
+        session = box.session(script)
         for what, name in names.items():
             if not session.alive:
-                session = box.session(script, [], facts())
+                session = box.session(script)
             (replies[what],) = session.ask([Question("", name, ())])
     return replies
 
@@ -263,9 +262,8 @@ class TestAWall:
         code = (
             "import sys, pathlib\n"
             "from labkit.sandbox.sandbox import *\n"
-            "from labkit.sandbox.model_copy import facts\n"
             "box = Sandbox()\n"
-            "session = box.session(pathlib.Path(sys.argv[1]), [], facts())\n"
+            "session = box.session(pathlib.Path(sys.argv[1]))\n"
             "print(session._process.process.pid, flush=True)\n"
             "session.ask([Question('', 'f', ())], seconds=600)\n"
         )
@@ -289,7 +287,7 @@ class TestAWall:
         script = tmp_path / "large.py"
         script.write_text("import numpy as np\nX = np.ones(25_000_000)\ndef f(): 0")
         with standing(name), Sandbox() as box:
-            session = box.session(script, [], facts())
+            session = box.session(script)
             session.ask([Question("", "f", ())])
             assert processes.resident_bytes(session._process.process) > 200_000_000
 
@@ -304,9 +302,9 @@ class TestAWall:
             "numpy.linalg.inv(numpy.eye(30) * 2)\n"
         )
         with standing(name), Sandbox() as box:
-            (reply,) = box.run(script, [Question("", "f", ())], [], facts())
-        assert reply.error == ""
-        assert reply.value.shape == (30, 30)
+            box.run(script, [asked := Exchange(Question("", "f", ()))])
+        assert asked.reply.error == ""
+        assert asked.reply.value.shape == (30, 30)
 
 
 def children_of(pid):
@@ -359,5 +357,5 @@ class TestTheNameOfTheWall:
             process = box._warm
             monkeypatch.setattr(process, "wall", wall.Wall("landlock", ""))
             with pytest.raises(Robo47Error, match="did not close"):
-                box.run(student("def f(): 0"), [Question("", "f", ())], [], facts())
+                box.run(student("def f(): 0"), [Exchange(Question("", "f", ()))])
             process.close()

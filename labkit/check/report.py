@@ -3,6 +3,7 @@
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
@@ -43,11 +44,16 @@ class Report:
         required = [r for r in self.tasks if not r.task.optional]
         return required or list(self.tasks)
 
+    @cached_property
+    def left(self) -> list[TaskResult]:
+        """The tasks that do not pass yet."""
+        return [result for result in self.tasks if not result.passed]
+
     @property
     def done(self) -> int:
         """How many tasks and deliverables passed."""
-        tasks = sum(result.passed for result in self.counted)
-        return tasks + sum(item.passed for item in self.items)
+        left = [result for result in self.counted if result in self.left]
+        return self.total - len(left) - sum(not item.passed for item in self.items)
 
     @property
     def total(self) -> int:
@@ -69,8 +75,8 @@ class Report:
         """Return the next thing to do, in one sentence."""
         if self.problem:
             return "fix that line, then check again."
-        for result in self.tasks:
-            if not result.passed and not result.task.optional:
+        for result in self.left:
+            if not result.task.optional:
                 task = result.task
                 return f"{_named(task)}. Stuck? make hint TASK={task.id}"
         for item in self.items:
@@ -156,10 +162,9 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
             lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
     if report.items:
         lines.append("")
-    code_stands = all(result.passed for result in report.tasks)
     for item in report.items:
         lines.append(_line(item.name, item.status, colour))
-        if code_stands or explain or item.status == "wrong":
+        if not report.left or explain or item.status == "wrong":
             lines += _wrapped(item.message, _INDENT)
     share = 100 * report.done // report.total
     lines += ["", f"{report.done} of {report.total} done, {share} % of the day."]
@@ -172,8 +177,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
 def _said(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
-    shown = {other.task.id for other in report.tasks if not other.passed}
-    if verdict.follows in shown and not explain:
+    left = {other.task.id for other in report.left}
+    if verdict.follows in left and not explain:
         word = "Follows from" if verdict.status == "close" else "Builds on"
         return f"{word} {verdict.follows}: first that one."
     if verdict.follows and verdict.status != "todo":

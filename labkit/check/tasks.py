@@ -1,26 +1,23 @@
 """From a student's file to one result per task."""
 
 import secrets
+import tokenize
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
-from labkit.check.verdicts import not_utf8, verdict_of, why_not_loaded
-from labkit.judge.ask import Ask, Robot
-from labkit.judge.exchange import LoadError, Model, Question, Reply
+from labkit.check.source_hints import arguments, unfinished
+from labkit.judge.ask import Ask, Asked, make_round
+from labkit.judge.exchange import Exchange, LoadError, Reply, replies
+from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
-from labkit.judge.rounds import Round, make_round, robots
+from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
-from labkit.sandbox import model_copy
 from labkit.sandbox.library import library_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-
-PANDA = Robot()  # what a file that loads the robot at its top is given
 
 
 @dataclass(frozen=True)
@@ -72,44 +69,40 @@ def check_tasks(
     needed = {need for task in wanted for need in day.needs(task.id)}
     asked = [task for task in day.tasks if task in wanted or task.id in needed]
     rounds = rounds_of(day, asked, secrets.randbits(32) if seed is None else seed)
-    if why := not_utf8(script) if script.is_file() else "":
+    if why := _not_utf8(script) if script.is_file() else "":
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
-    models = [PANDA, *robots(one for some in rounds.values() for one in some)]
-    questions = {
-        task.id: [_sent(q, models) for one in rounds[task.id] for q in one.questions]
-        for task in asked
-    }
     try:
-        replies = sandbox.run(
+        sandbox.run(
             script,
-            [question for some in questions.values() for question in some],
-            [packed(robot) for robot in models],
-            model_copy.facts(),
+            [exchange for some in rounds.values() for exchange in _exchanges(some)],
             library_of(day),
             {task.id: set(day.needs(task.id)) for task in asked},
         )
     except LoadError as error:
-        verdict = Verdict("todo", "does-not-load", why_not_loaded(script, error.reply))
+        verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
     source = script.read_text("utf-8", errors="replace")
-    come = iter(replies)
     results: dict[str, TaskResult] = {}
     for task in asked:
-        own = [next(come) for _ in questions[task.id]]
-        found = _result(task, verdict_of(task, rounds[task.id], own, source), own)
+        found = _result(task, rounds[task.id], source)
         results[task.id] = _following(found, day, results)
     return [results[task.id] for task in wanted]
 
 
-def _result(task: Task, verdict: Verdict, replies: Sequence[Reply]) -> TaskResult:
-    """Return a verdict with what its task's functions printed and were refused."""
-    printed = next((reply.printed for reply in replies if reply.printed), "")
-    refused = tuple(dict.fromkeys(what for r in replies for what in r.refused))
-    return TaskResult(task, verdict, printed, refused)
+def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
+    return [exchange for one in asked for exchange in one.exchanges]
 
 
-def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Round]]:
+def _result(task: Task, asked: Sequence[Asked], source: str) -> TaskResult:
+    """Return a task's verdict, what its functions printed and what was refused."""
+    came = replies(_exchanges(asked))
+    printed = next((reply.printed for reply in came if reply.printed), "")
+    refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
+    return TaskResult(task, _verdict_of(task, asked, source), printed, refused)
+
+
+def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Asked]]:
     """Return the questions to every function of some tasks, by task.
 
     Raises:
@@ -128,21 +121,6 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Roun
     }
 
 
-@lru_cache(8)  # a class is asked with the same few robots
-def packed(robot: Robot) -> dict[str, Any]:
-    """Return a robot as it travels; only an unchanged one is what `load` returns."""
-    return model_copy.copy_model(robot.model, "" if robot.change else robot.entry)
-
-
-def _sent(question: Question, models: Sequence[Robot]) -> Question:
-    """Return a question as it travels: a robot as its place among the models."""
-    args = tuple(
-        Model(models.index(arg)) if isinstance(arg, Robot) else arg
-        for arg in question.args
-    )
-    return Question(question.task, question.function, args)
-
-
 def _following(
     found: TaskResult, day: Day, results: dict[str, TaskResult]
 ) -> TaskResult:
@@ -154,3 +132,73 @@ def _following(
         if not results[need].passed:
             return replace(found, verdict=replace(verdict, follows=need))
     return found
+
+
+def _verdict_of(task: Task, asked: Sequence[Asked], source: str) -> Verdict:
+    """Return a task's verdict: of several functions that of the first wrong one."""
+    verdict = Verdict("passed")
+    for one in asked:
+        verdict = _of_function(task, one, source)
+        if len(asked) > 1 and verdict.message and not verdict.follows:
+            verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
+        if verdict.status != "passed":
+            break
+    return verdict
+
+
+def _of_function(task: Task, asked: Asked, source: str) -> Verdict:
+    function = asked.function
+    for reply in replies([*asked.main, *asked.fresh]):
+        if early := no_answer(reply, function, task.id):
+            slip = early.mistake == "unwritten" and unfinished(source, function)
+            return Verdict("todo", "raise-left-in", slip) if slip else early
+    verdict = judge(asked, source, arguments(source, function))
+    came = replies(asked.exchanges)
+    if verdict.mistake == "nothing-returned":
+        verdict = _nothing_returned(function, came, source, verdict)
+    if verdict.status != "passed":
+        refused = [what for reply in came for what in reply.refused]
+        if refused:
+            return refusal(refused[0], None)
+    return _changed_arguments(function, came, verdict)
+
+
+def _not_utf8(script: Path) -> str:
+    """Return one line on a file that Python cannot read as text, or ""."""
+    try:
+        with tokenize.open(script) as file:
+            file.read()
+    except (SyntaxError, UnicodeDecodeError):
+        return f"{script.name} is not in UTF-8. Save it as UTF-8 in your editor."
+    return ""
+
+
+def _nothing_returned(
+    function: str, came: Sequence[Reply], source: str, verdict: Verdict
+) -> Verdict:
+    if slip := unfinished(source, function):
+        return replace(verdict, message=slip)
+    if any(reply.printed for reply in came):
+        says = f"{verdict.message} Does it print the result instead of returning it?"
+        return replace(verdict, message=says)
+    return verdict
+
+
+def _changed_arguments(
+    function: str, came: Sequence[Reply], verdict: Verdict
+) -> Verdict:
+    """Return the verdict with the arguments that the function left changed."""
+    changed = [name for reply in came for name in reply.changed]
+    if not changed or verdict.status == "todo":
+        return verdict
+    name = changed[0]
+    if verdict.mistake == "shares-its-argument":  # a copy at the end would not help
+        says = f"{function} works in its argument {name} itself and returns it, so its "
+        says += f"caller's numbers change. Begin with a copy: {name} = {name}.copy()"
+        return replace(verdict, message=f"{says}.")
+    says = f"{function} changed its argument {name}, which its caller still needs"
+    says += f"; work on a copy: {name} = {name}.copy()" if name.isidentifier() else ""
+    if verdict.status != "passed":
+        return replace(verdict, message=f"{verdict.message} Besides, {says}.")
+    says = f"The numbers are right, but {says}."
+    return Verdict("wrong", "argument-changed", says, verdict.measured)

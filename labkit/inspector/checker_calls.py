@@ -1,17 +1,17 @@
 """The page's side of the checker: opens a file in the sandbox, asks for verdicts."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import mujoco
 
-from labkit.check.tasks import PANDA, check_tasks, packed
-from labkit.check.verdicts import why_not_loaded
+from labkit.check.tasks import check_tasks
 from labkit.inspector.checks import TaskState
 from labkit.inspector.student import Asker, Source
 from labkit.judge.exchange import Reply
+from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
-from labkit.sandbox import model_copy
 from labkit.sandbox.library import library_of
 from labkit.sandbox.sandbox import Sandbox
 
@@ -21,41 +21,30 @@ def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
 
     Args:
         day: from its manifest.
-        model: the robot that the page shows: `Model(0)` in a question.
+        model: the robot that the page shows, as it is in questions.
         sandbox: kept open as long as the page.
     """
-    robots = [model_copy.copy_model(model), packed(PANDA)]  # ours; what `load` gives
 
     def opened(script: Path) -> Asker:
-        return sandbox.session(script, robots, model_copy.facts(), library_of(day))
+        return sandbox.session(script, [model], library_of(day))
 
-    return Source(day.work, opened, why_not_loaded, describe)
+    tasks = {name: task.id for task in day.tasks for name in task.functions}
+    return Source(day.work, opened, not_loaded, partial(describe, tasks))
 
 
-def describe(function: str, reply: Reply) -> str:
+def describe(tasks: Mapping[str, str], function: str, reply: Reply) -> str:
     """Return in the checker's words what a reply that is no answer means, or "".
 
     Args:
+        tasks: whose function each is.
         function: that was called.
         reply: what came of it.
     """
-    where = f" (line {reply.line})" if reply.line else ""
-    match reply.kind:
-        case "":
-            return ""
-        case "stopped":
-            return f"{function} did not return: {reply.error}."
-        case "missing":
-            return f"The file has no function {function}."
-        case "unsendable":
-            return f"{function}: {reply.error}."
-        case "NotImplementedError":
-            return f"{function} is not written yet: {reply.error}"
-        case "RefusedError":
-            wanted = reply.refused[0] if reply.refused else "do more than it may"
-            return f"{function} wants to {wanted}{where}."
-    text = f"{reply.kind}: {reply.error}".rstrip(": ")
-    return f"{function} stops with {text}{where}."
+    if not reply.kind:
+        return ""
+    verdict = no_answer(reply, function, tasks.get(function, ""))
+    says = verdict.message if verdict else stops_with(reply)
+    return says if function in says else f"{function}: {says}"
 
 
 def verdicts(day: Day) -> Sequence[TaskState]:

@@ -30,7 +30,7 @@ class Ghost:
         function: its name in the student's file.
         frames: short names of the frames along the arm, the base first, the end last.
         questions: `questions(model, q)` returns the function's arguments for each of
-            the frames, in that order; a `Model(0)` among them is the model.
+            the frames, in that order; `model` itself may be among them.
         whole: `whole(model, q)` returns the arguments for the last frame alone, asked
             where the function answers none of the questions; None for never.
     """

@@ -76,7 +76,7 @@ class Page(Widgets):
 
         Args:
             function: its name.
-            args: arrays, floats, `Model(0)`, `Path(...)`.
+            args: arrays, floats, `page.model`, `Path(...)`.
             done: is given the reply a few milliseconds later; `reply.kind` is "" where
                 the function returned `reply.value`. Without a file: "missing".
         """

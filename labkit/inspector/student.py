@@ -25,7 +25,7 @@ POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
 
 
 class Asker(Protocol):
-    """A student's file, loaded: `checker.session.Session`, or a test's fake."""
+    """A student's file, loaded: `sandbox.Session`, or a test's fake."""
 
     @property
     def alive(self) -> bool:

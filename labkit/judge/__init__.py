@@ -1,16 +1,15 @@
 """Which mistake is it? From a student's answers to the one that was made.
 
-    ask         what a day says of a function: inputs, truth, kind of answer, mistakes
+    exchange    a question and its reply
+    ask         a function's row: inputs, truth, kind of answer, mistakes; its questions
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians and others; rigid_kinds: rotations, poses)
     draw        inputs for questions
-    rounds      the questions of one check, made once; replies are matched to them
-    answers     did an answer come back, of the right shape and type?
+    problems    did an answer come back, of the right shape and type? If not, the words
     mistake     a mistake that has a name, and the same mistake made on purpose
     finished    mistakes made with a finished rotation or pose
     near_miss   right in method, not in all digits
-    naming      what to call wrong answers
-    judging     from questions and replies to a verdict
+    judge       from questions with their replies to a verdict and its name
     chain       where along a serial chain a product goes wrong
 
 The student's code is never run here, and nothing it computed is used as the truth.

@@ -1,22 +1,26 @@
-"""What a day says of a function: how it is asked, and what a right answer is.
+"""A function's row (inputs, truth, kind, mistakes) and the questions made of it.
 
 A day's `questions.py` holds `QUESTIONS = {"exp_screw": Ask(...), ...}`, one row per
 function of the manifest.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from labkit.judge.exchange import Exchange, Path, Question
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
+from robo47.checks import Array
 
 Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+SEED = 47  # of the questions that are the same at every check
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -167,3 +171,123 @@ class Ask:
         """The named mistakes, then those that any answer of the kind can have."""
         own = self.mistakes() if callable(self.mistakes) else self.mistakes
         return list(own)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """All that one function is asked in one check, by role.
+
+    Attributes:
+        function: its name.
+        ask: its row.
+        main: the questions that are the same at every check.
+        fresh: drawn anew.
+        held_out: per entry of `ask.held_out`.
+        probes: those of `ask.probe`.
+    """
+
+    function: str
+    ask: Ask
+    main: list[Exchange]
+    fresh: list[Exchange]
+    held_out: list[list[Exchange]]
+    probes: list[Exchange]
+
+    @property
+    def exchanges(self) -> list[Exchange]:
+        """All of them, in the order in which they are asked."""
+        return [*self.main, *self.fresh, *chain(*self.held_out), *self.probes]
+
+
+def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
+    """Return the questions to a function, which the sandbox is to answer.
+
+    Args:
+        task: whose function it is.
+        function: its name.
+        ask: its row.
+        seed: of the fresh inputs; nobody should know it beforehand.
+    """
+
+    def make(inputs: Inputs, seed: int = SEED) -> list[Exchange]:
+        calls = inputs(np.random.default_rng(seed))
+        return [Exchange(Question(task, function, tuple(args))) for args in calls]
+
+    return Asked(
+        function,
+        ask,
+        make(ask.inputs),
+        make(ask.inputs, seed)[-ask.fresh :] if ask.fresh else [],
+        [make(held.inputs) for held in ask.held_out],
+        make(ask.probe.inputs) if ask.probe else [],
+    )
+
+
+def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
+    """Return all questions' arguments, one array (n, ...) per argument.
+
+    A robot is one model for all of them, and a path one path.
+    """
+    columns = zip(*(exchange.question.args for exchange in exchanges), strict=True)
+    return tuple(_column(column) for column in columns)
+
+
+def _column(column: tuple[Any, ...]) -> Any:
+    first = column[0]
+    if isinstance(first, Robot):
+        return first.model
+    if isinstance(first, Path):
+        return first.pairs
+    return np.array(column, dtype=np.float64)
+
+
+def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:
+    """Return the right answers to questions: per part of the answer, (n, ...)."""
+    assert ask.truth is not None
+    return parts(ask.truth(*stacked(exchanges)))
+
+
+def held_out_answers(
+    held: HeldOut, ask: Ask, exchanges: Iterable[Exchange]
+) -> tuple[Array, ...]:
+    """Return what answers to held-out questions are compared with."""
+    function = held.mistaken or held.truth or ask.truth
+    assert function is not None
+    return parts(function(*stacked(exchanges)))
+
+
+def parts(answers: Any) -> tuple[Array, ...]:
+    """Return answers as a tuple of parts, also where there is one."""
+    some = answers if isinstance(answers, tuple) else (answers,)
+    return tuple(np.asarray(part, dtype=np.float64) for part in some)
+
+
+def in_words(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a question's input as a student can type it: numbers and short vectors.
+
+    Args:
+        question: whose arguments.
+        names: theirs, where they are known.
+    """
+    named = len(names) == len(question.args) > 1
+    words = []
+    for i, arg in enumerate(question.args):
+        if isinstance(arg, (int, float)):
+            says = number(float(arg))
+        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
+            says = "(" + ", ".join(number(float(x)) for x in arg) + ")"
+        else:
+            continue
+        words.append(f"{names[i]} = {says}" if named else says)
+    return (", " if named else " and ").join(words)
+
+
+def number(x: float) -> str:
+    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
+    for over in (1, 2, 3, 4, 6):
+        times = x * over / np.pi
+        if times and times == round(times) and abs(times) <= 2 * over:
+            sign = "-" if times < 0 else ""
+            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
+            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
+    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)

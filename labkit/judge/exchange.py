@@ -1,5 +1,6 @@
-"""What is asked of the sandbox, and what comes back."""
+"""A question to a student's function, and the reply that came of it."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,19 +14,12 @@ class Question:
     Attributes:
         task: whose it is; a task that hangs is not asked again.
         function: a name in the student's file.
-        args: floats, ints, float64 arrays, a `Model` or a `Path`.
+        args: floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
     """
 
     task: str
     function: str
     args: tuple[Any, ...]
-
-
-@dataclass(frozen=True)
-class Model:
-    """A model in a question's arguments: its place in the list that `run` is given."""
-
-    index: int
 
 
 @dataclass(frozen=True)
@@ -72,6 +66,28 @@ class Reply:
     again: Any = None
     again_error: str = ""
     shares: tuple[str, ...] = ()
+
+
+@dataclass(eq=False)
+class Exchange:
+    """A question with its reply, which the sandbox fills in."""
+
+    question: Question
+    reply: Reply | None = None
+
+
+def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
+    """Return the replies of exchanges.
+
+    Raises:
+        ValueError: a question has no reply: nobody asked it.
+    """
+    found = []
+    for exchange in exchanges:
+        if exchange.reply is None:
+            raise ValueError(f"no reply to {exchange.question}")
+        found.append(exchange.reply)
+    return found
 
 
 class LoadError(Exception):

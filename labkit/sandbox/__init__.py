@@ -1,1 +1,9 @@
-"""The walls around student code, and the process behind them."""
+"""Run the student's code where it can do no harm.
+
+sandbox   asks a file each question twice, or keeps it loaded for a page
+process   one interpreter, from its start to its end; whose fault the end is
+messages  what is asked and what comes back, as JSON
+library   what of the kit a file may import: what earlier days brought
+wall      which of bubblewrap, Landlock or nothing keeps it from this machine
+inside/   what runs in there: the runner, its answers, imports, fakes and fences
+"""

@@ -1,47 +1,187 @@
-"""Messages between the checker and the sandbox: questions out, replies back."""
+"""Messages between the checker and the sandbox: request, questions, replies."""
 
-from collections.abc import Callable, Sequence
+import base64
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, lru_cache
+from pathlib import Path as File
 from typing import Any
 
+import mujoco
+import numpy as np
+
 from labkit.base.text import visible, visible_lines
-from labkit.judge.exchange import MOST, Model, Path, Question, Reply
+from labkit.judge.ask import Robot
+from labkit.judge.exchange import MOST, Path, Question, Reply
 from labkit.sandbox.inside import wire
+from labkit.sandbox.inside.fake_model import KINDS
+from robo47 import panda
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+PANDA = Robot()  # what a file that loads the robot at its top is given
+LARGEST, MOST_BESIDE = 1_000_000, 50  # bytes of a file, files beside the script
+Robots = Sequence[Robot | mujoco.MjModel]
 
 
-def pack(question: Question) -> dict[str, Any]:
-    """Return a question as JSON."""
+def request(
+    script: File,
+    robots: Robots,
+    library: Mapping[str, str] | None,
+    **others: Any,
+) -> dict[str, Any]:
+    """Return what a process is told before the first question, as JSON.
+
+    Args:
+        script: the student's file.
+        robots: that questions will hold.
+        library: modules of the kit that it may import: source by name.
+        others: settings for `inside/__main__.py`.
+
+    Raises:
+        Robo47Error: there is no such file, or it is no script.
+    """
+    told = {**_code_of(script), "library": dict(library or {}), **others}
+    copies = [_copy_of(robot) for robot in robots]
+    known = [copy["entry"] for copy in copies]
+    if PANDA.entry not in known and _names_panda(told):
+        copies.append(_copy_of(PANDA))
+    return {**told, "models": copies, "facts": _facts()}
+
+
+def _names_panda(told: dict[str, Any]) -> bool:
+    """Return whether code that is sent may load the robot."""
+    own = map(base64.b64decode, [told["code"], *told["beside"].values()])
+    library = any("panda" in source for source in told["library"].values())
+    return library or any(b"panda" in source for source in own)
+
+
+def robots_of(questions: Iterable[Question]) -> Robots:
+    """Return every robot that occurs in questions, once."""
+    args = (arg for question in questions for arg in question.args)
+    robots = {id(a): a for a in args if isinstance(a, Robot | mujoco.MjModel)}
+    return list(robots.values())
+
+
+def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
+    """Return questions as JSON.
+
+    Args:
+        questions: what to call.
+        robots: those that the process was given; a question names its own by place.
+    """
+    args = {id(arg): arg for question in questions for arg in question.args}
+    packed: dict[int, Any] = {id(one): {"model": at} for at, one in enumerate(robots)}
+    for key, arg in args.items():
+        if isinstance(arg, Path):
+            packed[key] = {"path": [list(pair) for pair in arg.pairs]}
+        elif isinstance(arg, int | float):
+            packed[key] = {"number": arg}
+    plain = {key: arg for key, arg in args.items() if key not in packed}
+    packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    return [
+        {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
+        for one in questions
+    ]
+
+
+def read(messages: Sequence[dict[str, Any]]) -> list[Reply]:
+    """Return messages as replies, believing nothing in them, up to a forged one."""
+    values = list(map(wire.read_value, [told.get("value") for told in messages]))
+    found = []
+    for told, value in zip(messages, values, strict=True):
+        try:
+            found.append(_reply(told, value))
+        except Exception:  # a forged message can be anything
+            break
+    return found
+
+
+@lru_cache(8)  # a class is asked with the same few robots
+def _copy_of(robot: Robot | mujoco.MjModel) -> dict[str, Any]:
+    """Return a robot as it travels; only an unchanged one is what `load` returns."""
+    if isinstance(robot, mujoco.MjModel):
+        return copy_model(robot)
+    return copy_model(robot.model, "" if robot.change else robot.entry)
+
+
+def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:
+    """Return a model's sizes, names and arrays as JSON.
+
+    Args:
+        model: any compiled model; what it only looks like should be dropped before.
+        entry: of the Panda, which `panda.load(entry)` returns in the sandbox.
+    """
+    values = {
+        name: getattr(model, name) for name in dir(model) if not name.startswith("_")
+    }
     return {
-        "function": question.function,
-        "args": [_pack_argument(arg) for arg in question.args],
+        "entry": entry,
+        "sizes": {n: v for n, v in values.items() if isinstance(v, int)},
+        "arrays": {
+            n: wire.pack_array(v)
+            for n, v in values.items()
+            if isinstance(v, np.ndarray)
+        },
+        "names": {
+            kind: [getattr(model, kind)(i).name for i in range(values[count])]
+            for kind, (_, count, _) in KINDS.items()
+        },
     }
 
 
-def _pack_argument(arg: Any) -> dict[str, Any]:
-    if isinstance(arg, Model):
-        return {"model": arg.index}
-    if isinstance(arg, Path):
-        return {"path": [list(pair) for pair in arg.pairs]}
-    if isinstance(arg, (int, float)):
-        return {"number": arg}
-    packed = wire.pack_value(arg)
-    assert isinstance(packed, dict), arg
-    return packed
+def _code_of(script: File) -> dict[str, Any]:
+    """Return a script and the ones beside it."""
+    if not script.is_file():
+        raise Robo47Error(f"{shown(script)} is not there")
+    if script.stat().st_size > LARGEST:
+        raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
+    beside = {
+        path.stem: _text(path)
+        for path in sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
+        if _is_own(path) and path.stat().st_size <= LARGEST
+    }
+    return {"file": script.name, "code": _text(script), "beside": beside}
 
 
-def read(message: dict[str, Any]) -> Reply:
-    """Return a message as a reply, believing nothing in it.
+def _is_own(path: File) -> bool:
+    """Return whether a file counts as handed in: a grade follows no link either."""
+    return path.is_file() and not path.is_symlink()
 
-    Raises:
-        Exception: any, where somebody forged the message.
-    """
+
+def _text(path: File) -> str:
+    return base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+@cache
+def _facts() -> dict[str, Any]:
+    """Return what the fakes of `mujoco` and `robo47` need to know, as JSON."""
+    return {
+        "version": mujoco.__version__,
+        "enums": {
+            name: {k: int(v) for k, v in getattr(mujoco, name).__members__.items()}
+            for name in dir(mujoco)
+            if name.startswith("mjt") and hasattr(getattr(mujoco, name), "__members__")
+        },
+        "constants": {"READY_Q": panda.READY_Q.tolist(), "END_FRAME": panda.END_FRAME},
+        "modules": sorted(
+            ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(
+                ".__init__"
+            )
+            for package in ("robo47", "labkit")
+            for path in (ROOT / package).rglob("*.py")
+        ),
+    }
+
+
+def _reply(message: dict[str, Any], value: Any) -> Reply:
     if message.get("missing"):
         return Reply(kind="missing")
-    try:
-        value = wire.unpack_value(message.get("value"))
-    except ValueError as error:
-        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
+    if isinstance(value, ValueError):
+        return Reply(error=f"it returned {visible(value)}", kind="unsendable")
+    if isinstance(value, Exception):
+        raise value
     told = {
-        name: read(message[name]) for name, read in _READ.items() if name in message
+        name: made(message[name]) for name, made in _READ.items() if name in message
     }
     return Reply(value=value, **told)
 

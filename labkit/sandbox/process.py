@@ -15,7 +15,7 @@ from typing import Any
 
 from labkit.base import processes
 from labkit.judge import exchange
-from labkit.judge.exchange import LoadError, Reply
+from labkit.judge.exchange import LoadError
 from labkit.sandbox import messages
 from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
@@ -94,17 +94,18 @@ class Process:
         try:
             message = self._message(LOAD_SECONDS)
             if message.get("loaded") is not True:
-                raise LoadError(self._reply(message))
+                reply, *_ = messages.read([message]) or [exchange.stopped(CHANNEL)]
+                raise LoadError(reply)
         except EndedError as error:
             raise LoadError(error.reply) from None
 
     def ask(self, calls: Iterable[dict[str, Any]]) -> None:
-        """Send questions; `next` returns their replies one by one."""
+        """Send questions; `next` returns what came of each."""
         for call in calls:
             self._send(call)
 
-    def next(self, seconds: float) -> Reply:
-        """Return the next reply.
+    def next(self, seconds: float) -> dict[str, Any]:
+        """Return the next reply as it came, for `messages.read`.
 
         Raises:
             EndedError: none came within so many seconds, or ever will.
@@ -114,7 +115,7 @@ class Process:
         if message.get("at") != self.answers:
             raise EndedError(CHANNEL)
         self.answers += 1
-        return self._reply(message)
+        return message
 
     def close(self) -> None:
         """End the process."""
@@ -132,12 +133,6 @@ class Process:
         for stream in (self.process.stdin, self.process.stdout):
             if stream:
                 stream.close()
-
-    def _reply(self, message: dict[str, Any]) -> Reply:
-        try:
-            return messages.read(message)
-        except Exception:  # a forged message can be anything
-            raise EndedError(CHANNEL) from None
 
     def _message(self, seconds: float) -> dict[str, Any]:
         """Return the next message."""

@@ -19,14 +19,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from labkit.judge.exchange import LoadError, Question, Reply, stopped, twice
-from labkit.sandbox.messages import pack
-from labkit.sandbox.process import EndedError, Process
-from labkit.sandbox.session import CALL_SECONDS, Session
-from labkit.sandbox.source import code_of
+from labkit.judge.exchange import Exchange, LoadError, Question, Reply, stopped, twice
+from labkit.sandbox import messages
+from labkit.sandbox.messages import Robots
+from labkit.sandbox.process import CHANNEL, EndedError, Process
 from robo47.errors import FaultError
 
-TASK_SECONDS = 10.0  # for all calls of a task
+CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
@@ -55,86 +54,69 @@ class Sandbox:
     def run(
         self,
         script: Path,
-        questions: Sequence[Question],
-        models: Sequence[dict[str, Any]],
-        facts: dict[str, Any],
+        exchanges: Sequence[Exchange],
         library: Mapping[str, str] | None = None,
         needs: Mapping[str, Iterable[str]] | None = None,
-    ) -> list[Reply]:
+    ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
         Args:
             script: the file; the other `.py` files beside it may be imported by it.
-            questions: what to call.
-            models: as `model_copy.copy_model` makes them, by `Model.index`.
-            facts: `model_copy.facts()`.
+            exchanges: what to call; their replies are filled in.
             library: modules of the kit that it may import, with all that those import:
                 source by name, {"robo47.se3": "..."}. Other modules of the kit are
                 fakes.
             needs: the tasks that each task builds on. What builds on a task that was
                 stopped is not asked: its replies are of the kind "waits".
 
-        Returns:
-            One reply per question.
-
         Raises:
             LoadError: the file does not load.
             FaultError: no process starts, or this machine ended it.
             Robo47Error: there is no such file, or it is no script.
         """
-        replies: dict[int, Reply] = {}
-        request = _request(
-            script, models, facts, library, keep=True, cpu_seconds=CPU_SECONDS
+        robots = messages.robots_of([exchange.question for exchange in exchanges])
+        request = messages.request(
+            script, robots, library, keep=True, cpu_seconds=CPU_SECONDS
         )
         deadline, killed = time.monotonic() + RUN_SECONDS, False
-        while left := [i for i in range(len(questions)) if i not in replies]:
+        while left := [exchange for exchange in exchanges if exchange.reply is None]:
+            rounds = _Rounds(left, deadline)
             if time.monotonic() > deadline:
-                replies |= dict.fromkeys(left, stopped(TOO_LONG))
+                for exchange in left:
+                    exchange.reply = stopped(TOO_LONG)
                 break
             with contextlib.closing(self._take()) as process:
-                rounds = _Rounds(process, questions, left, deadline)
                 try:
                     process.load(request)
-                    ended = rounds.ask()
+                    rounds.ask(process, robots)
                 except LoadError:
                     if killed or not process.killed:
                         raise
-                    ended = None
                 deadline += process.waited
                 if process.killed and not killed:  # by whom? The same again tells
                     killed = True
                     continue
-            replies |= rounds.whole()
-            if ended:
-                replies |= rounds.without(*ended, needs or {})
-        return [replies[i] for i in range(len(questions))]
+            rounds.fill(needs or {})
 
     def session(
         self,
         script: Path,
-        models: Sequence[dict[str, Any]],
-        facts: dict[str, Any],
+        robots: Robots = (),
         library: Mapping[str, str] | None = None,
-    ) -> Session:
+    ) -> "Session":
         """Return the student's file, loaded, for many rounds of questions.
 
         Args:
             script: the file.
-            models: see `run`.
-            facts: see `run`.
+            robots: those that questions will hold.
             library: see `run`.
 
         Raises:
             LoadError: the file does not load.
             Robo47Error: there is no such file, it is no script, or no process starts.
         """
-        request = _request(
-            script,
-            models,
-            facts,
-            library,
-            keep=False,
-            cpu_seconds=SESSION_CPU_SECONDS,
+        request = messages.request(
+            script, robots, library, keep=False, cpu_seconds=SESSION_CPU_SECONDS
         )
         process = self._take()
         try:
@@ -143,7 +125,7 @@ class Sandbox:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        self._sessions = [*alive, Session(process)]
+        self._sessions = [*alive, Session(process, robots)]
         with contextlib.suppress(FaultError):  # a spare, for the next save
             self._warm = Process()
         return self._sessions[-1]
@@ -153,76 +135,119 @@ class Sandbox:
         return process
 
 
+class Session:
+    """A student's file that stays loaded and answers again and again, until it hangs.
+
+    A page asks it many times a second.
+    """
+
+    def __init__(self, process: Process, robots: Robots) -> None:
+        """Take a process that has loaded the file, and the robots it was given."""
+        self._process, self._robots = process, robots
+        self._ended: Reply | None = None
+
+    @property
+    def alive(self) -> bool:
+        """Whether it still answers; where not, open another session."""
+        return self._ended is None
+
+    def ask(
+        self, questions: Sequence[Question], seconds: float = CALL_SECONDS
+    ) -> list[Reply]:
+        """Ask each question once.
+
+        Args:
+            questions: what to call.
+            seconds: for one call. Whoever takes longer ends the session.
+
+        Returns:
+            One reply per question; "stopped" from where the session ended.
+        """
+        told: list[dict[str, Any]] = []
+        if self._ended is None:
+            self._process.ask(messages.pack(questions, self._robots))
+        while len(told) < len(questions) and self._ended is None:
+            try:
+                told.append(self._process.next(seconds))
+            except (EndedError, FaultError) as error:
+                self._end(str(error))
+        replies = messages.read(told)
+        if len(replies) < len(told):
+            self._end(CHANNEL)
+        missing = len(questions) - len(replies)
+        return replies + [self._ended] * missing if self._ended else replies
+
+    def close(self) -> None:
+        """End it."""
+        if self._ended is None:
+            self._end("the session was closed")
+
+    def _end(self, why: str) -> None:
+        self._ended = stopped(why)
+        self._process.close()
+
+
 class _Rounds:
-    """Some questions asked in order, then in reverse order of the file loaded anew."""
+    """Questions asked in order, then in reverse order of the file loaded anew."""
 
-    def __init__(
-        self,
-        process: Process,
-        questions: Sequence[Question],
-        left: list[int],
-        deadline: float,
+    def __init__(self, left: list[Exchange], deadline: float) -> None:
+        self.left, self.deadline = left, deadline
+        self.first: dict[Exchange, Reply] = {}
+        self.second: dict[Exchange, Reply] = {}
+        self.ended: tuple[Exchange, Reply] | None = None  # where, and why
+        self.spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
+
+    def ask(self, process: Process, robots: Robots) -> None:
+        """Ask all of them in both rounds, or until the process ends."""
+        calls = messages.pack([exchange.question for exchange in self.left], robots)
+        anew, *others = reversed(calls)
+        anew = {**anew, "anew": True}  # from here on, what the file kept is gone
+        process.ask([*calls, anew, *others])
+        self._listen(process, self.left, self.first)
+        if not self.ended:
+            self._listen(process, self.left[::-1], self.second)
+
+    def _listen(
+        self, process: Process, asked: list[Exchange], into: dict[Exchange, Reply]
     ) -> None:
-        self.process, self.questions, self.left = process, questions, left
-        self.deadline = deadline
-        self.first: dict[int, Reply] = {}
-        self.second: dict[int, Reply] = {}
-
-    def ask(self) -> tuple[int, Reply] | None:
-        """Fill both rounds; return where it ended early, and why, or None."""
-        order = [*self.left, *reversed(self.left)]
-        spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
-        packed = {i: pack(self.questions[i]) for i in self.left}
-        calls = [packed[i] for i in order]
-        anew = len(self.left)  # from here on, what the file kept so far is gone
-        calls[anew] = {**calls[anew], "anew": True}
-        self.process.ask(calls)
-        for position, i in enumerate(order):
-            task = self.questions[i].task
-            started, waited = time.monotonic(), self.process.waited
+        """Take the replies of one round."""
+        told: list[dict[str, Any]] = []
+        why: Reply | None = None
+        for exchange in asked:
+            task = exchange.question.task
+            started, waited = time.monotonic(), process.waited
             left = self.deadline + waited - started
             try:
-                reply = self.process.next(min(CALL_SECONDS, spare[task], left))
+                told.append(process.next(min(CALL_SECONDS, self.spare[task], left)))
             except EndedError as error:
-                late = time.monotonic() > self.deadline + self.process.waited
-                return i, stopped(TOO_LONG) if late else error.reply
-            spare[task] -= time.monotonic() - started - (self.process.waited - waited)
-            (self.first if position < len(self.left) else self.second)[i] = reply
-        return None
+                late = time.monotonic() > self.deadline + process.waited
+                why = stopped(TOO_LONG) if late else error.reply
+                break
+            self.spare[task] -= time.monotonic() - started - (process.waited - waited)
+        came = messages.read(told)
+        into.update(zip(asked, came, strict=False))
+        if len(came) < len(told):  # somebody forged the next
+            why = stopped(CHANNEL)
+        if why:
+            self.ended = asked[len(came)], why
 
-    def whole(self) -> dict[int, Reply]:
-        """Return what was answered twice."""
-        return {i: twice(self.first[i], again) for i, again in self.second.items()}
-
-    def without(
-        self, at: int, reply: Reply, needs: Mapping[str, Iterable[str]]
-    ) -> dict[int, Reply]:
-        """Return what is not asked again, since a question's reply ended it."""
-        culprit = self.questions[at].task
+    def fill(self, needs: Mapping[str, Iterable[str]]) -> None:
+        """Fill in what was answered twice, and what is not asked again."""
+        for exchange, again in self.second.items():
+            exchange.reply = twice(self.first[exchange], again)
+        if not self.ended:
+            return
+        at, why = self.ended
+        culprit, at.reply = at.question.task, why
         waiting = _dependents(culprit, needs)
-        found = {}
-        for i in self.left:
-            task = self.questions[i].task
-            if i == at:
-                found[i] = reply
-            elif i not in self.second and task == culprit:
-                once = self.first.get(i)
-                found[i] = twice(once, once) if once else reply
-            elif i not in self.second and task in waiting:
-                found[i] = Reply(error=f"task {culprit}", kind="waits")
-        return found
-
-
-def _request(
-    script: Path,
-    models: Sequence[dict[str, Any]],
-    facts: dict[str, Any],
-    library: Mapping[str, str] | None,
-    **others: Any,
-) -> dict[str, Any]:
-    """Return what a process is told before the first question."""
-    known = {"models": list(models), "facts": facts, "library": dict(library or {})}
-    return {**known, **code_of(script), **others}
+        for exchange in self.left:
+            if exchange.reply is not None:
+                continue
+            if exchange.question.task == culprit:
+                once = self.first.get(exchange)
+                exchange.reply = twice(once, once) if once else why
+            elif exchange.question.task in waiting:
+                exchange.reply = Reply(error=f"task {culprit}", kind="waits")
 
 
 def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:

@@ -15,18 +15,24 @@ that run other people's code say which wall stands, and so cannot be fooled by i
 import functools
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from labkit.sandbox import bubblewrap
 from labkit.sandbox.inside import landlock, seccomp
 from robo47.errors import FaultError, Robo47Error
 
 INSIDE = Path(__file__).parent / "inside"
 FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
 PROBE_SECONDS = 20.0
+# What bubblewrap shows: the interpreter, its standard library, the system's libraries,
+# NumPy and `inside/`, all read-only; one process, no network, no folder to write to.
+NAMESPACES = "--unshare-all --die-with-parent --new-session --as-pid-1 --cap-drop ALL"
+DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom")
+SYSTEM = ("/lib", "/lib32", "/lib64", "/usr/lib", "/usr/lib32", "/usr/lib64")
+OTHERS = ("python*/site-packages", "python*/dist-packages")  # packages of this machine
 _SAYS = {
     "bubblewrap": "student code runs behind bubblewrap: Python and NumPy, read-only, "
     "and nothing else of this machine",
@@ -100,7 +106,7 @@ def command(chosen: Wall) -> list[str]:
         raise Robo47Error("NumPy is not installed: run `make day1` once")
     libraries = Path(spec.origin).parent.parent
     if chosen.name == "bubblewrap":
-        return bubblewrap.command(INSIDE, libraries, FLAGS, chosen.name)
+        return _behind_bubblewrap(libraries, chosen.name)
     return [sys.executable, *FLAGS, str(INSIDE), chosen.name, str(libraries)]
 
 
@@ -110,11 +116,11 @@ def _landlock_works() -> bool:
 
 def _bubblewrap_works() -> bool:
     """Return whether bubblewrap starts a Python here, with what it is to see."""
-    if not bubblewrap.there():
+    if not sys.platform.startswith("linux") or shutil.which("bwrap") is None:
         return False
     try:
         tried = subprocess.run(
-            [*bubblewrap.prefix(), "-I", "-S", "-c", ""],
+            [*_bubblewrap(), "-I", "-S", "-c", ""],
             stdin=subprocess.DEVNULL,
             capture_output=True,
             timeout=PROBE_SECONDS,
@@ -123,3 +129,43 @@ def _bubblewrap_works() -> bool:
     except (OSError, subprocess.TimeoutExpired):
         return False
     return tried.returncode == 0
+
+
+def _behind_bubblewrap(libraries: Path, name: str) -> list[str]:
+    """Return the command that runs the sandbox's program behind bubblewrap."""
+    binds = _read_only(INSIDE, "/checker")
+    for package in ("numpy", "numpy.libs"):
+        if (libraries / package).is_dir():
+            binds += _read_only(libraries / package, f"/libraries/{package}")
+    return [*_bubblewrap(binds), *FLAGS, "/checker", name, "/libraries"]
+
+
+def _bubblewrap(binds: list[str] | None = None) -> list[str]:
+    """Return the command up to Python's own arguments; see bwrap(1)."""
+    python = Path(os.path.realpath(getattr(sys, "_base_executable", sys.executable)))
+    options = [str(shutil.which("bwrap")), *NAMESPACES.split()]
+    for device in DEVICES:
+        options += ["--dev-bind", device, device]
+    for folder in _library_folders(python):
+        if folder.is_symlink():
+            options += ["--symlink", os.readlink(folder), str(folder)]
+        elif folder.is_dir():
+            options += _read_only(folder)
+            for hidden in OTHERS:
+                for packages in folder.glob(hidden):
+                    options += ["--tmpfs", str(packages), "--remount-ro", str(packages)]
+    options += ["--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"]
+    options += _read_only(python) + (binds or [])
+    return [*options, "--remount-ro", "/", "--chdir", "/", "--", str(python)]
+
+
+def _library_folders(python: Path) -> list[Path]:
+    """Return where the system's libraries are and Python's own, without repetition."""
+    own = {python.parent.parent, Path(os.path.realpath(sys.base_prefix))}
+    folders = [*map(Path, SYSTEM)]
+    folders += [place / name for place in sorted(own) for name in ("lib", "lib64")]
+    return list(dict.fromkeys(folders))
+
+
+def _read_only(path: Path, at: str = "") -> list[str]:
+    return ["--ro-bind", str(path), at or str(path)]

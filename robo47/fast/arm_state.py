@@ -20,8 +20,8 @@ from robo47 import screws
 from robo47.checks import Array
 
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ AD is ad(V), row by row.
-SKEW = np.array([screws.skew(e).ravel() for e in np.eye(3)])
-AD = np.array([screws.ad(e).ravel() for e in np.eye(6)])
+SKEW = screws.skew(np.eye(3)).reshape(3, 9)
+AD = screws.ad(np.eye(6)).reshape(6, 36)
 
 
 def pseudo_inertias(masses: Array, coms: Array, inertias: Array) -> Array:
@@ -54,15 +54,13 @@ def from_pseudo_inertia(P: Array) -> tuple[float, Array, Array]:
 
 def _spatial_map() -> Array:
     """Return the map from pseudo-inertia, (16,), to 6x6 inertia, (36,)."""
-    rows = []
-    for P in np.eye(16).reshape(16, 4, 4):
-        G = np.zeros((6, 6))
-        G[:3, :3] = np.trace(P[:3, :3]) * np.eye(3) - P[:3, :3]
-        G[:3, 3:] = screws.skew(P[:3, 3])
-        G[3:, :3] = G[:3, 3:].T
-        G[3:, 3:] = P[3, 3] * np.eye(3)
-        rows.append(G.ravel())
-    return np.array(rows)
+    P, G = np.eye(16).reshape(16, 4, 4), np.zeros((16, 6, 6))
+    traces = np.trace(P[:, :3, :3], axis1=1, axis2=2)
+    G[:, :3, :3] = traces[:, None, None] * np.eye(3) - P[:, :3, :3]
+    G[:, :3, 3:] = screws.skew(P[:, :3, 3])
+    G[:, 3:, :3] = np.swapaxes(G[:, :3, 3:], 1, 2)
+    G[:, 3:, 3:] = P[:, 3, 3, None, None] * np.eye(3)
+    return G.reshape(16, 36)
 
 
 SPATIAL = _spatial_map()

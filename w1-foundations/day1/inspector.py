@@ -7,7 +7,7 @@ from labkit.inspector.arm import END
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from labkit.judge.exchange import Model, Path
+from labkit.judge.exchange import Path
 from robo47 import se3
 from robo47.checks import Array
 
@@ -21,14 +21,14 @@ def ask_compose_fk(model: mujoco.MjModel, q: Array) -> list[tuple]:
     bodies = {model.body(i).name for i in range(model.nbody)}
     end = "attachment" if "attachment" in bodies else "hand"  # panda.xml has no site
     path = (*LINKS, (end, None))
-    return [(Model(0), q, Path(path[:k])) for k in range(1, len(path) + 1)]
+    return [(model, q, Path(path[:k])) for k in range(1, len(path) + 1)]
 
 
 GHOST = Ghost(
     "compose_fk",
     frames=(*(f"link{i}" for i in range(8)), END),
     questions=ask_compose_fk,
-    whole=lambda model, q: (Model(0), q),  # a chain of one's own may take no path
+    whole=lambda model, q: (model, q),  # a chain of one's own may take no path
 )
 
 

@@ -31,9 +31,9 @@ def main() -> None:
         limits.die_with_parent()
         limits.leave_network()  # before NumPy: a process with threads may not
     import answers
+    import audit
     import fake_model
     import fakes
-    import guard
     import imports
     import landlock
     import seccomp
@@ -50,7 +50,7 @@ def main() -> None:
         channel.flush()
 
     readable = [*PYTHON, *_numpy_folders()]
-    watch = guard.Guard(readable)
+    watch = audit.Guard(readable)
     makers = [_maker(fake_model, wire, data) for data in request["models"]]
     entries = [data["entry"] for data in request["models"]]
     named = dict(zip(entries, makers, strict=True))

@@ -1,7 +1,7 @@
 """A fake of MuJoCo's MjModel: plain data under MuJoCo's own names.
 
 Its arrays, counts, names and named views are those of a compiled model, which
-`labkit.sandbox.model_copy` has copied; there is nothing in it to compute with.
+`labkit.sandbox.messages` has copied; there is nothing in it to compute with.
 """
 
 from typing import Any

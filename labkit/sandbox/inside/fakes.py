@@ -109,7 +109,7 @@ class Fakes:
         Args:
             refuse: takes what was tried, returns the exception to raise.
             models: by entry of the Panda, what makes a fresh copy of it.
-            facts: see `labkit.sandbox.model_copy.facts`.
+            facts: see `labkit.sandbox.messages`.
         """
         self._refuse, self._models = refuse, models
         constants = {

@@ -1,18 +1,160 @@
-"""What to call wrong answers: a named mistake, one place, or the part that is wrong."""
+"""The judge: from a function's questions and replies to a verdict and its name."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from labkit.judge import near_miss
-from labkit.judge.ask import Ask, Case
+from labkit.judge import near_miss, problems
+from labkit.judge.ask import (
+    Ask,
+    Asked,
+    Case,
+    HeldOut,
+    held_out_answers,
+    in_words,
+    parts,
+    right_answers,
+    stacked,
+)
 from labkit.judge.compare import difference, matches
-from labkit.judge.mistake import Finding, InTurn, Mistake, capitalised
-from labkit.judge.rounds import parts
+from labkit.judge.exchange import Exchange, Question, replies
+from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 
 Parts = tuple[Array, ...]
+
+
+def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
+    """Return what the replies to a function's questions show.
+
+    Args:
+        asked: the questions, with their replies.
+        source: the student's file, for slips that show in it.
+        names: of the function's arguments, for sentences.
+
+    Raises:
+        ValueError: a question has no reply.
+    """
+    S = problems.read(replies(asked.main), asked.ask, source)
+    if isinstance(S, Finding):
+        return Verdict("wrong", *S)
+    if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
+        return Verdict("wrong", *state)
+    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
+        if asked.ask.accept:
+            return _judge_accepted(asked, S, names)
+        return _judge_values(asked, S, names)
+
+
+def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
+    ask = asked.ask
+    T = right_answers(ask, asked.main)
+    case = _case(asked, S, T, names)
+    measured = _measured(case, S, T)
+    off = off_by(ask, S, T)
+    if off > ask.near:
+        return Verdict("wrong", *diagnose(case, S, T), measured)
+    if off > ask.tolerance:
+        return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
+    return _second_look(asked, measured)
+
+
+def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
+    if off <= near_miss.SINGLE and problems.single_precision(replies(asked.main), S):
+        says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
+        return Finding("float32", says)
+    i = worst_part(case.ask, S, T)
+    found = case.ask.near_miss(case) if case.ask.near_miss else None
+    return found or near_miss.explain(S[i], T[i])
+
+
+def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
+    """Return the verdict on right answers: how did they come about?"""
+    ask, note = asked.ask, ""
+    if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
+        return Verdict("wrong", *shared, measured)
+    if asked.fresh and ask.truth:
+        S = problems.read(replies(asked.fresh), ask, "")
+        off = np.inf
+        if not isinstance(S, Finding):
+            off = off_by(ask, S, right_answers(ask, asked.fresh))
+        if off > ask.near:
+            says = (
+                "Right for the inputs that are always asked, but off by "
+                f"{off:.3g} for fresh ones: some inputs take another way through your "
+                "function, or the answers are not computed from them."
+            )
+            return Verdict("wrong", "looked-up", says, measured)
+    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
+        if _found(held, ask, exchanges):
+            if held.status != "passed":
+                return Verdict(held.status, held.slug, held.says, measured)
+            note = f"{note} {held.says}".strip()
+    return Verdict("passed", "", note, measured)
+
+
+def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
+    """Return whether answers to held-out questions give the mistake away."""
+    S = problems.read(replies(exchanges), ask, "")
+    if isinstance(S, Finding):
+        return held.mistaken is None  # no answer is no sign of one certain mistake
+    off = off_by(ask, S, held_out_answers(held, ask, exchanges))
+    return off <= ask.near if held.mistaken else off > ask.near
+
+
+def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
+    """Return the verdict of a function to which many answers are right."""
+    ask = asked.ask
+    assert ask.accept is not None
+    fresh = problems.read(replies(asked.fresh), ask, "")
+    if isinstance(fresh, Finding):
+        return Verdict("wrong", *fresh)
+    questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
+    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
+    wrong: list[tuple[Question, Finding]] = []
+    for question, row in zip(questions, zip(*columns, strict=True), strict=True):
+        answer = row[0] if len(row) == 1 else row
+        args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
+        if why := ask.accept(*args, answer):
+            found = why if isinstance(why, Finding) else Finding("not-accepted", why)
+            wrong.append((question, found))
+    if not wrong:
+        return _second_look(asked, ())
+    if named := redone(ask, stacked(asked.main), S, None):
+        return Verdict("wrong", *named)
+    question, found = wrong[0]
+    given = in_words(question, names)
+    often = sum(other.slug == found.slug for _, other in wrong)
+    where = f" (For {often} of {len(questions)} inputs"
+    where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
+    return Verdict("wrong", found.slug, found.message + where)
+
+
+def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
+    def plain(some: Parts) -> Any:
+        return some[0] if len(some) == 1 else some
+
+    answered = zip(asked.probes, replies(asked.probes), strict=True)
+    probes = [
+        (probe.question.args, None if reply.kind else reply.value)
+        for probe, reply in answered
+    ]
+    given = [in_words(exchange.question, names) for exchange in asked.main]
+    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+
+
+def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
+    ask = case.ask
+    gap = gaps(ask, S, T)
+    lines = [
+        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)}",
+    ]
+    for kind, s, t in zip(ask.kinds, S, T, strict=True):
+        lines += kind.measured(s, t)
+    return (*lines, *(ask.measured(case) if ask.measured else ()))
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
@@ -75,9 +217,8 @@ def _may_be(mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Any) -> b
     """
     if not isinstance(mistake.redo, InTurn):
         return True
-    for s, a, kind in zip(
-        S, parts(mistake.redo.nth(-1, arguments)), ask.kinds, strict=False
-    ):
+    again = parts(mistake.redo.nth(-1, arguments))
+    for s, a, kind in zip(S, again, ask.kinds, strict=False):
         largest = np.abs(s[np.isfinite(s)]).max(initial=kind.scale)
         if not matches(s[-1:], a[None], largest):
             return False
