@@ -52,7 +52,7 @@ def main() -> int:
 
 
 def day_of(names: list[str]) -> int | None:
-    """Return the day that a picture's name begins with, such as day1_order."""
+    """Return the day that a picture's name begins with: dayN_order."""
     number = names[0].partition("_")[0].removeprefix("day") if names else ""
     return int(number) if number.isdecimal() else None
 
