@@ -1,6 +1,7 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     """
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
-        return Verdict("wrong", *S)
+        return Verdict("wrong", *_beside(S, asked, names))
     if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
@@ -54,10 +55,37 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     measured = _measured(case, S, T)
     off = off_by(ask, S, T)
     if off > ask.near:
-        return Verdict("wrong", *diagnose(case, S, T), measured)
+        if found := diagnose(case, S, T):
+            return Verdict("wrong", *found, measured)
+        wrong = tuple(np.flatnonzero(gaps(ask, S, T) > ask.near).tolist())
+        found = what_is_wrong(case, S, T)
+        return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
     return _second_look(asked, measured)
+
+
+def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
+    """Return what keeps some answers from being judged, and what is wrong with others.
+
+    Args:
+        found: of the answers that cannot be judged.
+        asked: all questions, with their replies.
+        names: of the function's arguments.
+    """
+    good = [e for e in asked.main if e.reply and e.reply.value is not None]
+    rest = replace(asked, main=good, probes=[])
+    S = problems.read(replies(good), asked.ask, "") if good else found
+    if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
+        return found
+    with np.errstate(all="ignore"):
+        T = right_answers(asked.ask, good)
+        if off_by(asked.ask, S, T) <= asked.ask.near:
+            return found
+        case = _case(rest, S, T, names)
+        other = diagnose(case, S, T) or what_is_wrong(case, S, T)
+    says = f"{found.message} The other answers are wrong, too. {other.message}"
+    return Finding(other.slug, says)
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
@@ -157,19 +185,41 @@ def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
     return (*lines, *(ask.measured(case) if ask.measured else ()))
 
 
-def diagnose(case: Case, S: Parts, T: Parts) -> Finding:
-    """Return the first of: a named mistake, one place, what is wrong."""
+def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
     if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
         return found
     if found := _not_finite(S, case.given):
-        return found
+        return _and_the_finite(found, case, S, T)
     i = worst_part(ask, S, T)
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
         return found
-    if ask.unnamed and (found := ask.unnamed(case)):
+    return ask.unnamed(case) if ask.unnamed else None
+
+
+def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
+    """Return that some answers are NaN, and what is wrong with the others."""
+    good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
+    S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
+    if not good.any() or off_by(case.ask, S, T) <= case.ask.near:
         return found
+    arguments = tuple(
+        a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
+    )
+    given = [one for one, is_good in zip(case.given, good, strict=True) if is_good]
+    plain = [some[0] if len(some) == 1 else some for some in (S, T)]
+    rest = replace(case, arguments=arguments, S=plain[0], T=plain[1], given=given)
+    other = diagnose(rest, S, T) or what_is_wrong(rest, S, T)
+    says = f"{found.message} The other answers are wrong, too. {other.message}"
+    return Finding(other.slug, says)
+
+
+def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
+    """Return which part of the answers is wrong, and by how much."""
+    ask, i = case.ask, worst_part(case.ask, S, T)
+    kind = ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""

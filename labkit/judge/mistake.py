@@ -32,6 +32,8 @@ class Verdict:
             passed and there is nothing to add.
         measured: lines for --explain.
         follows: the id of the task that has to be right first, "" where none.
+        wrong_calls: places of the main questions with a wrong answer, where neither a
+            named mistake nor anything else says more than by how much.
     """
 
     status: str
@@ -39,6 +41,7 @@ class Verdict:
     message: str = ""
     measured: tuple[str, ...] = ()
     follows: str = ""
+    wrong_calls: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

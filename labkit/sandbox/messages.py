@@ -27,6 +27,7 @@ def request(
     script: File,
     robots: Robots,
     library: Mapping[str, str] | None,
+    added: str = "",
     **others: Any,
 ) -> dict[str, Any]:
     """Return what a process is told before the first question, as JSON.
@@ -35,12 +36,13 @@ def request(
         script: the student's file.
         robots: that questions will hold.
         library: modules of the kit that it may import: source by name.
+        added: code of the kit's, run as if it stood at the end of the file.
         others: settings for `inside/__main__.py`.
 
     Raises:
         Robo47Error: there is no such file, or it is no script.
     """
-    told = {**_code_of(script), "library": dict(library or {}), **others}
+    told = {**_code_of(script, added), "library": dict(library or {}), **others}
     copies = [_copy_of(robot) for robot in robots]
     known = [copy["entry"] for copy in copies]
     if PANDA.entry not in known and _names_panda(told):
@@ -129,8 +131,8 @@ def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:
     }
 
 
-def _code_of(script: File) -> dict[str, Any]:
-    """Return a script and the ones beside it."""
+def _code_of(script: File, added: str = "") -> dict[str, Any]:
+    """Return a script, with what is added to it, and the ones beside it."""
     if not script.is_file():
         raise Robo47Error(f"{shown(script)} is not there")
     if script.stat().st_size > LARGEST:
@@ -140,7 +142,8 @@ def _code_of(script: File) -> dict[str, Any]:
         for path in sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
         if _is_own(path) and path.stat().st_size <= LARGEST
     }
-    return {"file": script.name, "code": _text(script), "beside": beside}
+    code = base64.b64encode(script.read_bytes() + added.encode()).decode("ascii")
+    return {"file": script.name, "code": code, "beside": beside}
 
 
 def _is_own(path: File) -> bool:

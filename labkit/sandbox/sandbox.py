@@ -57,6 +57,7 @@ class Sandbox:
         exchanges: Sequence[Exchange],
         library: Mapping[str, str] | None = None,
         needs: Mapping[str, Iterable[str]] | None = None,
+        added: str = "",
     ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
@@ -68,6 +69,7 @@ class Sandbox:
                 fakes.
             needs: the tasks that each task builds on. What builds on a task that was
                 stopped is not asked: its replies are of the kind "waits".
+            added: code of the kit's, as if it stood at the end of the file.
 
         Raises:
             LoadError: the file does not load.
@@ -76,7 +78,7 @@ class Sandbox:
         """
         robots = messages.robots_of([exchange.question for exchange in exchanges])
         request = messages.request(
-            script, robots, library, keep=True, cpu_seconds=CPU_SECONDS
+            script, robots, library, added, keep=True, cpu_seconds=CPU_SECONDS
         )
         deadline, killed = time.monotonic() + RUN_SECONDS, False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
@@ -103,20 +105,21 @@ class Sandbox:
         script: Path,
         robots: Robots = (),
         library: Mapping[str, str] | None = None,
+        added: str = "",
     ) -> "Session":
         """Return the student's file, loaded, for many rounds of questions.
 
         Args:
             script: the file.
             robots: those that questions will hold.
-            library: see `run`.
+            library, added: see `run`.
 
         Raises:
             LoadError: the file does not load.
             Robo47Error: there is no such file, it is no script, or no process starts.
         """
         request = messages.request(
-            script, robots, library, keep=False, cpu_seconds=SESSION_CPU_SECONDS
+            script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS
         )
         process = self._take()
         try:

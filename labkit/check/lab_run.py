@@ -1,0 +1,130 @@
+"""The day's lab, run with a student's functions: what the lab checks, the check asks.
+
+The kit's own lab runs here; each of the student's functions stands behind the
+sandbox's wall and is asked call by call. The first check that fails ends the run.
+"""
+
+import contextlib
+import inspect
+import io
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from labkit.judge.exchange import Path as Chain
+from labkit.judge.exchange import Question
+from labkit.judge.problems import stops_with
+from labkit.lesson import folder
+from labkit.lesson.day import Day, Metric
+from labkit.lesson.lab import Lab, number_of
+from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import PANDA
+from labkit.sandbox.sandbox import Sandbox, Session
+
+TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
+SECONDS = 20.0  # for the whole lab; a slow function is no wrong one
+
+
+class FirstFailure(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
+    """A check of the lab failed, or a function stopped; the text says which."""
+
+
+class OutOfTime(Exception):  # noqa: N818
+    """The functions are too slow to say anything about the lab."""
+
+
+class Rehearsal(Lab):
+    """The lab's recorder, which writes nothing and stops at the first failure."""
+
+    def __init__(self, file: str, about: str | None) -> None:
+        """Take what a `Lab` takes; the command line is not read."""
+        self.log, self.script = False, Path(file)
+        self.day, self.title = self.of, ""
+        self.failed, self.rows = [], []
+
+    of: Day
+
+    def step(self, title: str) -> None:
+        """Remember the heading."""
+        self.title = title
+
+    def _judge(self, name: str, wanted: Metric, value: float) -> None:
+        if not wanted.passes(value):
+            where = f'at "{self.title}": ' if self.title else ""
+            raise FirstFailure(
+                f"{where}{name} is {number_of(value)}; it must be {wanted.limit}"
+            )
+
+
+def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
+    """Return the first step of the lab that fails with a file's functions, or "".
+
+    Args:
+        day: from its manifest; where its complete lab is not there, nothing is said.
+        script: the student's file; all its tasks pass.
+        sandbox: where its functions run.
+    """
+    if not day.source.is_file():
+        return ""
+    lab = folder.load_lab(day.source)
+    session = sandbox.session(script, [PANDA], library_of(day))
+    deadline = time.monotonic() + SECONDS
+    for task in day.tasks:
+        for name in task.functions:
+            own = _asked(session, task.id, getattr(lab, name), deadline)
+            setattr(lab, name, own)
+    counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
+    vars(lab).update(dict.fromkeys(counts, TRIALS))
+    lab.Lab = type("Rehearsal", (Rehearsal,), {"of": day})  # type: ignore[attr-defined]
+    try:
+        with (
+            contextlib.redirect_stdout(io.StringIO()),
+            warnings.catch_warnings(action="ignore"),
+            np.errstate(all="ignore"),
+        ):
+            lab.main()
+    except FirstFailure as failure:
+        return str(failure)
+    except OutOfTime:
+        return ""
+    except Exception as error:  # what a wrong number leads to, in the kit's own code
+        return f"it stops with {type(error).__name__}: {error}"
+    finally:
+        session.close()
+    return ""
+
+
+def _asked(
+    session: Session, task: str, right: Callable[..., Any], deadline: float
+) -> Callable[..., Any]:
+    """Return a function of the lab whose answers come from the sandbox."""
+    signature = inspect.signature(right)
+
+    def ask(*args: Any, **named: Any) -> Any:
+        if time.monotonic() > deadline:
+            raise OutOfTime
+        bound = signature.bind(*args, **named)
+        bound.apply_defaults()
+        question = Question(task, right.__name__, tuple(map(_sent, bound.args)))
+        (reply,) = session.ask([question])
+        if reply.kind:
+            raise FirstFailure(f"{right.__name__}: {stops_with(reply)}")
+        value = reply.value
+        plain = isinstance(value, np.ndarray) and value.ndim == 0
+        return value[()] if plain else value
+
+    return ask
+
+
+def _sent(arg: Any) -> Any:
+    """Return an argument as questions have it: labs know one robot."""
+    if isinstance(arg, mujoco.MjModel):
+        return PANDA
+    if isinstance(arg, list | tuple) and arg and isinstance(arg[0], tuple):
+        return Chain(tuple(arg))
+    return arg

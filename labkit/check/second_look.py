@@ -1,0 +1,79 @@
+"""Second looks at a wrong function: whose fault it is, and when it is right."""
+
+import ast
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.ask import Ask, Asked, Robot
+from labkit.judge.exchange import Path as Chain
+from labkit.judge.exchange import Question
+from labkit.judge.mistake import InTurn
+from labkit.judge.right_when import conclude, experiments
+from labkit.lesson.day import Day, Task
+from labkit.lesson.starter import function_lines, read_script
+from labkit.sandbox.sandbox import Session
+
+
+def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
+    """Return the kit's own functions of some tasks, to stand below a student's file.
+
+    Args:
+        day: whose complete lab has them; "" is returned where it is not there.
+        tasks: whose functions.
+    """
+    names = [name for task in tasks for name in task.functions]
+    if not names or not day.source.is_file():
+        return ""
+    text = read_script(day.source)
+    imports = [
+        ast.get_source_segment(text, node) or ""
+        for node in ast.parse(text).body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+    ]
+    functions = ["\n".join(function_lines(text, name)[2]) for name in names]
+    return "\n\n" + "\n".join(imports) + "\n\n\n" + "\n\n\n".join(functions) + "\n"
+
+
+def right_when(
+    asked: Asked, wrong: Sequence[int], names: Sequence[str], session: Session
+) -> str:
+    """Return with which argument neutral a wrong function is right, or "".
+
+    Args:
+        asked: what it was asked.
+        wrong: the places of the main questions that it answered wrongly.
+        names: of its arguments.
+        session: with its file loaded.
+    """
+    mains = [asked.main[i].question for i in wrong]
+    tried = experiments([question.args for question in mains], names)
+    if not tried:
+        return ""
+    questions = [
+        Question(mains[0].task, asked.function, call)
+        for one in tried
+        for call in one.calls
+    ]
+    replies = iter(session.ask(questions))
+    answers = [
+        [None if (reply := next(replies)).kind else reply.value for _ in one.calls]
+        for one in tried
+    ]
+    return conclude(tried, answers, _truth(asked.ask), asked.ask.near)
+
+
+def _truth(ask: Ask) -> Callable[..., Any]:
+    """Return the right answer to one question."""
+    assert isinstance(ask.truth, InTurn)
+    one = ask.truth.function
+    return lambda *args: one(*map(_plain, args))
+
+
+def _plain(arg: Any) -> Any:
+    if isinstance(arg, Robot):
+        return arg.model
+    if isinstance(arg, Chain):
+        return arg.pairs
+    return np.copy(arg) if isinstance(arg, np.ndarray) else arg
