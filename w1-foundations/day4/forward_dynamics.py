@@ -34,7 +34,7 @@ def _(rng):
     damping = [np.ones(7)] * 5 + list(draw.numbers(rng, 0.1, 3, 5, 7))
     yield *still, case.gravity_torque
     yield *still, zero
-    for now, D, v, t, w in zip(moving, damping, qd, tau, load, strict=True):
+    for now, D, v, t, w in zip(moving, damping, qd, tau, load):
         yield now.M, now.bias(v) + w, D, v, t + w
 
 

@@ -15,7 +15,7 @@ row = Row(TORQUE)
 @row.inputs
 def _(rng):
     J, _, masses, coms = hinge([0.0, 1.0, 0.0], 1.0)
-    given = zip(states(rng), pulls(rng), strict=True)
+    given = zip(states(rng), pulls(rng))
     at = [(now.J_space, arm().masses, now.coms_world, g) for now, g in given]
     return [(J, masses, coms, DOWN), *at]
 
@@ -30,7 +30,7 @@ def torque(
 ):
     """Return gravity_torque with other velocities of c, with other links held."""
     tau = np.zeros(7)
-    for link, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
+    for link, (m, c) in enumerate(zip(masses, coms_world)):
         tau -= m * g @ velocity(J, c) * [holds(joint, link) for joint in range(7)]
     return tau
 
@@ -168,18 +168,6 @@ def _(J, masses, coms_world, g):
 row.of_argument("g", *other_gravity("the torque with that gravity"))
 
 
-@row.right  # Lists and loops, each component by itself.
-def _(J, masses, coms_world, g):
-    tau = [0.0] * 7
-    for i in range(7):
-        wx, wy, wz, vx, vy, vz = J[:, i]
-        for m, (x, y, z) in list(zip(masses, coms_world, strict=True))[i:]:
-            tau[i] -= m * g[0] * (vx + wy * z - wz * y)
-            tau[i] -= m * g[1] * (vy + wz * x - wx * z)
-            tau[i] -= m * g[2] * (vz + wx * y - wy * x)
-    return tau
-
-
 @row.right  # The bias at rest, with point masses for the links.
 def _(J, masses, coms_world, g):
     G = spatial_inertia(masses, coms_world, np.zeros((7, 3, 3)))
@@ -192,6 +180,6 @@ def _(J, masses, coms_world, g):
     for i in range(7):
         if J[:3, i].any():
             change = exp_screw(J[:, i], h) - exp_screw(J[:, i], -h)
-            for m, c in list(zip(masses, coms_world, strict=True))[i:]:
+            for m, c in list(zip(masses, coms_world))[i:]:
                 tau[i] -= m * g @ (change @ np.append(c, 1.0))[:3] / (2 * h)
     return tau

@@ -12,7 +12,8 @@ from .gravity import other_gravity
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
-wrong = partial(row.wrong, redone="the torque so")
+SO = "the torque so"
+wrong = partial(row.wrong, redone=SO)
 row.inputs(motions)
 
 
@@ -68,6 +69,118 @@ def _(J, G, qd, qdd, g):
     return inverse_dynamics(J, G, qd, qdd, 0 * g)
 
 
+for slug, says, other in (
+    (
+        "bracket-forgotten",
+        "the acceleration lacks ad(V) S qd: a joint that is carried round changes its "
+        "direction",
+        {"turned": lambda X, S, speed: 0 * S},
+    ),
+    (
+        "bracket-sign",
+        "in the acceleration ad(V) S qd has the wrong sign",
+        {"turned": lambda X, S, speed: -X @ S * speed},
+    ),
+    (
+        "bracket-twice",
+        "in the acceleration ad(V) S qd stands twice; it needs no 2, since the force "
+        "brings the other half of Coriolis",
+        {"turned": lambda X, S, speed: 2 * X @ S * speed},
+    ),
+    (
+        "bracket-without-speed",
+        "the acceleration has ad(V) S without qd: a joint at rest would change it, too",
+        {"turned": lambda X, S, speed: X @ S},
+    ),
+    (
+        "speed-squared",
+        "the acceleration has ad(V) S qd^2; one of the two speeds is in V already",
+        {"turned": lambda X, S, speed: X @ S * speed**2},
+    ),
+    (
+        "bracket-not-transposed",
+        "the force has ad in place of its transpose: a wrench changes the other way "
+        "from a twist",
+        {"swing": lambda V, A, G, own: -ad(V) @ G @ V},
+    ),
+    (
+        "bracket-not-transposed",
+        "the force has ad in place of minus its transpose: a wrench changes the other "
+        "way from a twist",
+        {"swing": lambda V, A, G, own: ad(V) @ G @ V},
+    ),
+    (
+        "velocity-product-sign",
+        "the velocity product, ad(V)^T G V, is added to the force; it is taken off",
+        {"swing": lambda V, A, G, own: ad(V).T @ G @ V},
+    ),
+    (
+        "acceleration-in-the-velocity-product",
+        "the velocity product has G A; what the motion of the link changes is its "
+        "momentum, G V",
+        {"swing": lambda V, A, G, own: -ad(V).T @ G @ A},
+    ),
+    (
+        "velocity-product-forgotten",
+        "the force is G A alone: that the inertia itself moves is missing",
+        {"swing": lambda V, A, G, own: 0 * V},
+    ),
+    (
+        "velocity-of-the-link-before",
+        "the force uses V before the link's own joint has been added",
+        {"swing": lambda V, A, G, own: -ad(V - own).T @ G @ (V - own)},
+    ),
+    (
+        "not-summed-back",
+        "each motor feels its own link only; it carries all links beyond it, too",
+        {"felt": lambda F, i: F[i]},
+    ),
+    (
+        "summed-from-the-base",
+        "the forces are summed from the base to the tip; a motor feels what is beyond "
+        "it, so the sum starts at the tip",
+        {"felt": lambda F, i: F[: i + 1].sum(axis=0)},
+    ),
+    (
+        "every-link-for-all",
+        "each motor feels all seven links; it carries its own and those beyond it only",
+        {"felt": lambda F, i: F.sum(axis=0)},
+    ),
+    (
+        "moment-only",
+        "each motor feels the moments about the world's origin alone; where its axis "
+        "does not go through that point, the force counts, too: all six numbers of S",
+        {"felt": lambda F, i: F[i:].sum(axis=0) * [1, 1, 1, 0, 0, 0]},
+    ),
+    (
+        "own-link-left-out",
+        "each motor feels the links beyond its own, but not its own",
+        {"felt": lambda F, i: F[i + 1 :].sum(axis=0)},
+    ),
+    (
+        "velocities-not-added",
+        "the velocity of a link is that of its own joint alone; the joints before move "
+        "it, too",
+        {"V_before": 0.0},
+    ),
+    (
+        "accelerations-not-added",
+        "the acceleration of a link is that of its own joint alone; the joints before "
+        "move it, too",
+        {"A_before": 0.0},
+    ),
+    (
+        "nothing-added-outwards",
+        "V and A start anew at every link; along the arm they add up",
+        {"V_before": 0.0, "A_before": 0.0},
+    ),
+):
+
+    @wrong(slug, says)
+    def _(J, G, qd, qdd, g, other=other):
+        return passes(J, G, qd, qdd, lift(g), **other)
+
+
 @wrong(
     "gravity-as-omega",
     "the base's acceleration stands in the angular half; a twist is (omega; v)",
@@ -104,45 +217,6 @@ def _(J, G, qd, qdd, g):
 
 
 @wrong(
-    "bracket-forgotten",
-    "the acceleration lacks ad(V) S qd: a joint that is carried round changes its "
-    "direction",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), turned=lambda X, S, speed: 0 * S)
-
-
-@wrong("bracket-sign", "in the acceleration ad(V) S qd has the wrong sign")
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), turned=lambda X, S, speed: -X @ S * speed)
-
-
-@wrong(
-    "bracket-twice",
-    "in the acceleration ad(V) S qd stands twice; it needs no 2, since the force "
-    "brings the other half of Coriolis",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), turned=lambda X, S, speed: 2 * X @ S * speed)
-
-
-@wrong(
-    "bracket-without-speed",
-    "the acceleration has ad(V) S without qd: a joint at rest would change it, too",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), turned=lambda X, S, speed: X @ S)
-
-
-@wrong(
-    "speed-squared",
-    "the acceleration has ad(V) S qd^2; one of the two speeds is in V already",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), turned=lambda X, S, speed: X @ S * speed**2)
-
-
-@wrong(
     "speed-sign-lost",
     "the speeds qd are taken without their signs: which way a joint turns counts "
     "when another one turns as well",
@@ -152,134 +226,12 @@ def _(J, G, qd, qdd, g):
 
 
 @wrong(
-    "bracket-not-transposed",
-    "the force has ad in place of its transpose: a wrench changes the other way "
-    "from a twist",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), swing=lambda V, A, G, own: -ad(V) @ G @ V)
-
-
-@wrong(
-    "bracket-not-transposed",
-    "the force has ad in place of minus its transpose: a wrench changes the other "
-    "way from a twist",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), swing=lambda V, A, G, own: ad(V) @ G @ V)
-
-
-@wrong(
-    "velocity-product-sign",
-    "the velocity product, ad(V)^T G V, is added to the force; it is taken off",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), swing=lambda V, A, G, own: ad(V).T @ G @ V)
-
-
-@wrong(
-    "acceleration-in-the-velocity-product",
-    "the velocity product has G A; what the motion of the link changes is its "
-    "momentum, G V",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), swing=lambda V, A, G, own: -ad(V).T @ G @ A)
-
-
-@wrong(
-    "velocity-product-forgotten",
-    "the force is G A alone: that the inertia itself moves is missing",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), swing=lambda V, A, G, own: 0 * V)
-
-
-@wrong(
-    "velocity-of-the-link-before",
-    "the force uses V before the link's own joint has been added",
-)
-def _(J, G, qd, qdd, g):
-    def swing(V, A, G, own):
-        return -ad(V - own).T @ G @ (V - own)
-
-    return passes(J, G, qd, qdd, lift(g), swing=swing)
-
-
-@wrong(
-    "not-summed-back",
-    "each motor feels its own link only; it carries all links beyond it, too",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), felt=lambda F, i: F[i])
-
-
-@wrong(
-    "summed-from-the-base",
-    "the forces are summed from the base to the tip; a motor feels what is beyond "
-    "it, so the sum starts at the tip",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), felt=lambda F, i: F[: i + 1].sum(axis=0))
-
-
-@wrong(
-    "every-link-for-all",
-    "each motor feels all seven links; it carries its own and those beyond it only",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), felt=lambda F, i: F.sum(axis=0))
-
-
-@wrong(
-    "moment-only",
-    "each motor feels the moments about the world's origin alone; where its axis "
-    "does not go through that point, the force counts, too: all six numbers of S",
-)
-def _(J, G, qd, qdd, g):
-    moment = np.array([1, 1, 1, 0, 0, 0])
-    return passes(J, G, qd, qdd, lift(g), felt=lambda F, i: F[i:].sum(axis=0) * moment)
-
-
-@wrong(
-    "own-link-left-out", "each motor feels the links beyond its own, but not its own"
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), felt=lambda F, i: F[i + 1 :].sum(axis=0))
-
-
-@wrong(
-    "velocities-not-added",
-    "the velocity of a link is that of its own joint alone; the joints before move "
-    "it, too",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), V_before=0.0)
-
-
-@wrong(
-    "accelerations-not-added",
-    "the acceleration of a link is that of its own joint alone; the joints before "
-    "move it, too",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), A_before=0.0)
-
-
-@wrong(
     "accelerations-not-added",
     "A is set anew at every link, so what the joints before gave, and gravity, are "
     "lost; it adds up, as V does",
 )
 def _(J, G, qd, qdd, g):
     return passes(J, G, qd, qdd, 0.0, A_before=0.0)
-
-
-@wrong(
-    "nothing-added-outwards",
-    "V and A start anew at every link; along the arm they add up",
-)
-def _(J, G, qd, qdd, g):
-    return passes(J, G, qd, qdd, lift(g), V_before=0.0, A_before=0.0)
 
 
 @wrong("negative", "the sign is wrong: this is what the arm does to the motors")
@@ -336,24 +288,6 @@ def _(J, G, qd, qdd, g):
 )
 def _(J, G, qd, qdd, g):
     return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd + qd
-
-
-@row.right  # One function that calls itself; A before V, as ad(S) S = 0.
-def _(J, G, qd, qdd, g):
-    tau = np.zeros(7)
-
-    def rest(i, V, A):
-        """Return the wrench on link i and all beyond it."""
-        if i == 7:
-            return np.zeros(6)
-        A = A + J[:, i] * qdd[i] + ad(V) @ J[:, i] * qd[i]
-        V = V + J[:, i] * qd[i]
-        F = G[i] @ A - ad(V).T @ G[i] @ V + rest(i + 1, V, A)
-        tau[i] = J[:, i] @ F
-        return F
-
-    rest(0, np.zeros(6), lift(g))
-    return tau
 
 
 @row.right  # Each link's force is the rate of G V; its weight acts on top.

@@ -39,9 +39,74 @@ def carried(
     return np.array(
         [
             spatial_inertia(m, com(T[:3, :3], T[:3, 3], c), about(T[:3, :3], I))
-            for T, m, c, I in zip(T_links, masses, coms, inertias, strict=True)
+            for T, m, c, I in zip(T_links, masses, coms, inertias)
         ]
     )
+
+
+for slug, says, redone, other in (
+    (
+        "com-in-link-axes",
+        "the centre of mass is used as it comes, in the link's own axes",
+        "the answer with c as it comes",
+        {"com": lambda R, p, c: c},
+    ),
+    (
+        "com-not-turned",
+        "the centre of mass is shifted by the link's place, but not turned with it",
+        "the answer with c + p",
+        {"com": lambda R, p, c: c + p},
+    ),
+    (
+        "com-not-shifted",
+        "the centre of mass is turned with the link, but the link's place is missing",
+        "the answer with R c",
+        {"com": lambda R, p, c: R @ c},
+    ),
+    (
+        "com-turned-back",
+        "the centre of mass is turned the wrong way, from the world to the link",
+        "the answer with R^T c + p",
+        {"com": lambda R, p, c: R.T @ c + p},
+    ),
+    (
+        "com-seen-from-the-link",
+        "the pose is used the wrong way round: it maps the link to the world",
+        "the answer with R^T (c - p)",
+        {"com": lambda R, p, c: R.T @ (c - p)},
+    ),
+    (
+        "inertia-not-turned",
+        "the inertia about the centre of mass is still in the link's axes",
+        "the answer with I as it comes",
+        {"about": lambda R, I: I},
+    ),
+    (
+        "inertia-turned-back",
+        "the inertia is turned the wrong way: this would take it from the world to the "
+        "link",
+        "the answer with R^T I R",
+        {"about": lambda R, I: R.T @ I @ R},
+    ),
+    (
+        "inertia-turned-once",
+        "the inertia is multiplied by R on one side only; a matrix that takes one "
+        "vector to another has both to turn",
+        "the answer with R I",
+        {"about": lambda R, I: R @ I},
+    ),
+    (
+        "second-R-not-transposed",
+        "the inertia is R I R; what takes a vector from the world to the link first "
+        "is not R",
+        "the answer with R I R",
+        {"about": lambda R, I: R @ I @ R},
+    ),
+):
+
+    @row.wrong(slug, says, redone)
+    def _(T_links, masses, coms, inertias, other=other):
+        return carried(T_links, masses, coms, inertias, **other)
 
 
 @row.wrong(
@@ -51,51 +116,6 @@ def carried(
 )
 def _(T_links, masses, coms, inertias):
     return spatial_inertia(masses, coms, inertias)
-
-
-@row.wrong(
-    "com-in-link-axes",
-    "the centre of mass is used as it comes, in the link's own axes",
-    "the answer with c as it comes",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, com=lambda R, p, c: c)
-
-
-@row.wrong(
-    "com-not-turned",
-    "the centre of mass is shifted by the link's place, but not turned with it",
-    "the answer with c + p",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, com=lambda R, p, c: c + p)
-
-
-@row.wrong(
-    "com-not-shifted",
-    "the centre of mass is turned with the link, but the link's place is missing",
-    "the answer with R c",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, com=lambda R, p, c: R @ c)
-
-
-@row.wrong(
-    "com-turned-back",
-    "the centre of mass is turned the wrong way, from the world to the link",
-    "the answer with R^T c + p",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, com=lambda R, p, c: R.T @ c + p)
-
-
-@row.wrong(
-    "com-seen-from-the-link",
-    "the pose is used the wrong way round: it maps the link to the world",
-    "the answer with R^T (c - p)",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, com=lambda R, p, c: R.T @ (c - p))
 
 
 @row.wrong(
@@ -117,9 +137,7 @@ def _(T_links, masses, coms, inertias):
 )
 def _(T_links, masses, coms, inertias):
     G = spatial_inertia(masses, coms, inertias)
-    return np.array(
-        [adjoint(T) @ G_i @ adjoint(T).T for T, G_i in zip(T_links, G, strict=True)]
-    )
+    return np.array([adjoint(T) @ G_i @ adjoint(T).T for T, G_i in zip(T_links, G)])
 
 
 @row.wrong(
@@ -146,45 +164,6 @@ def _(T_links, masses, coms, inertias):
 )
 def _(T_links, masses, coms, inertias):
     return link_inertias(T_links, masses, 0 * coms, inertias)
-
-
-@row.wrong(
-    "inertia-not-turned",
-    "the inertia about the centre of mass is still in the link's axes",
-    "the answer with I as it comes",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, about=lambda R, I: I)
-
-
-@row.wrong(
-    "inertia-turned-back",
-    "the inertia is turned the wrong way: this would take it from the world to the "
-    "link",
-    "the answer with R^T I R",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, about=lambda R, I: R.T @ I @ R)
-
-
-@row.wrong(
-    "inertia-turned-once",
-    "the inertia is multiplied by R on one side only; a matrix that takes one "
-    "vector to another has both to turn",
-    "the answer with R I",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, about=lambda R, I: R @ I)
-
-
-@row.wrong(
-    "second-R-not-transposed",
-    "the inertia is R I R; what takes a vector from the world to the link first "
-    "is not R",
-    "the answer with R I R",
-)
-def _(T_links, masses, coms, inertias):
-    return carried(T_links, masses, coms, inertias, about=lambda R, I: R @ I @ R)
 
 
 @row.wrong(

@@ -15,14 +15,14 @@ row = Row(Symmetric((7, 7), "kg m2"))
 def _(rng):
     J, G, _, _ = hinge([0.0, 0.0, 1.0], 2.0)
     rotors = [np.full(7, 0.1)] * 5 + list(draw.numbers(rng, 0.02, 0.3, 5, 7))
-    now = zip(states(rng), rotors, strict=True)
+    now = zip(states(rng), rotors)
     return [(J, G, rotors[0]), *((at.J_space, at.G, a) for at, a in now)]
 
 
 def links(J, G, moves):
     """Return M without the armature; `moves(joint, link)` says which columns count."""
     columns = [J * [moves(joint, link) for joint in range(7)] for link in range(7)]
-    return sum(J_i.T @ G_i @ J_i for J_i, G_i in zip(columns, G, strict=True))
+    return sum(J_i.T @ G_i @ J_i for J_i, G_i in zip(columns, G))
 
 
 @row.wrong(
@@ -225,17 +225,6 @@ def _(J, G, armature):
 )
 def _(J, G, armature):
     return np.linalg.inv(mass_matrix(J, G, armature))
-
-
-@row.right  # Featherstone's composite bodies: from the tip, each entry once.
-def _(J, G, armature):
-    M, carried = np.diag(armature), np.zeros((6, 6))
-    for i in reversed(range(7)):
-        carried = carried + G[i]
-        for j in range(i + 1):
-            M[i, j] += J[:, i] @ carried @ J[:, j]
-            M[j, i] = M[i, j]
-    return M
 
 
 @row.right  # Column i is the torque for qdd = e_i, without gravity and speed.

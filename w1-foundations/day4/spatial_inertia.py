@@ -18,12 +18,64 @@ ONE, NONE = np.eye(3), np.zeros((3, 3))
 def _(rng):
     point = (2.0, np.array([0.0, 0.0, 1.0]), np.zeros((3, 3)))
     masses, coms = draw.numbers(rng, 0.2, 5, 9), draw.numbers(rng, -1, 1, 9, 3)
-    return [point, *zip(map(float, masses), coms, solids(rng, 9), strict=True)]
+    return [point, *zip(map(float, masses), coms, solids(rng, 9))]
 
 
-def about_origin(m, c, top):
-    """Return the matrix with another block in its top left."""
-    return np.block([[top, m * skew(c)], [m * skew(c).T, m * ONE]])
+for slug, says, redone, top in (
+    (
+        "parallel-axis-forgotten",
+        "the top left block is about the centre of mass still: what the distance to "
+        "the origin adds is missing",
+        "the matrix with I alone there",
+        lambda m, c, C, I: I,
+    ),
+    (
+        "parallel-axis-sign",
+        "in the top left block the distance makes the body lighter to turn: [c] [c] is "
+        "the negative of [c] [c]^T",
+        "the matrix with I + m [c] [c]",
+        lambda m, c, C, I: I + m * C @ C,
+    ),
+    (
+        "outer-product-for-skew",
+        "the top left block has c c^T in place of [c] [c]^T: a mass is hard to turn "
+        "about the axes that it is far from",
+        "the matrix with I + m c c^T",
+        lambda m, c, C, I: I + m * np.outer(c, c),
+    ),
+    (
+        "distance-in-all-directions",
+        "the top left block has |c|^2 for all three axes; a distance along an axis "
+        "does not count for that axis",
+        "the matrix with I + m |c|^2",
+        lambda m, c, C, I: I + m * c @ c * ONE,
+    ),
+    (
+        "distance-counts-twice",
+        "the top left block adds m [c] [c]^T twice; the 1/2 of the energy does not "
+        "stand in the matrix, so it needs no 2",
+        "the matrix with I + 2 m [c] [c]^T",
+        lambda m, c, C, I: I + 2 * m * C @ C.T,
+    ),
+    (
+        "entry-by-entry",
+        "the top left block multiplies [c] and [c]^T entry by entry, with *; the "
+        "product of two matrices is @",
+        "the matrix with * there",
+        lambda m, c, C, I: I + m * C * C.T,
+    ),
+    (
+        "mass-forgotten-in-the-parallel-axis",
+        "the top left block adds [c] [c]^T without the mass",
+        "the matrix without m there",
+        lambda m, c, C, I: I + C @ C.T,
+    ),
+):
+
+    @row.wrong(slug, says, redone)
+    def _(m, c, I, top=top):
+        C = skew(c)
+        return np.block([[top(m, c, C, I), m * C], [m * C.T, m * ONE]])
 
 
 @row.wrong(
@@ -34,75 +86,6 @@ def about_origin(m, c, top):
 )
 def _(m, c, I):
     return np.block([[I, NONE], [NONE, m * ONE]])
-
-
-@row.wrong(
-    "parallel-axis-forgotten",
-    "the top left block is about the centre of mass still: what the distance to "
-    "the origin adds is missing",
-    "the matrix with I alone there",
-)
-def _(m, c, I):
-    return about_origin(m, c, I)
-
-
-@row.wrong(
-    "parallel-axis-sign",
-    "in the top left block the distance makes the body lighter to turn: [c] [c] is "
-    "the negative of [c] [c]^T",
-    "the matrix with I + m [c] [c]",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + m * skew(c) @ skew(c))
-
-
-@row.wrong(
-    "outer-product-for-skew",
-    "the top left block has c c^T in place of [c] [c]^T: a mass is hard to turn "
-    "about the axes that it is far from",
-    "the matrix with I + m c c^T",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + m * np.outer(c, c))
-
-
-@row.wrong(
-    "distance-in-all-directions",
-    "the top left block has |c|^2 for all three axes; a distance along an axis "
-    "does not count for that axis",
-    "the matrix with I + m |c|^2",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + m * c @ c * ONE)
-
-
-@row.wrong(
-    "distance-counts-twice",
-    "the top left block adds m [c] [c]^T twice; the 1/2 of the energy does not "
-    "stand in the matrix, so it needs no 2",
-    "the matrix with I + 2 m [c] [c]^T",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + 2 * m * skew(c) @ skew(c).T)
-
-
-@row.wrong(
-    "entry-by-entry",
-    "the top left block multiplies [c] and [c]^T entry by entry, with *; the "
-    "product of two matrices is @",
-    "the matrix with * there",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + m * skew(c) * skew(c).T)
-
-
-@row.wrong(
-    "mass-forgotten-in-the-parallel-axis",
-    "the top left block adds [c] [c]^T without the mass",
-    "the matrix without m there",
-)
-def _(m, c, I):
-    return about_origin(m, c, I + skew(c) @ skew(c).T)
 
 
 @row.wrong(
@@ -238,16 +221,6 @@ def _(m, c, I):
 def _(m, c, I):
     C = skew(c)
     return np.block([[m * ONE, m * C.T], [m * C, I + m * C @ C.T]])
-
-
-@row.right  # Points: each has m H^T H. I is a spread of points about c, of weight 0.
-def _(m, c, I):
-    H = np.hstack([-skew(c), ONE])
-    G = m * H.T @ H
-    values, axes = np.linalg.eigh(np.trace(I) / 2 * ONE - I)
-    for value, axis in zip(values, axes.T, strict=True):
-        G[:3, :3] += value * skew(axis) @ skew(axis).T
-    return G
 
 
 @row.right  # diag(I, m 1) at the centre of mass, carried to the origin by adjoints.
