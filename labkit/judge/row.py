@@ -217,12 +217,13 @@ class Row:
 
     def _calling(self, small: str, wrong: Code) -> Code:
         """Return the lab's own function with a small one replaced."""
+        own = getattr(self.lab, self.function)  # now: later it may be replaced itself
 
         def code(*args: Any) -> Any:
             right = getattr(self.lab, small)
             setattr(self.lab, small, wrong)
             try:
-                return getattr(self.lab, self.function)(*args)
+                return own(*args)
             finally:
                 setattr(self.lab, small, right)
 

@@ -11,7 +11,7 @@ from compare import assert_same
 from conftest import ROOT, load_script
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
-from robo47 import dynamics, panda, screws, simulate, verify
+from robo47 import dynamics, panda, simulate, verify
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -29,37 +29,6 @@ def arm():
 @pytest.fixture(scope="module")
 def model():
     return panda.load("panda_nohand", drive="torque")
-
-
-def hinge(axis, mass):
-    """Return J, G, masses and centres of one hinge with a mass at (1, 0, 0)."""
-    J, masses, coms = np.zeros((6, 7)), np.zeros(7), np.zeros((7, 3))
-    J[:3, 0], masses[0], coms[0] = axis, mass, (1.0, 0.0, 0.0)
-    G = [
-        lab.spatial_inertia(m, c, np.zeros((3, 3)))
-        for m, c in zip(masses, coms, strict=True)
-    ]
-    return J, np.array(G), masses, coms
-
-
-def test_the_worked_cases_of_the_docstrings():
-    two = lab.spatial_inertia(2.0, np.array([0.0, 0.0, 1.0]), np.zeros((3, 3)))
-    assert_same(np.diag(two), [2, 2, 0, 2, 2, 2], 0.0)
-    J, G, _, _ = hinge((0, 0, 1), 2.0)
-    assert_same(lab.mass_matrix(J, G, np.full(7, 0.1))[0, 0], 2.1, 1e-15)
-    J, G, masses, coms = hinge((0, 1, 0), 1.0)
-    tau = lab.gravity_torque(J, masses, coms, DOWN)
-    assert_same(tau[0], -9.81, 1e-15)
-    zero = np.zeros(7)
-    tau = lab.inverse_dynamics(J, G, zero, np.eye(7)[0], DOWN)
-    assert_same(tau[0], -8.81, 1e-14)
-    assert_same(lab.bias_torque(J, G, zero, DOWN)[0], -9.81, 1e-14)
-    V = np.arange(6.0)
-    assert_same(lab.ad(V) @ V, np.zeros(6), 0.0)
-    both = lab.energy(2.0 * np.eye(7), 3.0 * np.eye(7)[0], masses, 0 * coms, DOWN)
-    assert_same(both, [9.0, 0.0], 0.0)
-    acc = lab.forward_dynamics(np.eye(7), tau, np.ones(7), zero, tau)
-    assert_same(acc, zero, 0.0)
 
 
 def test_the_labs_functions_agree_with_mujoco_on_either_panda(either_panda):
@@ -237,12 +206,6 @@ def test_the_script_runs_as_a_person_runs_it(monkeypatch, capsys):
     out = capsys.readouterr().out
     assert "All checks PASSED." in out
     assert max(map(len, out.splitlines())) <= 80
-
-
-def test_ad_is_days_2_library_function():
-    # Task 4.5 asks for it again; whoever imports it from robo47.screws has used Day 2.
-    V = np.arange(6.0)
-    assert_same(lab.ad(V), screws.ad(V), 0.0)
 
 
 def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):

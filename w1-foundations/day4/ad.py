@@ -1,0 +1,139 @@
+"""4.5 `ad(V)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import draw
+from labkit.judge.row import Row
+from robo47 import screws
+from robo47.screws import adjoint, exp_screw, skew
+
+from .states import SIX
+
+row = Row(SIX, truth=screws.ad)
+NONE = np.zeros((3, 3))
+
+
+@row.inputs
+def _(rng):
+    case, shift = np.eye(6)[2] + np.eye(6)[3], np.array([0, 0, 0, 0.3, -0.2, 0.5])
+    return [(V,) for V in (case, shift, *draw.numbers(rng, -2, 2, 9, 6))]
+
+
+def halves(V):
+    """Return [omega] and [v]."""
+    return skew(V[:3]), skew(V[3:])
+
+
+@row.wrong(
+    "v-on-top",
+    "[v] stands in the upper right; an angular velocity does not change with v, so "
+    "that block is 0",
+    "the matrix with [v] up there",
+)
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, U], [NONE, W]])
+
+
+@row.wrong(
+    "halves-swapped",
+    "V is read as (v; omega); omega comes first",
+    "the matrix of (v; omega)",
+)
+def _(V):
+    U, W = halves(V)
+    return np.block([[W, NONE], [U, W]])
+
+
+@row.wrong(
+    "v-forgotten",
+    "[v] is missing: this turns both halves, and does no more",
+    "the matrix without [v]",
+)
+def _(V):
+    return np.kron(np.eye(2), skew(V[:3]))
+
+
+@row.wrong(
+    "second-omega-forgotten",
+    "the lower right block is empty; a linear velocity is turned, too",
+    "the matrix with 0 there",
+)
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, NONE], [U, NONE]])
+
+
+@row.wrong("v-sign", "[v] has the wrong sign: ad(V) V is not 0", "the matrix with -[v]")
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, NONE], [-U, W]])
+
+
+@row.wrong(
+    "v-in-both-corners",
+    "[v] stands in both corners; the upper right one is 0",
+    "the matrix with [v] twice",
+)
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, U], [U, W]])
+
+
+@row.wrong(
+    "v-last",
+    "the lower right block is [v]; both on the diagonal are [omega]",
+    "the matrix with [omega] and [v] on the diagonal",
+)
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, NONE], [NONE, U]])
+
+
+@row.wrong(
+    "identity-added",
+    "the identity is added; ad(V) is what changes in a second, and for V = 0 "
+    "nothing does",
+    "the matrix plus the identity",
+)
+def _(V):
+    return np.eye(6) + screws.ad(V)
+
+
+@row.wrong(
+    "product-for-v",
+    "the lower left block is [v] [omega]; a product like this, [p] R, stands in "
+    "the adjoint of a pose. Here it is one of the two alone",
+    "the matrix with [v] [omega] there",
+)
+def _(V):
+    W, U = halves(V)
+    return np.block([[W, NONE], [U @ W, W]])
+
+
+@row.wrong(
+    "omega-everywhere",
+    "[omega] stands where [v] belongs",
+    "the matrix with [omega] three times",
+)
+def _(V):
+    W, _ = halves(V)
+    return np.block([[W, NONE], [W, W]])
+
+
+@row.right  # Cross products, column by column.
+def _(V):
+    w, v = V[:3], V[3:]
+    columns = [
+        np.append(np.cross(w, e[:3]), np.cross(v, e[:3]) + np.cross(w, e[3:]))
+        for e in np.eye(6)
+    ]
+    return np.stack(columns, axis=1)
+
+
+@row.close("rounded-somewhere")  # The derivative of the adjoint, by a difference.
+def _(V):
+    h = 3e-4
+    size = np.linalg.norm(V[:3]) or np.linalg.norm(V[3:])
+    there, back = (adjoint(exp_screw(V / size, x * size)) for x in (h, -h))
+    return (there - back) / (2 * h)

@@ -1,0 +1,145 @@
+"""4.7 `bias_torque(J, G, qd, g)`: its questions; mistakes of 4.6, and its own."""
+
+from functools import partial
+
+import numpy as np
+
+from labkit.judge.row import Row
+from robo47.dynamics import inverse_dynamics, mass_matrix
+from robo47.screws import ad
+
+from .states import TORQUE, motions
+
+# One thing with two names: at qdd = 0 the numbers are the same.
+row = Row(TORQUE, alike=[{"nothing-added-outwards", "velocities-not-added"}])
+wrong = partial(row.wrong, redone="the torque so")
+STILL = np.zeros(7)
+
+
+@row.inputs
+def _(rng):
+    return [(J, G, qd, g) for J, G, qd, _, g in motions(rng)]
+
+
+# What 4.6 says of its own inside, said of the call: 4.6 is right when 4.7 is judged.
+@wrong(
+    "base-acceleration-sign",
+    "gravity has the wrong sign, as if g were given as -g; inverse_dynamics wants g "
+    "as it is",
+)
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, STILL, -g)
+
+
+@wrong(
+    "gravity-forgotten",
+    "gravity is missing, as if g were given as 0; it is part of the bias",
+)
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, STILL, 0 * g)
+
+
+@wrong("gravity-twice", "gravity counts twice; inverse_dynamics has it already")
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, STILL, 2 * g)
+
+
+row.reached_by(
+    "inverse_dynamics",
+    but=[
+        "base-acceleration-sign",
+        "gravity-forgotten",
+        "gravity-twice",
+        "speed-and-acceleration-swapped",
+        "acceleration-ignored",
+        "speed-ignored",
+        "gravity-only",
+        "armature-added",
+        "damping-added",
+        "armature-and-damping-added",
+    ],
+)
+
+
+@wrong("gravity-only", "qd is not used: Coriolis and centrifugal forces are missing")
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, STILL, STILL, g)
+
+
+@wrong(
+    "coriolis-twice", "Coriolis and centrifugal forces count twice; gravity is right"
+)
+def _(J, G, qd, g):
+    holding = inverse_dynamics(J, G, STILL, STILL, g)
+    return 2 * inverse_dynamics(J, G, qd, STILL, g) - holding
+
+
+@wrong(
+    "coriolis-half",
+    "only half of the Coriolis and centrifugal forces is there; gravity is right",
+)
+def _(J, G, qd, g):
+    holding = inverse_dynamics(J, G, STILL, STILL, g)
+    return 0.5 * (holding + inverse_dynamics(J, G, qd, STILL, g))
+
+
+@wrong(
+    "speed-for-acceleration", "qd is given as the acceleration, too; that has to be 0"
+)
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, qd, g)
+
+
+@wrong(
+    "speed-in-place-of-acceleration",
+    "qd is given as the acceleration, and 0 as the speed",
+)
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, STILL, qd, g)
+
+
+@wrong("acceleration-of-one", "the acceleration is 1 for every joint; it has to be 0")
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, np.ones(7), g)
+
+
+@wrong(
+    "rate-of-the-mass-matrix",
+    "the rate of M times qd is not the Coriolis torque: half of what it holds belongs "
+    "there",
+)
+def _(J, G, qd, g):
+    X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
+    J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
+    G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])
+    up, down = mass_matrix(J + J_rate, G, 0.0), mass_matrix(J - J_rate, G, 0.0)
+    M_rate = 0.5 * (up - down) + mass_matrix(J, G_rate, 0.0)
+    return inverse_dynamics(J, G, STILL, STILL, g) + M_rate @ qd
+
+
+@wrong(
+    "damping-added",
+    "the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8",
+)
+def _(J, G, qd, g):
+    return inverse_dynamics(J, G, qd, STILL, g) + qd
+
+
+def rate_of_M(J, G, j):
+    """Return the rate of the links' part of M when joint j moves."""
+    X = ad(J[:, j])
+    dM = np.zeros((7, 7))
+    for i in range(j, 7):
+        J_i, dJ = J[:, : i + 1], X @ J[:, : i + 1]
+        dJ[:, : j + 1] = 0.0  # it carries the joints beyond it, not itself
+        mixed = dJ.T @ G[i] @ J_i
+        dM[: i + 1, : i + 1] += mixed + mixed.T - J_i.T @ (X.T @ G[i] + G[i] @ X) @ J_i
+    return dM
+
+
+@row.right  # Lagrange: Christoffel symbols, and no recursion at all.
+def _(J, G, qd, g):
+    dM = [rate_of_M(J, G, k) for k in range(7)]
+    rate = sum(dM[k] * qd[k] for k in range(7))
+    holding = inverse_dynamics(J, G, STILL, STILL, g)
+    return holding + rate @ qd - [0.5 * qd @ dM[i] @ qd for i in range(7)]

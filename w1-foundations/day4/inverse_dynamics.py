@@ -1,0 +1,307 @@
+"""4.6 `inverse_dynamics(J, G, qd, qdd, g)`: its questions and its mistakes."""
+
+from functools import partial
+
+import numpy as np
+
+from labkit.judge.row import Row
+from robo47.dynamics import inverse_dynamics
+from robo47.screws import ad
+
+from .gravity import other_gravity
+from .states import TORQUE, motions
+
+row = Row(TORQUE)
+SO = "the torque so"
+wrong = partial(row.wrong, redone=SO)
+row.inputs(motions)
+
+
+def lift(g):
+    """Return the acceleration of a base that stands still on the ground."""
+    return np.append(np.zeros(3), -g)
+
+
+def passes(
+    J,
+    G,
+    qd,
+    qdd,
+    base,
+    V_before=1.0,
+    A_before=1.0,
+    turned=lambda ad_V, S, speed: ad_V @ S * speed,
+    swing=lambda V, A, G, own: -ad(V).T @ G @ V,
+    felt=lambda F, i: F[i:].sum(axis=0),
+):
+    """Return the torque by Newton and Euler's two passes, with other parts.
+
+    Args:
+        J, G, qd, qdd: as in `inverse_dynamics`.
+        base: its acceleration, which all links share.
+        V_before, A_before: what counts of the link before, 1 for all of it.
+        turned: what the acceleration has for ad(V) S qd.
+        swing: what the force has for -ad(V)^T G V; own is S qd.
+        felt: the wrench that motor i feels, from F of all links.
+    """
+    V, A, F = np.zeros(6), np.zeros(6), []
+    for i in range(7):
+        own = J[:, i] * qd[i]
+        V = V_before * V + own
+        A = A_before * A + J[:, i] * qdd[i] + turned(ad(V), J[:, i], qd[i])
+        F.append(G[i] @ (A + base) + swing(V, A + base, G[i], own))
+    return np.array([J[:, i] @ felt(np.array(F), i) for i in range(7)])
+
+
+@wrong(
+    "base-acceleration-sign",
+    "the base accelerates the wrong way: to stand still on the ground feels like a "
+    "lift that starts upwards, against g",
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, -g)
+
+
+@wrong(
+    "gravity-forgotten", "gravity is missing: the acceleration starts at 0 at the base"
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, 0 * g)
+
+
+for slug, says, other in (
+    (
+        "bracket-forgotten",
+        "the acceleration lacks ad(V) S qd: a joint that is carried round changes its "
+        "direction",
+        {"turned": lambda X, S, speed: 0 * S},
+    ),
+    (
+        "bracket-sign",
+        "in the acceleration ad(V) S qd has the wrong sign",
+        {"turned": lambda X, S, speed: -X @ S * speed},
+    ),
+    (
+        "bracket-twice",
+        "in the acceleration ad(V) S qd stands twice; it needs no 2, since the force "
+        "brings the other half of Coriolis",
+        {"turned": lambda X, S, speed: 2 * X @ S * speed},
+    ),
+    (
+        "bracket-without-speed",
+        "the acceleration has ad(V) S without qd: a joint at rest would change it, too",
+        {"turned": lambda X, S, speed: X @ S},
+    ),
+    (
+        "speed-squared",
+        "the acceleration has ad(V) S qd^2; one of the two speeds is in V already",
+        {"turned": lambda X, S, speed: X @ S * speed**2},
+    ),
+    (
+        "bracket-not-transposed",
+        "the force has ad in place of its transpose: a wrench changes the other way "
+        "from a twist",
+        {"swing": lambda V, A, G, own: -ad(V) @ G @ V},
+    ),
+    (
+        "bracket-not-transposed",
+        "the force has ad in place of minus its transpose: a wrench changes the other "
+        "way from a twist",
+        {"swing": lambda V, A, G, own: ad(V) @ G @ V},
+    ),
+    (
+        "velocity-product-sign",
+        "the velocity product, ad(V)^T G V, is added to the force; it is taken off",
+        {"swing": lambda V, A, G, own: ad(V).T @ G @ V},
+    ),
+    (
+        "acceleration-in-the-velocity-product",
+        "the velocity product has G A; what the motion of the link changes is its "
+        "momentum, G V",
+        {"swing": lambda V, A, G, own: -ad(V).T @ G @ A},
+    ),
+    (
+        "velocity-product-forgotten",
+        "the force is G A alone: that the inertia itself moves is missing",
+        {"swing": lambda V, A, G, own: 0 * V},
+    ),
+    (
+        "velocity-of-the-link-before",
+        "the force uses V before the link's own joint has been added",
+        {"swing": lambda V, A, G, own: -ad(V - own).T @ G @ (V - own)},
+    ),
+    (
+        "not-summed-back",
+        "each motor feels its own link only; it carries all links beyond it, too",
+        {"felt": lambda F, i: F[i]},
+    ),
+    (
+        "summed-from-the-base",
+        "the forces are summed from the base to the tip; a motor feels what is beyond "
+        "it, so the sum starts at the tip",
+        {"felt": lambda F, i: F[: i + 1].sum(axis=0)},
+    ),
+    (
+        "every-link-for-all",
+        "each motor feels all seven links; it carries its own and those beyond it only",
+        {"felt": lambda F, i: F.sum(axis=0)},
+    ),
+    (
+        "moment-only",
+        "each motor feels the moments about the world's origin alone; where its axis "
+        "does not go through that point, the force counts, too: all six numbers of S",
+        {"felt": lambda F, i: F[i:].sum(axis=0) * [1, 1, 1, 0, 0, 0]},
+    ),
+    (
+        "own-link-left-out",
+        "each motor feels the links beyond its own, but not its own",
+        {"felt": lambda F, i: F[i + 1 :].sum(axis=0)},
+    ),
+    (
+        "velocities-not-added",
+        "the velocity of a link is that of its own joint alone; the joints before move "
+        "it, too",
+        {"V_before": 0.0},
+    ),
+    (
+        "accelerations-not-added",
+        "the acceleration of a link is that of its own joint alone; the joints before "
+        "move it, too",
+        {"A_before": 0.0},
+    ),
+    (
+        "nothing-added-outwards",
+        "V and A start anew at every link; along the arm they add up",
+        {"V_before": 0.0, "A_before": 0.0},
+    ),
+):
+
+    @wrong(slug, says)
+    def _(J, G, qd, qdd, g, other=other):
+        return passes(J, G, qd, qdd, lift(g), **other)
+
+
+@wrong(
+    "gravity-as-omega",
+    "the base's acceleration stands in the angular half; a twist is (omega; v)",
+)
+def _(J, G, qd, qdd, g):
+    return passes(J, G, qd, qdd, np.append(-g, np.zeros(3)))
+
+
+@wrong(
+    "gravity-at-every-link",
+    "gravity is added again at every link; the sum carries it from the base to all",
+)
+def _(J, G, qd, qdd, g):
+    up = lift(g)
+    return passes(J, G, qd, qdd, 0 * up, turned=lambda X, S, speed: X @ S * speed + up)
+
+
+@wrong(
+    "gravity-at-every-link",
+    "gravity is added at the base and again at every link; the sum carries it from "
+    "the base to all",
+)
+def _(J, G, qd, qdd, g):
+    up = lift(g)
+    return passes(J, G, qd, qdd, up, turned=lambda X, S, speed: X @ S * speed + up)
+
+
+@wrong(
+    "gravity-twice",
+    "gravity counts twice: it is in A from the base on, so the wrench needs no weight",
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, 2 * g)
+
+
+@wrong(
+    "speed-sign-lost",
+    "the speeds qd are taken without their signs: which way a joint turns counts "
+    "when another one turns as well",
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, abs(qd), qdd, g)
+
+
+@wrong(
+    "accelerations-not-added",
+    "A is set anew at every link, so what the joints before gave, and gravity, are "
+    "lost; it adds up, as V does",
+)
+def _(J, G, qd, qdd, g):
+    return passes(J, G, qd, qdd, 0.0, A_before=0.0)
+
+
+@wrong("negative", "the sign is wrong: this is what the arm does to the motors")
+def _(J, G, qd, qdd, g):
+    return -inverse_dynamics(J, G, qd, qdd, g)
+
+
+# In ad an identity cancels: what it adds to G A, it takes from the velocity product.
+row.reached_by("ad", "in ad, ", but=["identity-added"])
+row.of_argument("g", *other_gravity("the torque with that gravity"))
+
+
+@wrong("speed-and-acceleration-swapped", "qd and qdd have changed places")
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qdd, qd, g)
+
+
+@wrong("acceleration-ignored", "qdd is not used: this is the bias alone")
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, 0 * qdd, g)
+
+
+@wrong("speed-ignored", "qd is not used: Coriolis and centrifugal forces are missing")
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, 0 * qd, qdd, g)
+
+
+@wrong(
+    "gravity-only", "neither qd nor qdd is used: this is the torque that holds the arm"
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, 0 * qd, 0 * qdd, g)
+
+
+@wrong(
+    "armature-added",
+    "the armature's 0.1 qdd is in it; the task is about the links alone",
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd
+
+
+@wrong(
+    "damping-added", "the damping's 1.0 qd is in it; the task is about the links alone"
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, g) + qd
+
+
+@wrong(
+    "armature-and-damping-added",
+    "armature and damping are in it, 0.1 qdd and 1.0 qd; the task is about the links "
+    "alone",
+)
+def _(J, G, qd, qdd, g):
+    return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd + qd
+
+
+@row.right  # Each link's force is the rate of G V; its weight acts on top.
+def _(J, G, qd, qdd, g):
+    V, A, F = np.zeros(6), np.zeros(6), []
+    for i in range(7):
+        V = V + J[:, i] * qd[i]
+        X = ad(V)
+        A = A + J[:, i] * qdd[i] + X @ J[:, i] * qd[i]
+        G_rate = -X.T @ G[i] - G[i] @ X
+        F.append(G[i] @ A + G_rate @ V + G[i] @ lift(g))
+    return np.array([J[:, i] @ sum(F[i:]) for i in range(7)])
+
+
+@row.close("rounded")  # Printed and typed in again: six decimals.
+def _(J, G, qd, qdd, g):
+    return np.round(inverse_dynamics(J, G, qd, qdd, g), 6)
