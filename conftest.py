@@ -214,7 +214,7 @@ def student(tmp_path):
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from labkit.judge.exchange import Exchange, Question, replies
+    from labkit.base.exchange import Exchange, Question, replies
     from labkit.sandbox.sandbox import Sandbox
 
     def run(code, *questions, library=None, needs=None):

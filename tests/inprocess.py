@@ -11,8 +11,8 @@ from pathlib import Path as File
 
 import numpy as np
 
+from labkit.base.exchange import LoadError, Path, Reply
 from labkit.judge import Robot
-from labkit.judge.exchange import LoadError, Path, Reply
 
 
 class InProcess:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from labkit.base.exchange import Reply
 from labkit.judge.ask import held_out_answers, make_round, parts, right_answers
-from labkit.judge.exchange import Reply
 from labkit.judge.judge import judge
 
 FRESH_SEED = 4711

@@ -11,7 +11,7 @@ import time
 
 import pytest
 
-from labkit.judge.exchange import Question
+from labkit.base.exchange import Question
 from labkit.lesson.day import all_days, find_day
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.library import library_of

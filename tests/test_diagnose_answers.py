@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from judged import answered, judged, judged_replies, replies_of, right, round_of
 
+from labkit.base.exchange import Reply
 from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
 from labkit.judge.ask import number
-from labkit.judge.exchange import Reply
 from labkit.judge.judge import judge
 from labkit.lesson import folder
 from labkit.lesson.day import find_day

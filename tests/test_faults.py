@@ -17,13 +17,13 @@ from test_walls import is_there, standing
 
 from conftest import ROOT, need
 from labkit.base import git, processes
+from labkit.base.exchange import Question
 from labkit.grade import child, classroom, engine
 from labkit.grade.grader import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import check_deliverables, handin
-from labkit.judge.exchange import Question
 from labkit.sandbox import process, sandbox, wall
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox

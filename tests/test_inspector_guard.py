@@ -285,8 +285,8 @@ def compose_fk(model, q, path=None):
 
 
 def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_path):
+    from labkit.base.exchange import Question
     from labkit.inspector import checker_calls
-    from labkit.judge.exchange import Question
     from labkit.lesson.day import find_day
     from labkit.sandbox.sandbox import Sandbox
     from labkit.sandbox.wall import wall

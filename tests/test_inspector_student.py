@@ -5,10 +5,10 @@ import threading
 import numpy as np
 import pytest
 
+from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector import checker_calls
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.student import Source, Student
-from labkit.judge.exchange import LoadError, Question, Reply
 from labkit.lesson.day import find_day
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda

@@ -5,8 +5,8 @@ import copy
 import numpy as np
 import pytest
 
+from labkit.base.exchange import Question
 from labkit.judge import Robot
-from labkit.judge.exchange import Question
 from labkit.sandbox.inside import fake_model, wire
 from labkit.sandbox.messages import copy_model
 from robo47 import panda

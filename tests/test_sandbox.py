@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from labkit.base.exchange import LoadError, Path, Question
 from labkit.judge import Robot
-from labkit.judge.exchange import LoadError, Path, Question
 from labkit.lesson.day import find_day
 from labkit.sandbox import messages, process, sandbox
 from robo47.paths import ROOT

@@ -13,7 +13,7 @@ import pytest
 
 from conftest import need
 from labkit.base import processes
-from labkit.judge.exchange import Exchange, Question
+from labkit.base.exchange import Exchange, Question
 from labkit.sandbox import wall
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error

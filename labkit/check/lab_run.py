@@ -16,8 +16,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.judge.exchange import Path as Chain
-from labkit.judge.exchange import Question
+from labkit.base.exchange import Path as Chain
+from labkit.base.exchange import Question
 from labkit.judge.problems import stops_with
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from labkit.base.exchange import Path as Chain
+from labkit.base.exchange import Question
 from labkit.judge.ask import Ask, Asked, Robot
-from labkit.judge.exchange import Path as Chain
-from labkit.judge.exchange import Question
 from labkit.judge.mistake import InTurn
 from labkit.judge.right_when import conclude, experiments
 from labkit.lesson.day import Day, Task

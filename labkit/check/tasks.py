@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from labkit.base.exchange import Exchange, LoadError, Reply, replies
 from labkit.check.source_hints import arguments, unfinished
 from labkit.judge.ask import Ask, Asked, make_round
-from labkit.judge.exchange import Exchange, LoadError, Reply, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.lesson.day import Day, find_day, find_task, started_day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.process import Process
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
 
@@ -50,13 +50,15 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if not script.is_file():
         remedy = "" if options.file else f"; first: make start DAY={day.number}"
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
-    # The sandbox warms up while MuJoCo is imported.
-    with cli.busy("checking"), Sandbox() as sandbox:
+    with cli.busy("checking"):
+        warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import journal, report, states
         from labkit.check.tasks import check_tasks
+        from labkit.sandbox.sandbox import Sandbox
 
-        key = states.key_of(day)
-        results = check_tasks(day, script, sandbox, options.task)
+        with Sandbox(warm) as sandbox:
+            key = states.key_of(day)
+            results = check_tasks(day, script, sandbox, options.task)
     if script == day.work:
         journal.note(results)
         states.remember(key, results)

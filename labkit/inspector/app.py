@@ -14,6 +14,7 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
+from labkit.base.exchange import Question, Reply
 from labkit.inspector import address, panel
 from labkit.inspector.arm import END, Arm
 from labkit.inspector.chain import Chain
@@ -30,7 +31,6 @@ from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Opened
 from labkit.inspector.tasks import Tasks
-from labkit.judge.exchange import Question, Reply
 from robo47.checks import Array, array
 
 T = TypeVar("T")

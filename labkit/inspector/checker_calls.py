@@ -6,10 +6,10 @@ from pathlib import Path
 
 import mujoco
 
+from labkit.base.exchange import Reply
 from labkit.check.tasks import check_tasks
 from labkit.inspector.checks import TaskState
 from labkit.inspector.student import Asker, Source
-from labkit.judge.exchange import Reply
 from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.library import library_of

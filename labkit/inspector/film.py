@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
+from labkit.base.exchange import LoadError
 from labkit.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
 from labkit.inspector import checker_calls
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Difference, Ghost, Seen, compare
 from labkit.inspector.student import poses_of
 from labkit.inspector.tab import day_tabs
-from labkit.judge.exchange import LoadError
 from labkit.lesson.day import Day
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda

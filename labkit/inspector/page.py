@@ -6,10 +6,10 @@ from typing import Any
 import mujoco
 from numpy.typing import ArrayLike
 
+from labkit.base.exchange import Question, Reply
 from labkit.inspector.animate import Animation, Step
 from labkit.inspector.draw import Sketch
 from labkit.inspector.widgets import Host, Widgets
-from labkit.judge.exchange import Question, Reply
 from robo47.checks import Array
 
 

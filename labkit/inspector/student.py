@@ -16,8 +16,8 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
-from labkit.judge.exchange import LoadError, Question, Reply
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 

@@ -7,12 +7,12 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
+from labkit.base.exchange import Question, Reply
 from labkit.inspector import controls, words
 from labkit.inspector.arm import Arm
 from labkit.inspector.checks import Standing
 from labkit.inspector.controls import Controls
 from labkit.inspector.instruments import Bars, Plot
-from labkit.judge.exchange import Question, Reply
 from robo47.checks import Array
 
 

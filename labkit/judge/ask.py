@@ -13,7 +13,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.judge.exchange import Exchange, Path, Question
+from labkit.base.exchange import Exchange, Path, Question
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from labkit.base.exchange import Exchange, Question, replies
 from labkit.judge import near_miss, problems
 from labkit.judge.ask import (
     Ask,
@@ -19,7 +20,6 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.compare import difference, matches
-from labkit.judge.exchange import Exchange, Question, replies
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from labkit.base.exchange import Reply
 from labkit.judge.ask import Ask
-from labkit.judge.exchange import Reply
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from robo47.checks import Array

@@ -9,9 +9,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
-from labkit.judge.exchange import MOST, Path, Question, Reply
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda

@@ -13,10 +13,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from labkit.base import processes
-from labkit.judge import exchange
-from labkit.judge.exchange import LoadError
-from labkit.sandbox import messages
+from labkit.base import exchange, processes
+from labkit.base.exchange import LoadError
 from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
 
@@ -94,6 +92,8 @@ class Process:
         try:
             message = self._message(LOAD_SECONDS)
             if message.get("loaded") is not True:
+                from labkit.sandbox import messages  # NumPy, after the start
+
                 reply, *_ = messages.read([message]) or [exchange.stopped(CHANNEL)]
                 raise LoadError(reply)
         except EndedError as error:

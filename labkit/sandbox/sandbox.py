@@ -19,7 +19,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from labkit.judge.exchange import Exchange, LoadError, Question, Reply, stopped, twice
+from labkit.base.exchange import Exchange, LoadError, Question, Reply, stopped, twice
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
 from labkit.sandbox.process import CHANNEL, EndedError, Process
@@ -34,9 +34,9 @@ CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
 class Sandbox:
     """Processes for one student's file after the other; the first is warm."""
 
-    def __init__(self) -> None:
-        """Start the first process, so that it loads while the caller prepares."""
-        self._warm: Process | None = Process()
+    def __init__(self, warm: Process | None = None) -> None:
+        """Take the first process, or start it: it loads while the caller prepares."""
+        self._warm: Process | None = warm or Process()
         self._sessions: list[Session] = []
 
     def __enter__(self) -> "Sandbox":

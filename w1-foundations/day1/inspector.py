@@ -3,11 +3,11 @@
 import mujoco
 import numpy as np
 
+from labkit.base.exchange import Path
 from labkit.inspector.arm import END
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from labkit.judge.exchange import Path
 from robo47 import se3
 from robo47.checks import Array
 

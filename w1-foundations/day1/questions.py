@@ -5,6 +5,7 @@ The truth comes from MuJoCo and `robo47.se3`, never from the lab script.
 
 import numpy as np
 
+from labkit.base.exchange import Path
 from labkit.judge import (
     Ask,
     Case,
@@ -19,7 +20,6 @@ from labkit.judge import (
     draw,
 )
 from labkit.judge.compare import difference
-from labkit.judge.exchange import Path
 from labkit.judge.matrices import pose
 from robo47 import se3, verify
 from robo47.checks import Array

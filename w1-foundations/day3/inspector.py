@@ -8,11 +8,11 @@ while the hand stands still.
 
 import numpy as np
 
+from labkit.base.exchange import Reply
 from labkit.inspector import words
 from labkit.inspector.arm import END
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from labkit.judge.exchange import Reply
 from robo47 import jacobian, panda, screws, verify
 from robo47.checks import Array
 

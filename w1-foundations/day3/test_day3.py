@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script, need
-from labkit.judge.exchange import Reply
+from labkit.base.exchange import Reply
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
