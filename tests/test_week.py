@@ -330,7 +330,7 @@ def test_what_changed_since_the_check_is_not_counted_and_not_run(
         text = page.read_text("utf-8")
         assert ("make check DAY=1" in text) is not known
         assert ("8 of 8" in text) is known
-        says = b"Not counted, for `make check` is yet to see it: day 1."
+        says = b"Not counted, since `make check` has not seen it as it is: day 1."
         assert (says in diary.read_bytes()) is not known
 
 

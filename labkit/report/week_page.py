@@ -150,10 +150,8 @@ def _mistakes(facts: Sequence[DayFacts]) -> str:
 
 def _counts(one: DayFacts) -> str:
     if not one.checked:
-        command = f"make check DAY={one.day.number}"
-        return (
-            f"<td colspan=2>changed since it was checked: <code>{command}</code></td>"
-        )
+        command = f"<code>make check DAY={one.day.number}</code>"
+        return f"<td colspan=2>not checked as it is now: run {command}</td>"
     bar = _bar(one.passed, one.tasks)
     return f"<td>{bar}</td><td>{one.own} of {one.functions}</td>"
 

@@ -68,7 +68,8 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
 
 def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
     days = ", ".join(str(one.day.number) for one in facts if not one.checked)
-    return [f"Not counted, for `make check` is yet to see it: day {days}."] * bool(days)
+    says = f"Not counted, since `make check` has not seen it as it is: day {days}."
+    return [says] if days else []
 
 
 def no_numbers(text: str) -> bool:
