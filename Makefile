@@ -16,7 +16,7 @@ NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
 VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint run doctor bench test-matrix setup robot view grade
+.PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
 .PHONY: capstone fresh help test soak report lint docs oracle figures notebook
 
 help: ## this list
@@ -51,6 +51,9 @@ check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone; ARGS=--w
 
 hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
+
+borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
+	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ARGS)
 
 run: .venv/.ready-core $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)

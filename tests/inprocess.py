@@ -21,9 +21,11 @@ class InProcess:
     def __init__(self, instead=None):
         """Take functions that stand in the file in place of its own, by name."""
         self.instead = instead or {}
+        self.added = ""
 
-    def run(self, script, exchanges, library, needs=None):
+    def run(self, script, exchanges, library, needs=None, added=""):
         """Ask every question, load the file anew, and ask again from the end."""
+        self.added = added
         first = self._load(script)
         kept = []
         for exchange in exchanges:
@@ -33,19 +35,33 @@ class InProcess:
             again = self._ask(second, exchange.question, [])
             exchange.reply = _with(exchange.reply, again)
 
+    def session(self, script, robots, library, added=""):
+        """Return something to ask, as `Sandbox.session` does."""
+        self.added = added
+        self.module = self._load(script)
+        return self
+
+    def ask(self, questions):
+        """Ask each question once."""
+        return [self._ask(self.module, question, []) for question in questions]
+
+    def close(self):
+        """End it."""
+
     def _load(self, script):
         module = types.ModuleType(script.stem)
         module.__file__ = str(script)
         sys.modules[script.stem] = module
         try:
-            source = script.read_text("utf-8").replace("\nimport kit ", "\n# ")
+            source = script.read_bytes().replace(b"\nimport kit ", b"\n# ")
             code = compile(source, str(script), "exec")
             with contextlib.redirect_stdout(io.StringIO()):
                 exec(code, vars(module))
+                vars(module).update(self.instead)
+                exec(self.added, vars(module))
         except BaseException as error:
             raise LoadError(_describe(error, script)) from None
         self.script = script
-        vars(module).update(self.instead)
         return module
 
     def _ask(self, module, question, kept):

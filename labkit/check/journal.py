@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 NAME = "journal.jsonl"
 
 # Verdicts that say that nothing was judged, not that a mistake was made.
-_NO_MISTAKE = {"", "unwritten", "waits", "does-not-load", "missing", "raise-left-in"}
+_NO_MISTAKE = {"", "unwritten", "waits", "inherited", "borrowed", "does-not-load"}
+_NO_MISTAKE |= {"missing", "raise-left-in"}
 
 
 class Entry(NamedTuple):

@@ -18,6 +18,7 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
+from labkit.handin.item import Item
 from labkit.judge.problems import stops_with
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric
@@ -27,15 +28,16 @@ from labkit.sandbox.messages import PANDA
 from labkit.sandbox.sandbox import Sandbox, Session
 
 TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
-SECONDS = 20.0  # for the whole lab; a slow function is no wrong one
+CALLS = 8_000  # of the student's functions, a second or two; simulations ask more
+SECONDS = 60.0  # for all of them; a slow function is no wrong one
 
 
 class FirstFailure(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
     """A check of the lab failed, or a function stopped; the text says which."""
 
 
-class OutOfTime(Exception):  # noqa: N818
-    """The functions are too slow to say anything about the lab."""
+class EnoughAsked(Exception):  # noqa: N818
+    """As many calls or seconds went by as a check may take."""
 
 
 class Rehearsal(Lab):
@@ -55,10 +57,22 @@ class Rehearsal(Lab):
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):
-            where = f'at "{self.title}": ' if self.title else ""
+            where = f'at "{self.title}": ' if self.title else ": "
             raise FirstFailure(
                 f"{where}{name} is {number_of(value)}; it must be {wanted.limit}"
             )
+
+
+def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
+    """Return what a check says of the lab: nothing where no step of it fails.
+
+    Args:
+        day, script, sandbox: as those of `failing_step`.
+    """
+    if not (failed := failing_step(day, script, sandbox)):
+        return []
+    says = f"All tasks pass, but the lab fails with your functions, {failed}."
+    return [Item("lab", "wrong", f"{says}\nSee it: make run DAY={day.number}")]
 
 
 def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
@@ -73,10 +87,10 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
         return ""
     lab = folder.load_lab(day.source)
     session = sandbox.session(script, [PANDA], library_of(day))
-    deadline = time.monotonic() + SECONDS
+    budget = _Budget()
     for task in day.tasks:
         for name in task.functions:
-            own = _asked(session, task.id, getattr(lab, name), deadline)
+            own = _asked(session, task.id, getattr(lab, name), budget)
             setattr(lab, name, own)
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
@@ -90,30 +104,47 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
             lab.main()
     except FirstFailure as failure:
         return str(failure)
-    except OutOfTime:
+    except EnoughAsked:
         return ""
     except Exception as error:  # what a wrong number leads to, in the kit's own code
-        return f"it stops with {type(error).__name__}: {error}"
+        return f"which stops with {type(error).__name__}: {error}"
     finally:
         session.close()
     return ""
 
 
+class _Budget:
+    """Calls and seconds that are left."""
+
+    def __init__(self) -> None:
+        self.calls, self.deadline = CALLS, time.monotonic() + SECONDS
+
+    def spend(self) -> None:
+        """Take one call.
+
+        Raises:
+            EnoughAsked: none is left.
+        """
+        self.calls -= 1
+        if self.calls < 0 or time.monotonic() > self.deadline:
+            raise EnoughAsked
+
+
 def _asked(
-    session: Session, task: str, right: Callable[..., Any], deadline: float
+    session: Session, task: str, right: Callable[..., Any], budget: _Budget
 ) -> Callable[..., Any]:
     """Return a function of the lab whose answers come from the sandbox."""
     signature = inspect.signature(right)
 
     def ask(*args: Any, **named: Any) -> Any:
-        if time.monotonic() > deadline:
-            raise OutOfTime
+        budget.spend()
         bound = signature.bind(*args, **named)
         bound.apply_defaults()
         question = Question(task, right.__name__, tuple(map(_sent, bound.args)))
         (reply,) = session.ask([question])
         if reply.kind:
-            raise FirstFailure(f"{right.__name__}: {stops_with(reply)}")
+            says = stops_with(reply).rstrip(".")
+            raise FirstFailure(f"in {right.__name__}: {says}")
         value = reply.value
         plain = isinstance(value, np.ndarray) and value.ndim == 0
         return value[()] if plain else value

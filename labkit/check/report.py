@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
+from labkit.judge.mistake import Verdict
 from labkit.lesson.day import Day, Task
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ _LABEL = {
     "wrong": "WRONG",
     "close": "CLOSE",
     "unjudged": "not judged",  # the file does not load
+    "inherited": "waits",
+    "borrowed": "borrowed",
 }
 _COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
 _INDENT = 7  # where a message starts
@@ -152,7 +155,7 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     for result in report.tasks:
         task, verdict = result.task, result.verdict
         name = ", ".join(task.functions) + (" (side quest)" if task.optional else "")
-        status = "unjudged" if report.problem else verdict.status
+        status = "unjudged" if report.problem else state_of(verdict)
         lines.append(_line(f"{task.id}  {name}", status, colour))
         if not report.problem and verdict.mistake != "unwritten":
             lines += _wrapped(_said(report, result, explain), _INDENT)
@@ -178,6 +181,8 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
     left = {other.task.id for other in report.left}
+    if verdict.mistake == "inherited":
+        return verdict.message
     if verdict.follows in left and not explain:
         word = "Follows from" if verdict.status == "close" else "Builds on"
         return f"{word} {verdict.follows}: first that one."
@@ -185,6 +190,11 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
         also = f"It builds on task {verdict.follows}, which is not right yet either."
         return f"{verdict.message} {also}"
     return verdict.message
+
+
+def state_of(verdict: Verdict) -> str:
+    """Return what a task's line says of it: its status, or why that is "todo"."""
+    return verdict.mistake if verdict.mistake in _LABEL else verdict.status
 
 
 def _line(name: str, status: str, colour: bool) -> str:

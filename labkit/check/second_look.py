@@ -1,6 +1,5 @@
 """Second looks at a wrong function: whose fault it is, and when it is right."""
 
-import ast
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -11,13 +10,14 @@ from labkit.base.exchange import Question
 from labkit.judge.ask import Ask, Asked, Robot
 from labkit.judge.mistake import InTurn
 from labkit.judge.right_when import conclude, experiments
+from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
-from labkit.lesson.starter import function_lines, read_script
+from labkit.lesson.starter import read_script
 from labkit.sandbox.sandbox import Session
 
 
 def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
-    """Return the kit's own functions of some tasks, to stand below a student's file.
+    """Return code that puts the kit's own functions of some tasks below a file.
 
     Args:
         day: whose complete lab has them; "" is returned where it is not there.
@@ -26,14 +26,10 @@ def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
     names = [name for task in tasks for name in task.functions]
     if not names or not day.source.is_file():
         return ""
-    text = read_script(day.source)
-    imports = [
-        ast.get_source_segment(text, node) or ""
-        for node in ast.parse(text).body
-        if isinstance(node, ast.Import | ast.ImportFrom)
-    ]
-    functions = ["\n".join(function_lines(text, name)[2]) for name in names]
-    return "\n\n" + "\n".join(imports) + "\n\n\n" + "\n\n\n".join(functions) + "\n"
+    text = folder.without_kit(read_script(day.source))
+    lines = [f"_kits = {{'__name__': 'kits_lab'}}; exec({text!r}, _kits)"]
+    lines += [f"{name} = _kits[{name!r}]" for name in names]
+    return "\n\n" + "\n".join(lines) + "\n"
 
 
 def right_when(

@@ -79,4 +79,6 @@ def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
 def _in_words(verdict: "Verdict") -> str:
     if verdict.mistake == "does-not-load":
         return "the file does not load"
+    if verdict.mistake in ("inherited", "borrowed"):
+        return "waits" if verdict.mistake == "inherited" else "borrowed"
     return "to do" if verdict.status == "todo" else verdict.status

@@ -1,5 +1,6 @@
 """From a student's file to one result per task."""
 
+import contextlib
 import secrets
 import tokenize
 from collections.abc import Sequence
@@ -7,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply, replies
+from labkit.check.second_look import kits_functions, right_when
 from labkit.check.source_hints import arguments, unfinished
 from labkit.judge.ask import Ask, Asked, make_round
 from labkit.judge.judge import judge
@@ -14,8 +16,10 @@ from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.row import row_of
 from labkit.lesson import folder
+from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
 from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import robots_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 
@@ -68,38 +72,127 @@ def check_tasks(
     wanted = [day.task(only)] if only else list(day.tasks)
     needed = {need for task in wanted for need in day.needs(task.id)}
     asked = [task for task in day.tasks if task in wanted or task.id in needed]
-    rounds = rounds_of(day, asked, secrets.randbits(32) if seed is None else seed)
     if why := _not_utf8(script) if script.is_file() else "":
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
+    seed = secrets.randbits(32) if seed is None else seed
+    check = _Check(day, script, sandbox, seed)
     try:
-        sandbox.run(
-            script,
-            [exchange for some in rounds.values() for exchange in _exchanges(some)],
-            library_of(day),
-            {task.id: set(day.needs(task.id)) for task in asked},
-        )
+        results = check.first_look(asked)
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
-    source = script.read_text("utf-8", errors="replace")
-    results: dict[str, TaskResult] = {}
-    for task in asked:
-        found = _result(task, rounds[task.id], source)
-        results[task.id] = _following(found, day, results)
+    for task in wanted:
+        results[task.id] = check.second_look(task, results)
     return [results[task.id] for task in wanted]
+
+
+class _Check:
+    """One check of a student's file."""
+
+    def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
+        """Take what `check_tasks` takes."""
+        self.day, self.script, self.sandbox, self.seed = day, script, sandbox, seed
+        self.source = self.added = ""
+
+    def first_look(self, tasks: Sequence[Task]) -> dict[str, TaskResult]:
+        """Return a result per task, by id.
+
+        Raises:
+            LoadError: the file does not load.
+        """
+        borrowed = borrowed_tasks(self.day, self._text())
+        self.added = kits_functions(self.day, borrowed)
+        rounds = self._ask(tasks, self.added)
+        self.source = self._text()
+        results: dict[str, TaskResult] = {}
+        for task in tasks:
+            if task in borrowed:
+                results[task.id] = TaskResult(task, _borrowed(task))
+                continue
+            found = self._result(task, rounds[task.id])
+            results[task.id] = _following(found, self.day, results)
+        return results
+
+    def second_look(self, task: Task, results: dict[str, TaskResult]) -> TaskResult:
+        """Return a task's result with what further questions say of a wrong one.
+
+        What builds on tasks that are not right is asked again with the kit's functions
+        in their place: its fault is inherited, or its own.
+        """
+        result, added = results[task.id], self.added
+        if result.verdict.follows:
+            needed = [self.day.task(id) for id in self.day.needs(task.id)]
+            broken = [one for one in needed if not results[one.id].passed]
+            if added := kits_functions(self.day, broken):
+                again = self._result(task, self._ask([task], added)[task.id])
+                if again.passed:
+                    roots = [
+                        one for one in broken if not results[one.id].verdict.follows
+                    ]
+                    return replace(result, verdict=_inherited(roots or broken))
+                result = again
+        if len(result.verdict.wrong_calls) < 3:
+            return result
+        return replace(result, verdict=self._with_experiments(task, result, added))
+
+    def _with_experiments(self, task: Task, result: TaskResult, added: str) -> Verdict:
+        """Return a verdict with the arguments that, neutral, make the answer right."""
+        verdict = result.verdict
+        (asked,) = [
+            one
+            for one in rounds_of(self.day, [task], self.seed)[task.id]
+            if one.function == verdict.function
+        ]
+        robots = robots_of([exchange.question for exchange in asked.main])
+        session = self.sandbox.session(self.script, robots, library_of(self.day), added)
+        with contextlib.closing(session):
+            names = arguments(self.source, asked.function)
+            says = right_when(asked, verdict.wrong_calls, names, session)
+        return replace(verdict, message=f"{verdict.message} {says}".strip())
+
+    def _text(self) -> str:
+        """Return the student's file as text; what is no file has none."""
+        if not self.script.is_file():
+            return ""
+        return self.script.read_text("utf-8", errors="replace")
+
+    def _ask(self, tasks: Sequence[Task], added: str = "") -> dict[str, list[Asked]]:
+        """Return the questions to some tasks' functions with their replies."""
+        rounds = rounds_of(self.day, tasks, self.seed)
+        self.sandbox.run(
+            self.script,
+            [exchange for some in rounds.values() for exchange in _exchanges(some)],
+            library_of(self.day),
+            {task.id: set(self.day.needs(task.id)) for task in tasks},
+            added,
+        )
+        return rounds
+
+    def _result(self, task: Task, asked: Sequence[Asked]) -> TaskResult:
+        """Return a task's verdict, what its functions printed and what was refused."""
+        came = replies(_exchanges(asked))
+        printed = next((reply.printed for reply in came if reply.printed), "")
+        refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
+        return TaskResult(task, _verdict_of(task, asked, self.source), printed, refused)
+
+
+def _inherited(broken: Sequence[Task]) -> Verdict:
+    """Return the verdict on a task that only lacks those that it builds on."""
+    *before, last = [task.id for task in broken]
+    ids = f"{', '.join(before)} and {last} are" if before else f"{last} is"
+    says = f"Right as soon as {ids}."
+    return Verdict("todo", "inherited", says, follows=broken[0].id)
+
+
+def _borrowed(task: Task) -> Verdict:
+    """Return the verdict on a task whose function is the kit's."""
+    says = "Borrowed from the kit; it counts when you write it yourself: "
+    return Verdict("todo", "borrowed", f"{says}make start RESET={task.id}")
 
 
 def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
     return [exchange for one in asked for exchange in one.exchanges]
-
-
-def _result(task: Task, asked: Sequence[Asked], source: str) -> TaskResult:
-    """Return a task's verdict, what its functions printed and what was refused."""
-    came = replies(_exchanges(asked))
-    printed = next((reply.printed for reply in came if reply.printed), "")
-    refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
-    return TaskResult(task, _verdict_of(task, asked, source), printed, refused)
 
 
 def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Asked]]:
@@ -138,7 +231,7 @@ def _verdict_of(task: Task, asked: Sequence[Asked], source: str) -> Verdict:
     """Return a task's verdict: of several functions that of the first wrong one."""
     verdict = Verdict("passed")
     for one in asked:
-        verdict = _of_function(task, one, source)
+        verdict = replace(_of_function(task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
             verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
         if verdict.status != "passed":

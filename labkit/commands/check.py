@@ -53,17 +53,20 @@ def check(day: Day, options: argparse.Namespace) -> int:
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import journal, report, states
+        from labkit.check.lab_run import check_lab
         from labkit.check.tasks import check_tasks
         from labkit.sandbox.sandbox import Sandbox
 
         with Sandbox(warm) as sandbox:
             key = states.key_of(day)
             results = check_tasks(day, script, sandbox, options.task)
+            done = all(result.passed for result in results)
+            lab = check_lab(day, script, sandbox) if done and not options.task else []
     if script == day.work:
         journal.note(results)
         states.remember(key, results)
-    done = all(result.passed for result in results)
-    found = report.Report(day, results, [] if options.task else handed_in(day, done))
+    items = [] if options.task else [*lab, *handed_in(day, done)]
+    found = report.Report(day, results, items)
     if options.json:
         print(json.dumps(report.as_json(found), indent=1))
     else:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from labkit.base.text import visible
 from labkit.check import report
+from labkit.check.lab_run import check_lab
 from labkit.check.tasks import TaskResult, check_tasks
 from labkit.grade.package import Package, unpack
 from labkit.grade.result import Mark, Result, counted, ungraded
@@ -74,14 +75,20 @@ def grade(package: Package, day: Day) -> Result:
     if package.problem:
         return ungraded(day, package.problem)
     with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
-        tasks, error = _tasks(package, day, Path(folder).resolve())
-    done = all(task.passed for task in tasks if task.task.id in counted(day))
-    items = check_files(day, package.handin, tasks_pass=done)
-    return _result(day, tasks, [*items, package.commit_item], error)
+        tasks, lab, error = _tasks(package, day, Path(folder).resolve())
+    items = check_files(day, package.handin, tasks_pass=_done(tasks, day))
+    return _result(day, tasks, [*lab, *items, package.commit_item], error)
 
 
-def _tasks(package: Package, day: Day, folder: Path) -> tuple[list[TaskResult], str]:
-    """Return the tasks' results, and why there is nothing to run or ""."""
+def _done(tasks: list[TaskResult], day: Day) -> bool:
+    """Return whether all tasks that count pass."""
+    return all(task.passed for task in tasks if task.task.id in counted(day))
+
+
+def _tasks(
+    package: Package, day: Day, folder: Path
+) -> tuple[list[TaskResult], list[Item], str]:
+    """Return the tasks' results, the lab's, and why there is nothing to run or ""."""
     name, handin = day.files["script"], package.handin
     if name not in handin.files:
         if name in handin.unread:
@@ -90,15 +97,17 @@ def _tasks(package: Package, day: Day, folder: Path) -> tuple[list[TaskResult], 
         else:
             start = f"{name} is not there. Begin with: make start DAY={day.number}"
             verdict = Verdict("todo", "not-started", start)
-        return [TaskResult(task, verdict) for task in day.tasks], verdict.message
+        return [TaskResult(task, verdict) for task in day.tasks], [], verdict.message
     # Nobody can know the hash of what they are writing, and it is the same tomorrow.
     own = b"\0".join(data for _, data in sorted(package.modules().items()))
     seed = int(hashlib.sha256(own).hexdigest()[:8], 16)
     unpack(package, folder)
     with Sandbox() as sandbox:
-        results = check_tasks(day, folder / day.script, sandbox, seed=seed)
+        script = folder / day.script
+        results = check_tasks(day, script, sandbox, seed=seed)
+        lab = check_lab(day, script, sandbox) if _done(results, day) else []
     loads = results[0].verdict.mistake != "does-not-load"
-    return results, "" if loads else results[0].verdict.message
+    return results, lab, "" if loads else results[0].verdict.message
 
 
 def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:

@@ -11,7 +11,7 @@ from labkit.lesson.day import Day
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
 STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
 # Names of what is only not there yet: nothing to explain again.
-NO_MISTAKES = ("", "unwritten", "waits", "not-started")
+NO_MISTAKES = ("", "unwritten", "waits", "inherited", "borrowed", "not-started")
 
 
 @dataclass(frozen=True)

@@ -83,9 +83,15 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
         if off_by(asked.ask, S, T) <= asked.ask.near:
             return found
         case = _case(rest, S, T, names)
-        other = diagnose(case, S, T) or what_is_wrong(case, S, T)
+        return _both(found, case, S, T)
+
+
+def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
+    """Return why some answers cannot be judged and what is wrong with the others."""
+    named = diagnose(case, S, T)
+    other = named or what_is_wrong(case, S, T)
     says = f"{found.message} The other answers are wrong, too. {other.message}"
-    return Finding(other.slug, says)
+    return Finding(named.slug if named else found.slug, says)
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
@@ -211,9 +217,7 @@ def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     given = [one for one, is_good in zip(case.given, good, strict=True) if is_good]
     plain = [some[0] if len(some) == 1 else some for some in (S, T)]
     rest = replace(case, arguments=arguments, S=plain[0], T=plain[1], given=given)
-    other = diagnose(rest, S, T) or what_is_wrong(rest, S, T)
-    says = f"{found.message} The other answers are wrong, too. {other.message}"
-    return Finding(other.slug, says)
+    return _both(found, rest, S, T)
 
 
 def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:

@@ -34,6 +34,7 @@ class Verdict:
         follows: the id of the task that has to be right first, "" where none.
         wrong_calls: places of the main questions with a wrong answer, where neither a
             named mistake nor anything else says more than by how much.
+        function: that was judged.
     """
 
     status: str
@@ -42,6 +43,7 @@ class Verdict:
     measured: tuple[str, ...] = ()
     follows: str = ""
     wrong_calls: tuple[int, ...] = ()
+    function: str = ""
 
 
 @dataclass(frozen=True)

@@ -57,6 +57,11 @@ def load_lab(script: Path) -> ModuleType:
     """
     module = ModuleType(script.stem)
     module.__file__ = str(script)
-    source = script.read_text("utf-8").replace("\nimport kit ", "\n# ")
+    source = without_kit(script.read_text("utf-8"))
     exec(compile(source, str(script), "exec"), vars(module))
     return module
+
+
+def without_kit(text: str) -> str:
+    """Return a lab's text without its first import, which leads to the kit's Python."""
+    return text.replace("\nimport kit ", "\n# ")

@@ -1,0 +1,47 @@
+"""Borrow the kit's function of a task you are stuck on, so that you can go on.
+
+    python3 scripts/borrow.py 3.3          (make borrow TASK=3.3)
+
+Your file then calls the kit's function there, and says so. The task counts as
+not passed until you write it yourself: make start RESET=3.3 puts its gap back.
+Your file as it was is kept beside it.
+"""
+
+from labkit.base import cli
+from labkit.commands.start import free_name
+from labkit.lesson.borrowed import with_borrowed
+from labkit.lesson.day import find_task
+from labkit.lesson.originals import require_kits
+from labkit.lesson.starter import function_lines, read_script
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+
+def borrow(task_id: str) -> int:
+    """Put the kit's function in the place of the student's."""
+    day, task = find_task(task_id)
+    require_kits(day)
+    text = read_script(day.work)
+    gone = [name for name in task.functions if function_lines(text, name)[0] < 0]
+    if gone:
+        raise Robo47Error(
+            f"{shown(day.work)} has no function {gone[0]}; put its gap back first: "
+            f"make start RESET={task_id}"
+        )
+    crlf = b"\r\n" in day.work.read_bytes()
+    kept = free_name(day.work, task_id)
+    kept.write_bytes(day.work.read_bytes())
+    text = with_borrowed(text, read_script(day.source), task.functions)
+    day.work.write_text(text, "utf-8", newline="\r\n" if crlf else "\n")
+    names = " and ".join(task.functions)
+    print(f"task {task_id} borrows {names} from the kit in {shown(day.work)}")
+    print(f"your file as it was: {shown(kept)}")
+    print(f"To give it back, write it yourself: make start RESET={task_id}")
+    return cli.EXIT_OK
+
+
+def main() -> int:
+    """Borrow one task's functions."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("task", help="such as 3.3")
+    return borrow(parser.parse_args().task)

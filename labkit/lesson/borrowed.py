@@ -1,0 +1,75 @@
+"""Borrowed functions: the kit's own in a student's file, so that they can go on.
+
+A borrowed task is marked in the file and counts as not passed; writing the function
+gives it back.
+"""
+
+import ast
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from labkit.lesson import folder
+from labkit.lesson.day import Day, Task
+from labkit.lesson.lab import day_of
+from labkit.lesson.starter import function_lines
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+MARK = "# borrowed from the kit"
+
+
+def kits(file: str, function: str) -> Callable[..., Any]:
+    """Return the kit's own function; a borrowed one in a student's file calls it.
+
+    Args:
+        file: the student's, `__file__`; its name says which day it is.
+        function: its name.
+
+    Raises:
+        Robo47Error: the kit's complete lab is not here.
+    """
+    day = day_of(Path(file))
+    if not day.source.is_file():
+        raise Robo47Error(
+            f"{shown(day.source)} is not here, so {function} cannot be borrowed from it"
+        )
+    found: Callable[..., Any] = getattr(folder.lab(day), function)
+    return found
+
+
+def borrowed_tasks(day: Day, text: str) -> list[Task]:
+    """Return the tasks of which a student's file borrows a function."""
+    return [
+        task
+        for task in day.tasks
+        if any(MARK in "\n".join(function_lines(text, f)[2]) for f in task.functions)
+    ]
+
+
+def with_borrowed(text: str, complete: str, functions: Iterable[str]) -> str:
+    """Return a script in which some functions call the kit's own.
+
+    Args:
+        text: the script.
+        complete: the complete lab, whose signatures and docstrings are kept.
+        functions: their names; one that is not there is left out.
+    """
+    tree = ast.parse(complete)
+    nodes = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+    for name in functions:
+        node = nodes[name]
+        head = complete.splitlines()[node.lineno - 1 : node.body[0].end_lineno]
+        given = ", ".join(arg.arg for arg in node.args.args)
+        body = [
+            f"    {MARK}; your own function gives it back",
+            "    from labkit.lesson.borrowed import kits",
+            "",
+            f'    return kits(__file__, "{name}")({given})',
+        ]
+        start, end, _ = function_lines(text, name)
+        if start >= 0:
+            lines = text.splitlines()
+            lines[start:end] = head + body
+            text = "\n".join(lines) + "\n"
+    return text
