@@ -244,15 +244,16 @@ class Row:
 
     def _calling(self, small: str, wrong: Code, given: Code) -> Code:
         """Return the lab's own function with a small one replaced."""
-        own = getattr(self.lab, self.function)  # it may be replaced itself when called
+        lab = self.lab
+        own = getattr(lab, self.function)  # it may be replaced itself when called
 
         def code(*args: Any) -> Any:
-            right = getattr(self.lab, small)
-            setattr(self.lab, small, wrong)
+            right = getattr(lab, small)
+            setattr(lab, small, wrong)
             try:
                 return own(*given(*args))
             finally:
-                setattr(self.lab, small, right)
+                setattr(lab, small, right)
 
         return code
 

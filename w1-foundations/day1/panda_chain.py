@@ -6,7 +6,7 @@ L_k is where link k sits on the one before it (L8: the flange's `attachment`), J
 joint k adds. link0 sits on the world's origin.
 """
 
-from functools import reduce
+from functools import cache, reduce
 
 import numpy as np
 
@@ -56,8 +56,9 @@ def by_mujoco(model, q, path=PATH) -> Array:
     return verify.mujoco_poses(model, q[None])[frame][0]
 
 
+@cache
 def link(model, name) -> Array:
-    """Return where a body sits on the one before it, (4, 4)."""
+    """Return where a body sits on the one before it, (4, 4); do not change it."""
     body = model.body(name)
     return pose(se3.quat_to_R(body.quat), body.pos)
 

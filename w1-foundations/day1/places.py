@@ -156,7 +156,7 @@ def _two_mistakes(case: Case) -> Finding | None:
     elsewhere = {*ends.SLUGS, "stops-early"}
     firsts = [m for m in case.ask.named if m.slug not in elsewhere]
     for first in firsts:
-        X = _left_over(first, case, slice(-3, None))
+        X = _left_over(first, case, slice(-2, None))
         if X is None or (X := _left_over(first, case, slice(None))) is None:
             continue
         for end in wrong_ends:
