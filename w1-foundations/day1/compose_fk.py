@@ -18,6 +18,7 @@ from robo47.panda import READY_Q
 
 from . import ends, places, products
 from .panda_chain import (
+    FLANGE_POS,
     FLANGE_QUAT,
     NEAR,
     PANDA,
@@ -281,15 +282,14 @@ def _(model, q, path=PATH):
 
 @row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.
 def _(model, q):
-    flange = pose(se3.Rz(0.75 * np.pi), np.array([0.0, 0.0, 0.107]))
+    flange = pose(se3.Rz(0.75 * np.pi), FLANGE_POS)
     return fk(model, q, PATH[:-1]) @ flange
 
 
 for formula in UNNORMALISED:  # Typed off the file: of length 1 to seven digits only.
     row.close("flange-not-normalised")(
         lambda model, q, formula=formula: (
-            fk(model, q, PATH[:-1])
-            @ pose(formula(FLANGE_QUAT), model.body("attachment").pos)
+            fk(model, q, PATH[:-1]) @ pose(formula(FLANGE_QUAT), FLANGE_POS)
         )
     )
 

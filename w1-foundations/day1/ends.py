@@ -6,11 +6,11 @@ inv(T_true) @ T_student is the same at every q, and that constant has a name.
 
 import numpy as np
 
-from labkit.judge.matrices import pose, rigid_inverse, split
+from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import se3
 from robo47.checks import Array
 
-from .panda_chain import PANDA, link
+from .panda_chain import FLANGE_POS, FLANGE_QUAT
 
 FINGER_Z, FINGERTIP_Z = 0.0584, 0.1034  # metres from `hand`, along its z
 
@@ -22,8 +22,8 @@ def ahead(z: float) -> Array:
 
 def frames() -> list[tuple[str, str, Array, str]]:
     """Return slug, words, T_end_student and what to call it, per frame."""
-    R, t = split(link(PANDA.model, "attachment"))
-    flange, nowhere = pose(R, t), np.zeros(3)
+    R, t, nowhere = se3.quat_to_R(FLANGE_QUAT), FLANGE_POS, np.zeros(3)
+    flange = pose(R, t)
     back = rigid_inverse(flange)
     to_hand, tip = pose(se3.Rz(np.pi), nowhere), ahead(FINGERTIP_Z)
     placed = "your pose is in the right place, but "

@@ -6,7 +6,7 @@ L_k is where link k sits on the one before it (L8: the flange's `attachment`), J
 joint k adds. link0 sits on the world's origin.
 """
 
-from functools import cache, reduce
+from functools import cache, lru_cache, reduce
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from robo47.checks import Array
 
 NEAR = 1e-4
 FLANGE_QUAT = np.array([0.3826834, 0.0, 0.0, 0.9238795])  # as the file rounds it
+FLANGE_POS = np.array([0.0, 0.0, 0.107])
 PATH = (
     ("link0", None),
     *((f"link{i}", f"joint{i}") for i in range(1, 8)),
@@ -53,7 +54,12 @@ def by_mujoco(model, q, path=PATH) -> Array:
     """Return the pose of a path's last body as MuJoCo computes it, (4, 4)."""
     body = path[-1][0]
     frame = "site:attachment_site" if body == "attachment" else f"body:{body}"
-    return verify.mujoco_poses(model, q[None])[frame][0]
+    return _poses(model, tuple(q))[frame][0]
+
+
+@lru_cache(64)  # mistakes made with a finished pose ask for the same ones
+def _poses(model, q):
+    return verify.mujoco_poses(model, np.array([q]))
 
 
 @cache

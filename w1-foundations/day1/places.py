@@ -1,12 +1,11 @@
 """Where in the arm: the one link or joint that is wrong, or from which one on."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from labkit.judge import Case, Finding, HeldOut, Mistake, Pose, Slip
-from labkit.judge.chain import Factor, first_wrong, one_place, steady
+from labkit.judge.chain import Factor, first_wrong, one_place
 from labkit.judge.compare import difference, matches, rigid
 from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import se3
@@ -152,44 +151,40 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
 def _two_mistakes(case: Case) -> Finding | None:
     """Return a mistake all along the arm and a wrong end, if together they fit."""
     model, q = case.arguments
-    wrong_ends = [m for m in case.ask.named if m.slug in ends.SLUGS]
-    elsewhere = {*ends.SLUGS, "stops-early"}
+    elsewhere, to_link7 = {*ends.SLUGS, "stops-early"}, PATH[:-1]
     firsts = [m for m in case.ask.named if m.slug not in elsewhere]
     for first in firsts:
-        X = _left_over(first, case, slice(-2, None))
-        if X is None or (X := _left_over(first, case, slice(None))) is None:
-            continue
-        for end in wrong_ends:
-            if matches(X, rigid_inverse(case.T) @ end.redo(model, q)):
-                return _both(first, end, case)
-    stops = next(m for m in wrong_ends if m.slug == "stops-at-link7")
-    for first in firsts:
-        if matches(case.S[-1:], first.redo(model, q[-1:], PATH[:-1])) and matches(
-            case.S, first.redo(model, q, PATH[:-1])
+        if _wrong_end(first, case, slice(-1, None)) and (
+            end := _wrong_end(first, case, slice(None))
         ):
-            return _both(_at_link7(first), stops, case)
+            return _both(Finding(first.slug, first.says), end, case)
+    stops = next(Finding(*end[:2]) for end in ends.FRAMES if end[0] == "stops-at-link7")
+    for first in firsts:
+        if matches(case.S[-1:], first.redo(model, q[-1:], to_link7)) and matches(
+            case.S, first.redo(model, q, to_link7)
+        ):
+            says = first.says.replace("the end effector", "link7")
+            says = says.replace("attachment", "link7")
+            return _both(Finding(first.slug, says), stops, case)
     return None
 
 
-def _left_over(first: Mistake, case: Case, some: slice) -> Array | None:
-    """Return what a mistake leaves to be explained, if it is the same at every q."""
+def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
+    """Return the wrong end that, after another mistake, gives some of the answers."""
     model, q = case.arguments
     again = first.redo(model, q[some])
     if not rigid(again):
         return None
     X = rigid_inverse(again) @ case.S[some]
-    return X if steady(X) else None
+    for slug, says, T_end, _ in ends.FRAMES:
+        if matches(X, np.broadcast_to(T_end, X.shape)):
+            return Finding(slug, says)
+    return None
 
 
-def _at_link7(mistake: Mistake) -> Mistake:
-    """Return a mistake of the whole arm in words for the arm up to link7."""
-    says = mistake.says.replace("the end effector", "link7")
-    return replace(mistake, says=says.replace("attachment", "link7"))
-
-
-def _both(first: Mistake, second: Mistake, case: Case) -> Finding:
+def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things: {first.says}; and {second.says}. (Off by up to "
+        f"Two things: {first.message}; and {second.message}. (Off by up to "
         f"{Pose().apart(case.S, case.T)}; with both put right, by 0.)",
     )
