@@ -176,10 +176,9 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
     if not rigid(again):
         return None
     X = rigid_inverse(again) @ case.S[some]
-    for slug, says, T_end, _ in ends.FRAMES:
-        if matches(X, np.broadcast_to(T_end, X.shape)):
-            return Finding(slug, says)
-    return None
+    off = [np.abs(X[-1] - T_end).max() for _, _, T_end, _ in ends.FRAMES]
+    slug, says, T_end, _ = ends.FRAMES[int(np.argmin(off))]
+    return Finding(slug, says) if matches(X, np.broadcast_to(T_end, X.shape)) else None
 
 
 def _both(first: Finding, second: Finding, case: Case) -> Finding:
