@@ -8,12 +8,11 @@ from labkit.base.exchange import Reply
 from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
 from labkit.judge.ask import number
 from labkit.judge.judge import judge
-from labkit.lesson import folder
+from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
 from labkit.sandbox.messages import robots_of
 
-DAY1 = folder.load(find_day(1), "questions").QUESTIONS
-MAKE_T = DAY1["make_T"]
+MAKE_T = row_of(find_day(1), "make_T").ask
 
 
 def told(ask, value):

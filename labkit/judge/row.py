@@ -18,10 +18,10 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,10 @@ from robo47.errors import Robo47Error
 
 Code = Callable[..., Any]
 REDONE = "the answer with this mistake"
+
+
+def _as_they_are(*args: Any) -> tuple[Any, ...]:
+    return args
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,10 @@ class Row:
         """Take a mistake; the arguments are those of a `Way`."""
         return lambda code: self._keep(Way("wrong", slug, says, code, redone, hidden))
 
+    def told(self, slug: str, hidden: str = "") -> Any:
+        """Take a wrong way that no redo names: a hook or a further question does."""
+        return lambda code: self._keep(Way("wrong", slug, "", code, hidden=hidden))
+
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""
         return lambda code: self._keep(Way("close", slug, "", code))
@@ -147,7 +155,15 @@ class Row:
 
         self._entries.append(ways)
 
-    def reached_by(self, small: str, where: str = "", but: Iterable[str] = ()) -> None:
+    def reached_by(
+        self,
+        small: str,
+        where: str = "",
+        but: Iterable[str] = (),
+        called: Mapping[str, str] = MappingProxyType({}),
+        hidden: Mapping[str, str] = MappingProxyType({}),
+        given: Callable[..., tuple[Any, ...]] = _as_they_are,
+    ) -> None:
         """Take the mistakes of a small function that the lab's own one calls.
 
         They are made by the lab's function with the small one replaced.
@@ -156,13 +172,20 @@ class Row:
             small: its name; it has a file of its own.
             where: what to say first, such as "in the links' factors, ".
             but: slugs that make no difference here.
+            called: words that are others here, such as {"the end effector": "link4"}.
+            hidden: per slug why the lab cannot show it here, as in a `Way`.
+            given: from the arguments to those that the lab's function is called with.
         """
 
         def ways() -> Iterator[Way]:
-            for way in row_of(self._day, small).ways:
-                if way.status == "wrong" and way.slug not in but:
-                    code = self._calling(small, way.code)
-                    yield replace(way, says=f"{where}{way.says}", code=code)
+            for way in row_of(self._day, small).named:
+                if way.slug not in but:
+                    code = self._calling(small, way.code, given)
+                    says = f"{where}{way.says}"
+                    for there, here in called.items():
+                        says = says.replace(there, here)
+                    why = hidden.get(way.slug, way.hidden)
+                    yield replace(way, says=says, code=code, hidden=why)
 
         self._entries.append(ways)
 
@@ -193,6 +216,11 @@ class Row:
         """All ways to write the function that the file holds."""
         return [way for entry in self._entries for way in entry()]
 
+    @property
+    def named(self) -> list[Way]:
+        """The ways that are mistakes with a name."""
+        return [way for way in self.ways if way.status == "wrong" and way.says]
+
     @cached_property
     def ask(self) -> Ask:
         """What the judge asks."""
@@ -204,8 +232,7 @@ class Row:
         truth = None if "accept" in more else InTurn(self.truth)
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
             Mistake(way.slug, way.says, InTurn(way.code), way.redone)
-            for way in self.ways
-            if way.status == "wrong"
+            for way in self.named
         ]
         return Ask(
             self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
@@ -215,17 +242,18 @@ class Row:
         self._entries.append(lambda: [way])
         return way.code
 
-    def _calling(self, small: str, wrong: Code) -> Code:
+    def _calling(self, small: str, wrong: Code, given: Code) -> Code:
         """Return the lab's own function with a small one replaced."""
-        own = getattr(self.lab, self.function)  # now: later it may be replaced itself
+        lab = self.lab
+        own = getattr(lab, self.function)  # it may be replaced itself when called
 
         def code(*args: Any) -> Any:
-            right = getattr(self.lab, small)
-            setattr(self.lab, small, wrong)
+            right = getattr(lab, small)
+            setattr(lab, small, wrong)
             try:
-                return own(*args)
+                return own(*given(*args))
             finally:
-                setattr(self.lab, small, right)
+                setattr(lab, small, right)
 
         return code
 

@@ -1,4 +1,4 @@
-"""Day 1's lab: the functions against oracles, the script as a person runs it."""
+"""Day 1's lab: its path and numbers, and the script as a person runs it."""
 
 import re
 import sys
@@ -7,13 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
-from hypothesis import given
-from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script
 from labkit.log import read_rows
-from robo47 import panda, se3, verify
+from robo47 import panda, se3
 
 SCRIPT = "w1-foundations/src/day1_transforms.py"
 
@@ -25,55 +22,12 @@ def load_lab():
 lab = load_lab()
 
 
-@given(st.integers(0, 2**32 - 1))
-def test_the_labs_functions_agree_with_the_library_and_scipy(seed):
-    rng = np.random.default_rng(seed)
-    quat, t, theta = rng.normal(size=4), rng.normal(size=3), rng.uniform(-7, 7)
-    R = Rotation.from_quat(quat, scalar_first=True).as_matrix()
-    T = se3.make_T(R, t)
-    assert_same(lab.make_T(R, t), T, 0.0)
-    assert_same(lab.Rz(theta), Rotation.from_euler("z", theta).as_matrix(), 1e-15)
-    assert_same(lab.inverse(T), se3.inverse(T), 1e-15)
-    assert_same(lab.quat_to_R(quat), R, 1e-14)
-    assert_same(lab.link_T(t, quat), T, 1e-14)
-    assert_same(lab.joint_T(theta), se3.make_T(se3.Rz(theta), np.zeros(3)), 1e-15)
-
-
-@given(st.integers(0, 2**32 - 1))
-def test_the_predicted_translations_are_those_of_the_two_products(seed):
-    rng = np.random.default_rng(seed)
-    A, B = (
-        se3.make_T(se3.quat_to_R(rng.normal(size=4)), rng.normal(size=3))
-        for _ in range(2)
-    )
-    predicted = lab.predict_order(A, B)
-    assert_same(predicted, [(A @ B)[:3, 3], (B @ A)[:3, 3]], 1e-14)
-
-
-def test_the_labs_chain_agrees_with_mujoco_at_random_configurations(either_panda):
-    q = verify.random_q(either_panda, 200, seed=47)
-    truth = verify.mujoco_poses(either_panda, q)
-    for i, row in enumerate(q):
-        T = truth["site:attachment_site"][i]
-        assert_same(lab.compose_fk(either_panda, row), T, 1e-14)
-        T = truth["body:link4"][i]
-        assert_same(lab.link4_to_world(either_panda, row), T, 1e-14)
-
-
-def test_the_worked_cases_in_the_docstrings_are_true(twin):
-    model = panda.load("panda_nohand")
-    assert_same(lab.make_T(np.eye(3), (1, 2, 3)) @ [0, 0, 0, 1], [1, 2, 3, 1], 0.0)
-    assert_same(lab.Rz(np.pi / 2) @ [1, 0, 0], [0, 1, 0], 1e-16)
-    assert_same(lab.inverse(lab.make_T(np.eye(3), (1, 0, 0)))[:3, 3], [-1, 0, 0], 0.0)
-    assert_same(lab.quat_to_R(np.array([1, 1, 0, 0])), se3.Rx(np.pi / 2), 1e-15)
+def test_the_numbers_in_the_docstrings_are_true(twin):
+    model, zero = panda.load("panda_nohand"), np.zeros(7)
     above = lab.link_T(np.array([0, 0, 0.333]), np.array([1, 0, 0, 0]))
     assert_same(above[:3, 3], [0, 0, 0.333], 0.0)
-    assert_same(lab.joint_T(0), np.eye(4), 0.0)
-    upright = lab.compose_fk(model, np.zeros(7))
-    assert_same(upright[:3, 3], [0.088, 0, 0.926], 1e-12)
-    assert_same(
-        lab.link4_to_world(model, np.zeros(7))[:3, 3], [0.0825, 0, 0.649], 1e-12
-    )
+    assert_same(lab.compose_fk(model, zero)[:3, 3], [0.088, 0, 0.926], 1e-12)
+    assert_same(lab.link4_to_world(model, zero)[:3, 3], [0.0825, 0, 0.649], 1e-12)
 
 
 def test_the_path_is_the_models_own(either_panda):

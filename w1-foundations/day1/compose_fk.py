@@ -1,0 +1,367 @@
+"""1.6 `compose_fk(model, q, path)`: its questions and its mistakes.
+
+A mistake in one link or one joint alone is not listed here: `places` finds which one.
+"""
+
+from itertools import combinations
+
+import mujoco
+import numpy as np
+
+from labkit.judge import HeldOut, Pose, Probe
+from labkit.base.exchange import Path
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose, rigid_inverse
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.panda import READY_Q
+
+from . import ends, places, products
+from .panda_chain import (
+    FLANGE_POS,
+    FLANGE_QUAT,
+    NEAR,
+    PANDA,
+    PATH,
+    as_written,
+    by_mujoco,
+    fk,
+    link,
+    on,
+    product,
+    steps,
+    turn,
+)
+from .quat_to_R import NOT_NORMALISED, UNNORMALISED, XYZW_AND_NOT_NORMALISED
+
+
+def _prefixes(rng):
+    _, q = on(PANDA, count=1)(rng)[-1]
+    return [(PANDA, q, Path(PATH[: k + 1])) for k in range(1, len(PATH))]
+
+
+row = Row(
+    Pose(wrong_way="maps the world to the end effector"),
+    truth=by_mujoco,
+    near=NEAR,
+    alike=[*places.ALIKE, {"stops-at-link7", "stops-early"}],
+    held_out=[
+        HeldOut(
+            "path-ignored",
+            "Right for the whole arm, but it does not look at path: asked for the path "
+            "to link4, it goes on to the end effector all the same.",
+            on(PANDA, PATH[:5], count=2),
+            mistaken=lambda model, q, path: by_mujoco(model, q),
+        ),
+        places.TYPED_IN,
+    ],
+    probe=Probe(_prefixes),
+    unnamed=places.along(PATH),
+    near_miss=places.flange,
+    measured=places.measured,
+    slips=[places.NO_INDEX],
+)
+row.inputs(on(PANDA))
+
+
+# The chain is right, but ends somewhere else.
+
+for slug, says, end, redone in ends.FRAMES:
+    row.wrong(slug, says, redone)(
+        lambda model, q, path=PATH, end=end: fk(model, q, path) @ end
+    )
+
+for k in range(1, 8):
+    row.wrong(
+        "stops-early",
+        f"your chain stops at link{k}; it should end at the end effector",
+        f"the pose of link{k}",
+    )(lambda model, q, path=PATH, k=k: fk(model, q, path[: k + 1]))
+    row.wrong(
+        "stops-early",
+        f"your chain stops at link{k}, before that one's joint turns it",
+        f"link{k}, unturned",
+    )(lambda model, q, path=PATH, k=k: fk(model, q, path[:k]) @ link(model, path[k][0]))
+
+
+# The joints' angles.
+
+
+@row.wrong(
+    "joints-left-out",
+    "the links are right, but no joint turns: whatever q is, your pose is the one at "
+    "q = 0",
+    "the pose at q = 0",
+)
+def _(model, q, path=PATH):
+    return fk(model, np.zeros(7), path)
+
+
+@row.wrong(
+    "home-whatever-q",
+    "whatever q is, your pose is the one at home",
+    "the pose at home",
+)
+def _(model, q, path=PATH):
+    return fk(model, READY_Q, path)
+
+
+SHIFTS = (
+    lambda q: np.roll(q, 1),
+    lambda q: np.append(0.0, q[:-1]),
+    lambda q: np.roll(q, -1),
+    lambda q: np.append(q[1:], 0.0),
+)
+for shifted in SHIFTS:
+    row.wrong(
+        "off-by-one-joint",
+        "each joint is given its neighbour's angle: q is indexed one off",
+        "the pose with q shifted by one",
+    )(lambda model, q, path=PATH, shifted=shifted: fk(model, shifted(q), path))
+
+
+@row.wrong(
+    "first-angle-for-all",
+    "every joint is given the first angle, q[0]: the index never moves on",
+    "the pose with q[0] everywhere",
+)
+def _(model, q, path=PATH):
+    return fk(model, np.full(7, q[0]), path)
+
+
+@row.wrong(
+    "ready-subtracted",
+    "the ready pose's angles are subtracted; each joint turns by q itself",
+    "the pose at q minus those angles",
+)
+def _(model, q, path=PATH):
+    return fk(model, q - READY_Q, path)
+
+
+def two_swapped(i, k):
+    """Return slug, words and what to call it, for two joints counted from 0."""
+    says = f"joint{i + 1} and joint{k + 1} are given each other's angle"
+    return "two-joints-swapped", says, "the pose with the two swapped"
+
+
+def swapped(q, i, k):
+    """Return q with two of its angles swapped."""
+    q = q.copy()
+    q[[i, k]] = q[[k, i]]
+    return q
+
+
+for i, k in combinations(range(7), 2):
+    row.wrong(*two_swapped(i, k))(
+        lambda model, q, path=PATH, i=i, k=k: fk(model, swapped(q, i, k), path)
+    )
+
+
+@row.wrong(
+    "joints-in-reverse",
+    "q is read backwards: joint1 gets the last angle",
+    "the pose with q backwards",
+)
+def _(model, q, path=PATH):
+    return fk(model, q[::-1], path)
+
+
+for said, code in products.WRONG:
+    row.wrong(*said)(code)
+
+# The factors themselves, and the finished pose.
+
+row.of_answer(of_a_pose("maps the world to the end effector"))
+IN_LINKS, IN_JOINTS = "in every link's factor, ", "in every joint's factor, "
+# The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
+# 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
+OF_THE_FILE = {
+    "not-normalised",
+    "xyzw-and-not-normalised",
+    "divided-by-length-squared",
+    "factor-two-missing",
+}
+# link0 sits on the world's origin: some leave it out, and these make no difference.
+NOT_AT_LINK0 = {
+    "pos-divided", "move-then-turn", "t-turned-back", "R-transposed", "z-before-x",
+    "inverse-returned", "T-transposed", "t-in-last-row", "t-lost", "R-lost",
+    "t-negated", "millimetres", "whole-numbers", "half-angle", "corner-zero",
+}  # fmt: skip
+row.reached_by("link_T", IN_LINKS, but=OF_THE_FILE)
+row.reached_by(
+    "link_T",
+    IN_LINKS,
+    but=OF_THE_FILE | NOT_AT_LINK0,
+    given=lambda model, q, path=PATH: (model, q, path[1:]),
+)
+
+
+def _typed(formula, first=0):
+    """Return compose_fk with the file's quaternions, and a formula for R."""
+
+    def compose_fk(model, q, path=PATH):
+        T = np.eye(4)
+        for name, joint in path[first:]:
+            body = model.body(name)
+            L = pose(formula(as_written(body.quat)), body.pos)
+            T = T @ L @ turn(model, q, joint)
+        return T
+
+    return compose_fk
+
+
+for formula in UNNORMALISED:
+    rolled = lambda quat, formula=formula: formula(np.roll(quat, 1))  # noqa: E731
+    says, redone = NOT_NORMALISED
+    row.wrong("not-normalised", IN_LINKS + says, redone)(_typed(formula))
+    says, redone = XYZW_AND_NOT_NORMALISED
+    row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled))
+    row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled, 1))
+
+row.reached_by("joint_T", IN_JOINTS, but=("angle-rounded",))
+for decimals in range(3):  # more make no difference: the angles asked have three
+    row.wrong(
+        "angle-rounded",
+        f"{IN_JOINTS}the angle is rounded to {decimals} decimals before it is used",
+        "the turn by the rounded angle",
+    )(
+        lambda model, q, path=PATH, decimals=decimals: fk(
+            model, np.array([round(float(x), decimals) for x in q]), path
+        )
+    )
+
+
+# Right, nearly right, and what the hooks and the further questions name.
+
+
+@row.right  # Asks each body for its parent until the world is reached; no path.
+def _(model, q):
+    def at(body):
+        if body == 0:
+            return np.eye(4)
+        T = at(model.body_parentid[body])
+        L = pose(se3.quat_to_R(model.body_quat[body]), model.body_pos[body])
+        joint = model.body_jntadr[body]
+        return T @ L @ (np.eye(4) if joint < 0 else turn(model, q, joint))
+
+    return at(model.site("attachment_site").bodyid[0])
+
+
+@row.right  # Every factor in one stroke, then one product.
+def _(model, q):
+    ids = [model.body(name).id for name, _ in PATH]
+    offsets = pose(se3.quat_to_R(model.body_quat[ids]), model.body_pos[ids])
+    turns = pose(se3.Rz([0.0, *q, 0.0]), np.zeros(3))
+    return np.linalg.multi_dot(list(offsets @ turns))
+
+
+@row.right  # Product of exponentials: each joint's axis in the world at zero.
+def _(model, q, path=PATH):
+    zero, moved = np.eye(4), np.eye(4)
+    for L, J in steps(model, q, path):
+        zero = zero @ L
+        moved = moved @ zero @ J @ np.linalg.inv(zero)
+    return moved @ zero
+
+
+@row.right  # In quaternions and vectors; a matrix only at the very end.
+def _(model, q, path=PATH):
+    def times(a, b):
+        w = a[0] * b[0] - a[1:] @ b[1:]
+        return np.array([w, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
+
+    quat, place = np.array([1.0, 0, 0, 0]), np.zeros(3)
+    for name, joint in path:
+        place = place + se3.quat_to_R(quat) @ model.body(name).pos
+        quat = times(quat, model.body(name).quat)
+        if joint:
+            half = q[model.joint(joint).qposadr[0]] / 2
+            quat = times(quat, np.array([np.cos(half), 0, 0, np.sin(half)]))
+    return pose(se3.quat_to_R(quat), place)
+
+
+@row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.
+def _(model, q):
+    flange = pose(se3.Rz(0.75 * np.pi), FLANGE_POS)
+    return fk(model, q, PATH[:-1]) @ flange
+
+
+for formula in UNNORMALISED:  # Typed off the file: of length 1 to seven digits only.
+    row.close("flange-not-normalised")(
+        lambda model, q, formula=formula: (
+            fk(model, q, PATH[:-1]) @ pose(formula(FLANGE_QUAT), FLANGE_POS)
+        )
+    )
+
+
+@row.close("float32")  # Right to seven digits, which is what it can hold.
+def _(model, q):
+    T = np.eye(4, dtype=np.float32)
+    for L, J in steps(model, q, PATH):
+        T = T @ L.astype(np.float32) @ J.astype(np.float32)
+    return T
+
+
+# What the hooks and the further questions name.
+
+
+@row.told("path-ignored")
+def _(model, q, path=PATH):
+    return fk(model, q)
+
+
+@row.told("typed-in", hidden="the lab has one Panda, and the numbers are its")
+def _(model, q, path=PATH):
+    return fk(PANDA.model, q, path)
+
+
+@row.told("typed-in", hidden="link0 of this Panda sits on the origin")
+def _(model, q, path=PATH):
+    return fk(model, q, path[1:])
+
+
+@row.told("all-zeros")  # Read from MuJoCo's data before anything was computed.
+def _(model, q, path=PATH):
+    site = mujoco.MjData(model).site("attachment_site")
+    T = np.zeros((4, 4))
+    T[:3, :3], T[:3, 3] = site.xmat.reshape(3, 3), site.xpos
+    return T
+
+
+ONE_JOINT = (
+    ("joint-skipped", lambda q: np.r_[q[:3], 0.0, q[4:]]),
+    ("joint-fed-another", lambda q: np.r_[q[:4], q[3], q[5:]]),
+    ("turns-backwards", lambda q: np.r_[q[:5], -q[5], q[6:]]),
+    ("joint-angle-off", lambda q: np.r_[q[:2], q[2] ** 2, q[3:]]),
+    ("pose-off", lambda q: np.r_[q[:2], q[2:] ** 2]),  # told by the probes: from link3
+)
+for slug, angles in ONE_JOINT:
+    row.told(slug)(
+        lambda model, q, path=PATH, angles=angles: fk(model, angles(q), path)
+    )
+
+
+def _links(**instead):
+    """Return compose_fk without a path, other factors for some links."""
+
+    def compose_fk(model, q):
+        return product(
+            instead.get(name, lambda L: L)(L) @ J
+            for (name, _), (L, J) in zip(PATH, steps(model, q, PATH), strict=True)
+        )
+
+    return compose_fk
+
+
+row.told("link-skipped")(_links(link5=lambda L: np.eye(4)))
+row.told("link-twice")(_links(link5=lambda L: L @ L))
+row.told("R-transposed")(_links(link3=lambda L: pose(L[:3, :3].T, L[:3, 3])))
+row.told("one-link-off")(_links(link5=lambda L: L + 0.01 * np.eye(4, k=3)))
+row.told("pose-off")(
+    _links(link3=lambda L: pose(L[:3, :3], -L[:3, 3]), link5=rigid_inverse)
+)
+
+
+@row.told("joint-before-link+stops-at-link7")
+def _(model, q):
+    return product(J @ L for L, J in steps(model, q, PATH[:-1]))

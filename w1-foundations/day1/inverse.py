@@ -1,0 +1,175 @@
+"""1.3 `inverse(T)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Pose, draw
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose, split
+from labkit.judge.row import Row
+
+from .panda_chain import NEAR
+
+
+def _scaled(rng):
+    """Return poses whose R is twice a rotation: R^T and an inverse then differ."""
+    T = draw.poses(rng, 2)
+    T[:, :3, :3] *= 2.0
+    return [(one,) for one in T]
+
+
+row = Row(
+    Pose(),
+    near=NEAR,
+    alike=[
+        {"R-kept", "R-transposed"},
+        {"unchanged", "inverse-returned"},
+        {"t-not-negated", "t-negated"},
+    ],
+    held_out=[
+        HeldOut(
+            "general-inverse",
+            "The numbers are right, by way of a matrix inverse. The task asks to "
+            "do without: what is special about the columns of R?",
+            _scaled,
+            mistaken=np.linalg.inv,
+            status="close",
+        )
+    ],
+)
+
+
+@row.inputs
+def _(rng):
+    move = np.eye(4)
+    move[0, 3] = 1.0
+    return [(move,), *((T,) for T in draw.poses(rng, 5))]
+
+
+@row.wrong("unchanged", "T comes back as it went in: nothing is undone")
+def _(T):
+    return T.copy()
+
+
+@row.wrong(
+    "T-transposed",
+    "the whole 4x4 is transposed. Only R is undone that way; the translation "
+    "is now in the bottom row",
+    "T transposed",
+)
+def _(T):
+    return T.T.copy()
+
+
+@row.wrong(
+    "t-only-negated",
+    "R is right, but t is only negated: the way back has to be told in the "
+    "turned frame's own axes",
+    "the right one with t only negated",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R.T, -t)
+
+
+@row.wrong(
+    "t-not-negated",
+    "R is right and t is in the right axes, but it points there, not back",
+    "the right one with t reversed",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R.T, R.T @ t)
+
+
+@row.wrong(
+    "t-kept", "R is right, but t is still the old one", "the right one with t kept"
+)
+def _(T):
+    R, t = split(T)
+    return pose(R.T, t)
+
+
+@row.wrong(
+    "t-turned-forwards",
+    "R is right, but t is turned by R itself, not by what undoes R",
+    "the right one with t turned by R",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R.T, -R @ t)
+
+
+@row.wrong(
+    "R-kept",
+    "the translation is right, but R is still the old one: the turn is not undone",
+    "the right one with R kept",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R, -R.T @ t)
+
+
+@row.wrong(
+    "R-kept-t-negated",
+    "only t is negated: that undoes a plain move, but here the turn stays",
+    "the right one with t only negated",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R, -t)
+
+
+@row.wrong(
+    "R-kept-t-turned-forwards",
+    "R is not undone, neither as the new rotation nor where it turns t",
+)
+def _(T):
+    R, t = split(T)
+    return pose(R, -R @ t)
+
+
+@row.wrong(
+    "all-signs",
+    "every entry is negated; that undoes an addition, not a transform",
+    "its negative",
+)
+def _(T):
+    return -T
+
+
+@row.wrong(
+    "minus-R",
+    "R and t are only negated: -R is a mirror image (det R = -1), and it undoes "
+    "nothing",
+    "the right one made of -R and -t",
+)
+def _(T):
+    R, t = split(T)
+    return pose(-R, -t)
+
+
+@row.wrong(
+    "one-over-each-entry",
+    "each entry is inverted on its own; a matrix is undone as a whole",
+    "1 over each entry",
+)
+def _(T):
+    with np.errstate(divide="ignore"):
+        return 1.0 / T
+
+
+row.of_answer(of_a_pose())
+
+
+@row.right  # Inside a copy, in place.
+def _(T):
+    T = T.copy()
+    T[:3, :3] = T[:3, :3].T.copy()
+    T[:3, 3] = T[:3, :3] @ T[:3, 3]
+    T[:3, 3] *= -1
+    return T
+
+
+@row.close("general-inverse")  # Solves T X = I.
+def _(T):
+    return np.linalg.solve(T, np.eye(4))

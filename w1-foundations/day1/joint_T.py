@@ -1,0 +1,42 @@
+"""1.5 `joint_T(q)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Pose
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose
+from labkit.judge.row import Row
+from robo47 import se3
+
+from .panda_chain import BACKWARDS, NEAR
+from .Rz import angles
+
+row = Row(
+    Pose(),
+    truth=lambda q: pose(se3.Rz(q), np.zeros(3)),
+    near=NEAR,
+    alike=[BACKWARDS],
+)
+row.inputs(angles)
+
+
+@row.wrong(
+    "slides-along-z",
+    "the joint moves along z by q metres; the Panda's joints turn about z",
+    "a slide by q",
+)
+def _(q):
+    return pose(np.eye(3), np.array([0.0, 0.0, q]))
+
+
+row.reached_by("Rz")
+# A joint does not move its body, so what is done to t changes nothing.
+row.of_answer(
+    of_a_pose("maps the parent to the body"),
+    but=("t-in-last-row", "t-lost", "t-negated", "millimetres"),
+)
+
+
+@row.told("shape")  # The turn alone is no factor of a product of poses.
+def _(q):
+    return se3.Rz(q)

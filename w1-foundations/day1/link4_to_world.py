@@ -1,0 +1,88 @@
+"""1.8 `link4_to_world(model, q)`: its questions and its mistakes."""
+
+from itertools import combinations
+
+import numpy as np
+
+from labkit.judge import Pose
+from labkit.judge.matrices import rigid_inverse
+from labkit.judge.row import Row
+from robo47.panda import READY_Q
+
+from . import ends, places
+from .compose_fk import swapped, two_swapped
+from .panda_chain import NEAR, PANDA, PATH, by_mujoco, fk, link, on, turn
+
+TO_LINK4 = PATH[:5]
+AT_READY = "the lab asks when ready alone"
+
+row = Row(
+    Pose(wrong_way="maps the world to link4"),
+    truth=lambda model, q: by_mujoco(model, q, TO_LINK4),
+    near=NEAR,
+    alike=[*places.ALIKE, {"whole-numbers", "t-lost"}],  # no step is of a metre
+    held_out=[places.TYPED_IN],
+    unnamed=places.along(TO_LINK4),
+    measured=places.measured,
+    slips=[places.NO_INDEX],
+)
+row.inputs(on(PANDA))
+
+for k in (1, 2, 3):
+    row.wrong(
+        "stops-early",
+        f"your chain stops at link{k}; it should end at link4",
+        f"the pose of link{k}",
+    )(lambda model, q, k=k: fk(model, q, PATH[: k + 1]))
+    row.wrong(
+        "stops-early",
+        f"your chain stops at link{k}, before that one's joint turns it",
+        f"link{k}, unturned",
+    )(lambda model, q, k=k: fk(model, q, PATH[:k]) @ link(model, f"link{k}"))
+
+for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5):
+    row.wrong(
+        "too-long",
+        f"your chain goes on to {end}; it should end at link4",
+        f"the pose of {end}",
+    )(lambda model, q, k=k: fk(model, q, PATH[: k + 1]))
+
+row.reached_by(
+    "compose_fk",
+    but={*ends.SLUGS, "stops-early", "two-joints-swapped"},
+    called={"the end effector": "link4", "attachment": "link4"},
+    hidden={"home-whatever-q": AT_READY},
+)
+for i, k in combinations(range(7), 2):
+    if i < 4:  # of the other joints link4 does not depend
+        same = AT_READY if READY_Q[i] == READY_Q[k] else ""
+        row.wrong(*two_swapped(i, k), same)(
+            lambda model, q, i=i, k=k: fk(model, swapped(q, i, k), TO_LINK4)
+        )
+
+
+@row.right  # Only the axes and the place on the way; the last row is added at the end.
+def _(model, q):
+    x, y, z = np.eye(3)
+    p = model.body("link0").pos
+    for i in range(1, 5):
+        body = model.body(f"link{i}")
+        p = p + np.column_stack([x, y, z]) @ body.pos
+        # The Panda's links are turned about x only, and its joints about z.
+        half = np.arctan2(body.quat[1], body.quat[0])
+        c, s = np.cos(2 * half), np.sin(2 * half)
+        y, z = c * y + s * z, c * z - s * y
+        c, s = np.cos(q[i - 1]), np.sin(q[i - 1])
+        x, y = c * x + s * y, c * y - s * x
+    return np.vstack([np.column_stack([x, y, z, p]), [0, 0, 0, 1]])
+
+
+@row.told("joint-skipped")  # joint4 turns link4 itself, so it belongs in.
+def _(model, q):
+    return fk(model, q, PATH[:4]) @ link(model, "link4")
+
+
+@row.told("pose-off")  # From link3's inverse: an idea without a name.
+def _(model, q):
+    step = link(model, "link4") @ turn(model, q, "joint4")
+    return rigid_inverse(fk(model, q, PATH[:4])) @ step

@@ -1,0 +1,46 @@
+"""1.1 `make_T(R, t)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Pose, draw
+from labkit.judge.finished import of_a_pose
+from labkit.judge.matrices import pose
+from labkit.judge.row import Row
+
+from .panda_chain import NEAR
+
+row = Row(Pose(), near=NEAR)
+
+
+@row.inputs
+def _(rng):
+    moves = draw.numbers(rng, -2, 2, 5, 3)
+    yield np.eye(3), np.array([1.0, 2.0, 3.0])
+    yield from zip(draw.rotations(rng, 5), moves, strict=True)
+
+
+@row.wrong(
+    "move-then-turn",
+    "the translation comes out turned by R: you move first and turn after, where a "
+    "pose turns first",
+)
+def _(R, t):
+    return pose(R, R @ t)
+
+
+@row.wrong(
+    "t-turned-back",
+    "the translation comes out turned by R backwards: t is already in the outer frame",
+)
+def _(R, t):
+    return pose(R, R.T @ t)
+
+
+row.of_answer(of_a_pose())
+
+
+@row.right  # In Fortran's order in memory, and through the transpose.
+def _(R, t):
+    T = np.zeros((4, 4), order="F")
+    T.T[:3, :3], T.T[3, :3], T.T[3, 3] = np.transpose(R), t, 1
+    return T

@@ -1,0 +1,189 @@
+"""Where in the arm: the one link or joint that is wrong, or from which one on."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from labkit.judge import Case, Finding, HeldOut, Mistake, Pose, Slip
+from labkit.judge.chain import Factor, first_wrong, one_place
+from labkit.judge.compare import difference, matches, rigid
+from labkit.judge.matrices import pose, rigid_inverse
+from robo47 import se3
+from robo47.checks import Array
+
+from . import ends, joint_T, link_T
+from .panda_chain import (
+    BACKWARDS,
+    FLANGE_QUAT,
+    OTHER,
+    PATH,
+    as_written,
+    fk,
+    link,
+    on,
+    turn,
+)
+from .quat_to_R import UNNORMALISED
+
+# One thing with two names: the numbers are the same, and what is said of either is true
+# of both.
+ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
+TYPED_IN = HeldOut(
+    "typed-in",
+    "Right for this Panda. On one whose links are longer and turned it would not be: "
+    "it does not take every pos and quat, link0's included, from the given model.",
+    on(OTHER, count=2),
+)
+NO_INDEX = Slip(
+    r"inhomogeneous|only (length-1|0-dimensional) arrays|sequence|ambiguous",
+    r"\.qposadr\b(?!\s*\[)",
+    "qposadr-is-an-array",
+    "model.joint(name).qposadr is an array of one number, so q[...] of it is an array "
+    "too; take the number out: qposadr[0].",
+)  # fmt: skip
+
+
+def along(path) -> Callable[[Case], Finding | None]:
+    """Return the hook that says where a pose that no mistake gives goes wrong."""
+
+    def where(case: Case) -> Finding | None:
+        model, q = case.arguments[:2]
+        if not rigid(case.S):
+            return None
+        if found := one_place(case.S, case.T, _factors(model, q, path)):
+            return found
+        if path is PATH and (found := _two_mistakes(case)):
+            return found
+        found = Pose().what_is_wrong(case.S, case.T)
+        return Finding(found.slug, f"{found.message} {_from_where(case)}".strip())
+
+    return where
+
+
+def measured(case: Case) -> tuple[str, ...]:
+    """Return how far off poses are at zero, when ready and elsewhere."""
+    zero, ready, other = (
+        Pose().apart(case.S[i], case.T[i])
+        for i in (slice(1), slice(1, 2), slice(2, None))
+    )
+    return (f"off at q = 0 by {zero}, when ready by {ready}, else by up to {other}",)
+
+
+def flange(case: Case) -> Finding | None:
+    """The file gives the flange's rotation to seven digits; MuJoCo normalises it."""
+    off = difference(case.S, case.T).max()
+    right = se3.quat_to_R(FLANGE_QUAT).T
+
+    def ends_in(R_flange: Array) -> bool:
+        again = case.T @ pose(right @ R_flange, np.zeros(3))
+        return bool(difference(case.S, again).max() < 0.01 * off)
+
+    says = f"Close, but not equal: off by {off:.1e}. The flange"
+    if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
+        says += (
+            "'s quaternion as the file has it is not quite of length 1, and here it "
+        )
+        return Finding("flange-not-normalised", f"{says}is not normalised.")
+    if ends_in(se3.Rz(0.75 * np.pi)):
+        says += (
+            " is turned by 135 degrees exactly; the file has its quaternion, rounded"
+        )
+        return Finding("flange-turned-exactly", f"{says} to seven digits.")
+    return None
+
+
+def _factors(model, q: Array, path) -> list[Factor]:
+    """Return the product's factors, each with what may stand in its place."""
+    found = []
+    for name, joint in path[1:]:  # link0's step does nothing
+        L = np.broadcast_to(link(model, name), (len(q), 4, 4))
+        others = lambda name=name: _other_links(model, name)  # noqa: E731
+        found.append(Factor(name, L, True, others))
+        if joint:
+            others = lambda joint=joint: _other_joints(model, q, joint)  # noqa: E731
+            off = lambda X, joint=joint: _wrong_angle(joint, X)  # noqa: E731
+            found.append(Factor(joint, turn(model, q, joint), False, others, off))
+    return found
+
+
+def _from_where(case: Case) -> str:
+    """Return from which prefix of the path on the student's pose is wrong."""
+    asked = [(q, path.pairs) for (_, q, path), _ in case.probes]
+    right = [fk(case.arguments[0], q, path) for q, path in asked]
+    stops = [path[-1][0] for _, path in asked]
+    return first_wrong(stops, [answer for _, answer in case.probes], right)
+
+
+def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
+    L, body = link(model, name), model.body(name)
+    pos, quat = body.pos[None], as_written(body.quat)[None]
+    missing = f"The step to {name} is missing from your chain"
+    yield Finding("link-skipped", missing), np.eye(4)
+    yield Finding("link-twice", f"The step to {name} is in your chain twice"), L @ L
+    for mistake in link_T.row.ask.named:
+        says = f"In the step to {name} alone, {mistake.says}"
+        yield Finding(mistake.slug, says), mistake.redo(pos, quat)
+
+
+def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]]:
+    yield (
+        Finding("joint-skipped", f"{joint} never turns: its angle has no effect"),
+        (np.eye(4)),
+    )
+    for _, other in PATH[1:-1]:
+        if other != joint:
+            says = f"{joint} turns by {other}'s angle"
+            yield Finding("joint-fed-another", says), turn(model, q, other)
+    angles = q[:, model.joint(joint).qposadr[0]]
+    for mistake in joint_T.row.ask.named:
+        says = f"In {joint}'s factor alone, {mistake.says}"
+        yield Finding(mistake.slug, says), mistake.redo(angles)
+
+
+def _wrong_angle(joint: str, X: Array) -> Finding | None:
+    R = se3.Rz(np.arctan2(X[:, 1, 0], X[:, 0, 0]))
+    if not matches(X, pose(R, np.zeros(3))):
+        return None
+    says = f"{joint} turns about its axis, but by the wrong angle"
+    return Finding("joint-angle-off", says)
+
+
+def _two_mistakes(case: Case) -> Finding | None:
+    """Return a mistake all along the arm and a wrong end, if together they fit."""
+    model, q = case.arguments
+    elsewhere, to_link7 = {*ends.SLUGS, "stops-early"}, PATH[:-1]
+    firsts = [m for m in case.ask.named if m.slug not in elsewhere]
+    for first in firsts:
+        if _wrong_end(first, case, slice(-1, None)) and (
+            end := _wrong_end(first, case, slice(None))
+        ):
+            return _both(Finding(first.slug, first.says), end, case)
+    stops = next(Finding(*end[:2]) for end in ends.FRAMES if end[0] == "stops-at-link7")
+    for first in firsts:
+        if matches(case.S[-1:], first.redo(model, q[-1:], to_link7)) and matches(
+            case.S, first.redo(model, q, to_link7)
+        ):
+            says = first.says.replace("the end effector", "link7")
+            says = says.replace("attachment", "link7")
+            return _both(Finding(first.slug, says), stops, case)
+    return None
+
+
+def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
+    """Return the wrong end that, after another mistake, gives some of the answers."""
+    model, q = case.arguments
+    again = first.redo(model, q[some])
+    if not rigid(again):
+        return None
+    X = rigid_inverse(again) @ case.S[some]
+    off = [np.abs(X[-1] - T_end).max() for _, _, T_end, _ in ends.FRAMES]
+    slug, says, T_end, _ = ends.FRAMES[int(np.argmin(off))]
+    return Finding(slug, says) if matches(X, np.broadcast_to(T_end, X.shape)) else None
+
+
+def _both(first: Finding, second: Finding, case: Case) -> Finding:
+    return Finding(
+        f"{first.slug}+{second.slug}",
+        f"Two things: {first.message}; and {second.message}. (Off by up to "
+        f"{Pose().apart(case.S, case.T)}; with both put right, by 0.)",
+    )

@@ -1,0 +1,177 @@
+"""1.4 `quat_to_R(quat)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Rotation, draw
+from labkit.judge.finished import OF_A_ROTATION
+from labkit.judge.row import Row
+from robo47 import se3
+
+from .panda_chain import FLANGE_QUAT, NEAR
+
+row = Row(Rotation(), near=NEAR)
+
+
+def quaternions(rng):
+    """Return some as in model files, unit ones, and others; some with w < 0, (n, 4)."""
+    written = [[1, 0, 0, 0], [1, 1, 0, 0], [1, -1, 0, 0], FLANGE_QUAT]
+    q = rng.normal(size=(6, 4))
+    q[:3] /= np.linalg.norm(q[:3], axis=1, keepdims=True)
+    q[[1, 4], 0] = -np.abs(q[[1, 4], 0])
+    return draw.rounded(np.vstack([np.array(written, dtype=np.float64), q]))
+
+
+@row.inputs
+def _(rng):
+    return [(quat,) for quat in quaternions(rng)]
+
+
+def by_ones(quat):
+    """Return 1 - 2 (yy + zz) and so on, without normalising first."""
+    w, x, y, z = quat
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
+
+
+def by_squares(quat):
+    """Return ww + xx - yy - zz and so on, without normalising first."""
+    return np.linalg.norm(quat) ** 2 * se3.quat_to_R(quat)
+
+
+UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
+NOT_NORMALISED = (
+    "the quaternion is used as it comes, but only one of length 1 stands for a turn: "
+    "(1, 1, 0, 0) has length 1.41",
+    "the right formula without normalising",
+)
+XYZW_AND_NOT_NORMALISED = (
+    "two things: the quaternion is read as (x, y, z, w), where w comes first; and it "
+    "is not normalised before it is used",
+    "the formula with both",
+)
+
+
+@row.wrong(
+    "wxyz-read-as-xyzw",
+    "the quaternion is read as (x, y, z, w); here, as in MuJoCo, w comes first",
+    "the right one read with w last",
+)
+def _(quat):
+    x, y, z, w = quat
+    return se3.quat_to_R([w, x, y, z])
+
+
+@row.wrong(
+    "xyzw-rolled-wrongly",
+    "w is not the only number that moved: the four are rolled the wrong way round",
+    "the right one read as y, z, w, x",
+)
+def _(quat):
+    return se3.quat_to_R(quat[[2, 3, 0, 1]])
+
+
+for formula in UNNORMALISED:
+    row.wrong("not-normalised", *NOT_NORMALISED)(formula)
+
+for formula in UNNORMALISED:
+    row.wrong("xyzw-and-not-normalised", *XYZW_AND_NOT_NORMALISED)(
+        lambda quat, formula=formula: formula(np.roll(quat, 1))
+    )
+
+
+@row.wrong(
+    "divided-by-length-squared",
+    "the quaternion is divided by its squared length; the square root is missing",
+    "the right formula with that division",
+)
+def _(quat):
+    return by_ones(quat / (quat @ quat))
+
+
+@row.wrong(
+    "half-angle",
+    "it turns by half the angle: w is the cosine of half the angle",
+    "the turn by half of it",
+)
+def _(quat):
+    unturned = np.array([1.0, 0.0, 0.0, 0.0])
+    return se3.quat_to_R(quat / np.linalg.norm(quat) + unturned)
+
+
+@row.wrong(
+    "factor-two-missing",
+    "the products are there, but the factor 2 in front of them is missing",
+    "the right formula without the 2",
+)
+def _(quat):
+    return (se3.quat_to_R(quat) + np.eye(3)) / 2
+
+
+@row.wrong(
+    "z-before-x",
+    "x, y and z are read in the order z, y, x",
+    "the right one read as w, z, y, x",
+)
+def _(quat):
+    return se3.quat_to_R(quat[[0, 3, 2, 1]])
+
+
+row.of_answer(OF_A_ROTATION)
+
+
+@row.right  # The outer product of the vector part, in place on a copy.
+def _(quat):
+    quat = quat.copy()
+    quat /= np.linalg.norm(quat)
+    w, x, y, z = quat
+    R = 2 * np.outer(quat[1:], quat[1:])
+    R += (2 * w * w - 1) * np.eye(3)
+    R += 2 * w * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return R
+
+
+@row.right  # Axis and angle; the angle by atan2, so that no turn is no special case.
+def _(quat):
+    length = np.linalg.norm(quat[1:])
+    axis = quat[1:] / length if length > 0 else np.array([0, 0, 1])
+    return se3.axis_angle(axis, 2 * np.arctan2(length, quat[0]))
+
+
+@row.right  # The columns are q e q*: quaternion products, no formula for R.
+def _(quat):
+    def times(a, b):
+        w = a[0] * b[0] - a[1:] @ b[1:]
+        return np.array([w, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
+
+    there = quat / np.linalg.norm(quat)
+    back = there * [1, -1, -1, -1]
+    return np.array([times(times(there, e), back)[1:] for e in np.eye(4)[1:]]).T
+
+
+@row.told("few-entries-off")  # One sign slipped in one entry.
+def _(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    R = by_ones([w, x, y, z])
+    R[1, 2] = 2 * (y * z + w * x)
+    return R
+
+
+@row.told("not-orthonormal")  # The diagonal was "simplified".
+def _(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    R = by_ones([w, x, y, z])
+    R[[0, 1, 2], [0, 1, 2]] = w * w + x * x, w * w + y * y, w * w + z * z
+    return R
+
+
+@row.told("not-finite")  # Axis and angle, but no turn has no axis: 0 / 0.
+def _(quat):
+    quat = quat / np.linalg.norm(quat)
+    angle = 2 * np.arccos(quat[0])
+    with np.errstate(invalid="ignore"):
+        x, y, z = quat[1:] / np.linalg.norm(quat[1:])
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
