@@ -44,7 +44,8 @@ class Way:
     Attributes:
         status: "wrong", "close" or "right".
         slug: what it must be told; "" where it must pass.
-        says: as in a `Mistake`.
+        says: as in a `Mistake`; "" where something else names it: a hook of the row,
+            a held-out question, its kind.
         code: the function, as a student writes it.
         redone: as in a `Mistake`.
         hidden: why the lab cannot show it; "" where the lab, run with it, fails.
@@ -56,6 +57,11 @@ class Way:
     code: Code
     redone: str = REDONE
     hidden: str = ""
+
+    @property
+    def named(self) -> bool:
+        """Whether making it again is what names it."""
+        return self.status == "wrong" and self.says != ""
 
 
 class Row:
@@ -94,7 +100,7 @@ class Row:
         return draw
 
     def wrong(
-        self, slug: str, says: str, redone: str = REDONE, hidden: str = ""
+        self, slug: str, says: str = "", redone: str = REDONE, hidden: str = ""
     ) -> Any:
         """Take a mistake; the arguments are those of a `Way`."""
         return lambda code: self._keep(Way("wrong", slug, says, code, redone, hidden))
@@ -160,7 +166,7 @@ class Row:
 
         def ways() -> Iterator[Way]:
             for way in row_of(self._day, small).ways:
-                if way.status == "wrong" and way.slug not in but:
+                if way.named and way.slug not in but:
                     code = self._calling(small, way.code)
                     yield replace(way, says=f"{where}{way.says}", code=code)
 
@@ -205,7 +211,7 @@ class Row:
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
             Mistake(way.slug, way.says, InTurn(way.code), way.redone)
             for way in self.ways
-            if way.status == "wrong"
+            if way.named
         ]
         return Ask(
             self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
