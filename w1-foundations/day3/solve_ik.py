@@ -19,8 +19,42 @@ from .loop import adaptive, at_hand, nearest, passed, walk
 row = Row(Vector((7,), "rad", names=JOINTS), accept=targets.arrived)
 row.inputs(targets.targets)
 
-FEW_AT_A_LIMIT = "few of its targets are at a limit"
 BOTH_MOVE = "there both halves move"
+
+
+# Those that cost no loop come first.
+
+
+@row.wrong(
+    "one-step",
+    "there is one step only; the Jacobian is a straight line along a curve, so it "
+    "takes several",
+    "where one step leads",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return list(passed(screws, M, T_goal, q_start, limits, steps=1))[-1][0]
+
+
+@row.wrong(
+    "start-returned",
+    "the start comes back: no step is taken, or each one leads away from the "
+    "target (then the sign of the error is wrong)",
+    "q_start",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return q_start.copy()
+
+
+@row.wrong(
+    "step-returned",
+    "the last step comes back, not the configuration that the steps lead to",
+    "a step of 0",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return np.zeros(7)  # nothing is left of a step where the loop has arrived
+
+
+# The loop with a wrong part.
 
 
 @row.wrong(
@@ -112,35 +146,6 @@ def _(screws, M, T_goal, q_start, limits):
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
-@row.wrong(
-    "one-step",
-    "there is one step only; the Jacobian is a straight line along a curve, so it "
-    "takes several",
-    "where one step leads",
-)
-def _(screws, M, T_goal, q_start, limits):
-    return list(passed(screws, M, T_goal, q_start, limits, steps=1))[-1][0]
-
-
-@row.wrong(
-    "start-returned",
-    "the start comes back: no step is taken, or each one leads away from the "
-    "target (then the sign of the error is wrong)",
-    "q_start",
-)
-def _(screws, M, T_goal, q_start, limits):
-    return q_start.copy()
-
-
-@row.wrong(
-    "step-returned",
-    "the last step comes back, not the configuration that the steps lead to",
-    "a step of 0",
-)
-def _(screws, M, T_goal, q_start, limits):
-    return np.zeros(7)  # nothing is left of a step where the loop has arrived
-
-
 # What `targets.arrived` says where the hand is.
 
 
@@ -182,8 +187,8 @@ def _(screws, M, T_goal, q_start, limits):
     return stopped(passed(screws, M, T_goal, q_start, limits), slice(6), 1e-3)
 
 
-@row.wrong("not-reached", hidden=FEW_AT_A_LIMIT)  # They are kept at the end only.
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong("not-reached", hidden="few of its targets are at a limit")
+def _(screws, M, T_goal, q_start, limits):  # The limits are kept at the end only.
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
 
 
