@@ -85,13 +85,3 @@ def _(J_space, T):
 @row.right  # J_site, turned back.
 def _(J_space, T):
     return turned(site_jacobian(J_space, T[:3, 3]), T[:3, :3].T)
-
-
-@row.right  # Column by column, with the cross product of each.
-def _(J_space, T):
-    R, p = T[:3, :3], T[:3, 3]
-    J = np.zeros((6, 7))
-    for i in range(7):
-        J[:3, i] = R.T @ J_space[:3, i]
-        J[3:, i] = R.T @ (J_space[3:, i] - np.cross(p, J_space[:3, i]))
-    return J
