@@ -246,9 +246,7 @@ def named_mistake(
     """
     for mistake in mistakes:
         try:
-            if not _may_be(mistake, arguments, ask, S):
-                continue
-            again = parts(mistake.redo(*arguments))
+            again = _made_again(mistake, arguments, ask, S)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
         pairs = list(zip(S, again, ask.kinds, strict=False))
@@ -263,20 +261,26 @@ def named_mistake(
     return None
 
 
-def _may_be(mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Any) -> bool:
-    """Return whether a mistake gives the last answer: a quick look before all others.
+def _made_again(
+    mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Parts
+) -> Parts:
+    """Return the answers with a mistake; none as soon as one is not the student's.
 
     Raises:
-        ValueError: it has no answer there.
+        ValueError: it has no answer to one of the questions.
     """
-    if not isinstance(mistake.redo, InTurn):
-        return True
-    again = parts(mistake.redo.nth(-1, arguments))
-    for s, a, kind in zip(S, again, ask.kinds, strict=False):
-        largest = np.abs(s[np.isfinite(s)]).max(initial=kind.scale)
-        if not matches(s[-1:], a[None], largest):
-            return False
-    return True
+    redo = mistake.redo
+    if not isinstance(redo, InTurn):
+        return parts(redo(*arguments))
+    finite = [np.abs(s[np.isfinite(s)]) for s in S]
+    largest = [x.max(initial=k.scale) for x, k in zip(finite, ask.kinds, strict=True)]
+    found: list[Parts] = []
+    for i in reversed(range(len(S[0]))):
+        found.append(parts(redo.nth(i, arguments)))
+        for s, a, size in zip(S, found[-1], largest, strict=False):
+            if not matches(s[i : i + 1], a[None], size):
+                return ()
+    return tuple(map(np.array, zip(*reversed(found), strict=True)))
 
 
 def redone(

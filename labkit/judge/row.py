@@ -48,7 +48,8 @@ class Way:
     Attributes:
         status: "wrong", "close" or "right".
         slug: what it must be told; "" where it must pass.
-        says: as in a `Mistake`.
+        says: as in a `Mistake`; "" where something else names it: a hook of the row,
+            a held-out question, its kind.
         code: the function, as a student writes it.
         redone: as in a `Mistake`.
         hidden: why the lab cannot show it; "" where the lab, run with it, fails.
@@ -60,6 +61,11 @@ class Way:
     code: Code
     redone: str = REDONE
     hidden: str = ""
+
+    @property
+    def named(self) -> bool:
+        """Whether making it again is what names it."""
+        return self.status == "wrong" and self.says != ""
 
 
 class Row:
@@ -98,14 +104,10 @@ class Row:
         return draw
 
     def wrong(
-        self, slug: str, says: str, redone: str = REDONE, hidden: str = ""
+        self, slug: str, says: str = "", redone: str = REDONE, hidden: str = ""
     ) -> Any:
         """Take a mistake; the arguments are those of a `Way`."""
         return lambda code: self._keep(Way("wrong", slug, says, code, redone, hidden))
-
-    def told(self, slug: str, hidden: str = "") -> Any:
-        """Take a wrong way that no redo names: a hook or a further question does."""
-        return lambda code: self._keep(Way("wrong", slug, "", code, hidden=hidden))
 
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""
@@ -219,7 +221,7 @@ class Row:
     @property
     def named(self) -> list[Way]:
         """The ways that are mistakes with a name."""
-        return [way for way in self.ways if way.status == "wrong" and way.says]
+        return [way for way in self.ways if way.named]
 
     @cached_property
     def ask(self) -> Ask:

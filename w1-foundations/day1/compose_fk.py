@@ -305,22 +305,22 @@ def _(model, q):
 # What the hooks and the further questions name.
 
 
-@row.told("path-ignored")
+@row.wrong("path-ignored")
 def _(model, q, path=PATH):
     return fk(model, q)
 
 
-@row.told("typed-in", hidden="the lab has one Panda, and the numbers are its")
+@row.wrong("typed-in", hidden="the lab has one Panda, and the numbers are its")
 def _(model, q, path=PATH):
     return fk(PANDA.model, q, path)
 
 
-@row.told("typed-in", hidden="link0 of this Panda sits on the origin")
+@row.wrong("typed-in", hidden="link0 of this Panda sits on the origin")
 def _(model, q, path=PATH):
     return fk(model, q, path[1:])
 
 
-@row.told("all-zeros")  # Read from MuJoCo's data before anything was computed.
+@row.wrong("all-zeros")  # Read from MuJoCo's data before anything was computed.
 def _(model, q, path=PATH):
     site = mujoco.MjData(model).site("attachment_site")
     T = np.zeros((4, 4))
@@ -336,7 +336,7 @@ ONE_JOINT = (
     ("pose-off", lambda q: np.r_[q[:2], q[2:] ** 2]),  # told by the probes: from link3
 )
 for slug, angles in ONE_JOINT:
-    row.told(slug)(
+    row.wrong(slug)(
         lambda model, q, path=PATH, angles=angles: fk(model, angles(q), path)
     )
 
@@ -353,15 +353,15 @@ def _links(**instead):
     return compose_fk
 
 
-row.told("link-skipped")(_links(link5=lambda L: np.eye(4)))
-row.told("link-twice")(_links(link5=lambda L: L @ L))
-row.told("R-transposed")(_links(link3=lambda L: pose(L[:3, :3].T, L[:3, 3])))
-row.told("one-link-off")(_links(link5=lambda L: L + 0.01 * np.eye(4, k=3)))
-row.told("pose-off")(
+row.wrong("link-skipped")(_links(link5=lambda L: np.eye(4)))
+row.wrong("link-twice")(_links(link5=lambda L: L @ L))
+row.wrong("R-transposed")(_links(link3=lambda L: pose(L[:3, :3].T, L[:3, 3])))
+row.wrong("one-link-off")(_links(link5=lambda L: L + 0.01 * np.eye(4, k=3)))
+row.wrong("pose-off")(
     _links(link3=lambda L: pose(L[:3, :3], -L[:3, 3]), link5=rigid_inverse)
 )
 
 
-@row.told("joint-before-link+stops-at-link7")
+@row.wrong("joint-before-link+stops-at-link7")
 def _(model, q):
     return product(J @ L for L, J in steps(model, q, PATH[:-1]))

@@ -37,6 +37,6 @@ row.of_answer(
 )
 
 
-@row.told("shape")  # The turn alone is no factor of a product of poses.
+@row.wrong("shape")  # The turn alone is no factor of a product of poses.
 def _(q):
     return se3.Rz(q)

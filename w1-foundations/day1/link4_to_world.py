@@ -77,12 +77,12 @@ def _(model, q):
     return np.vstack([np.column_stack([x, y, z, p]), [0, 0, 0, 1]])
 
 
-@row.told("joint-skipped")  # joint4 turns link4 itself, so it belongs in.
+@row.wrong("joint-skipped")  # joint4 turns link4 itself, so it belongs in.
 def _(model, q):
     return fk(model, q, PATH[:4]) @ link(model, "link4")
 
 
-@row.told("pose-off")  # From link3's inverse: an idea without a name.
+@row.wrong("pose-off")  # From link3's inverse: an idea without a name.
 def _(model, q):
     step = link(model, "link4") @ turn(model, q, "joint4")
     return rigid_inverse(fk(model, q, PATH[:4])) @ step

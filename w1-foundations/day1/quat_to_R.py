@@ -151,7 +151,7 @@ def _(quat):
     return np.array([times(times(there, e), back)[1:] for e in np.eye(4)[1:]]).T
 
 
-@row.told("few-entries-off")  # One sign slipped in one entry.
+@row.wrong("few-entries-off")  # One sign slipped in one entry.
 def _(quat):
     w, x, y, z = quat / np.linalg.norm(quat)
     R = by_ones([w, x, y, z])
@@ -159,7 +159,7 @@ def _(quat):
     return R
 
 
-@row.told("not-orthonormal")  # The diagonal was "simplified".
+@row.wrong("not-orthonormal")  # The diagonal was "simplified".
 def _(quat):
     w, x, y, z = quat / np.linalg.norm(quat)
     R = by_ones([w, x, y, z])
@@ -167,7 +167,7 @@ def _(quat):
     return R
 
 
-@row.told("not-finite")  # Axis and angle, but no turn has no axis: 0 / 0.
+@row.wrong("not-finite")  # Axis and angle, but no turn has no axis: 0 / 0.
 def _(quat):
     quat = quat / np.linalg.norm(quat)
     angle = 2 * np.arccos(quat[0])

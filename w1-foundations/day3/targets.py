@@ -5,27 +5,14 @@ lead through a joint limit, an answer has to come near. Nothing may leave the li
 Where the docstring's loop has one way only to go, an answer has to end as near.
 """
 
-from functools import cache
-
 import numpy as np
 
 from labkit.judge import Finding, draw
-from robo47 import jacobian, panda, screws
+from robo47 import jacobian, screws
 from robo47.checks import Array
 
-from .mistakes import loops
-
-# Rank 5: row 6 is the sum of two. Rounding makes the determinant of J J^T, and the
-# product of its eigenvalues, a bit less than 0 (with four ways to compute it).
-_ROWS = """
--1 3 0 -3 3 3 0  -1 -2 2 -3 -3 3 0  -1 1 -3 1 -1 2 -1
--2 0 -1 1 1 -3 -3  0 2 1 -1 1 -2 -1  -1 0 3 -4 -2 1 -1
-3 -3 1 1 -1 2 -1  -1 2 0 0 0 2 0  0 -3 3 0 -3 -2 2
-0 -2 -3 2 -1 -1 -3  0 2 3 3 -2 2 -1  3 -5 -2 3 -2 1 -4
-2 -1 2 1 0 -2 2  -1 2 2 -3 3 0 -1  3 -3 0 -1 -1 2 -1
--3 2 -1 -1 3 -2 -2  1 1 3 1 1 3 -3  -4 4 1 -4 6 -2 -3
-"""
-SINGULAR = np.array(_ROWS.split(), dtype=float).reshape(3, 6, 7) / 8.0
+from .jacobians import arm
+from .loop import walk
 
 # Joint 4 may go to -0.07 only: the target wants more. Then one at joint 6's and joint
 # 7's limits, which a loop that keeps the limits at its end alone does not find.
@@ -36,13 +23,6 @@ AT_6 = np.array([-1.44, -1.026, 0.941, -2.329, -2.077, -0.017, -2.897])
 # A turn by 2.5 rad about y from here meets no limit, and leads into a valley: the
 # best q that the loop has passed is a third nearer than its last.
 FAR_START = np.array([0.578, 0.069, 0.367, -1.654, -1.832, 2.08, 1.819])
-
-
-@cache
-def arm() -> tuple[Array, Array, Array]:
-    """Return the Panda's screws, M and joint limits."""
-    model = panda.load("panda_nohand")
-    return panda.screws(model), panda.home_pose(model), model.jnt_range.copy()
 
 
 def targets(rng):
@@ -92,24 +72,18 @@ def _near_targets(rng, n: int, part: float) -> tuple[Array, Array]:
 
 def _by_the_limits(rng) -> tuple[Array, Array]:
     """Return two starts and targets that lead far beyond a limit, if none is kept."""
-    _, _, limits = arm()
+    S, M, limits = arm()
     start, goal = _near_targets(rng, 30, 0.99)
-    q = loops.walk(*_stacked(goal, start, limits), clip=False)
+    q = walk(S, M, goal, start, None)
     beyond = np.maximum(limits[:, 0] - q, q - limits[:, 1]).max(axis=1)
     some = np.argsort(-beyond)[:2]
     return start[some], goal[some]
 
 
-def _stacked(goal: Array, start: Array, limits: Array) -> tuple[Array, ...]:
-    S, M, _ = arm()
-    S, M, limits = (np.broadcast_to(x, (len(goal), *x.shape)) for x in (S, M, limits))
-    return S, M, goal, start, limits
-
-
 def _reached(goal: Array, start: Array, limits: Array) -> np.ndarray:
     """Return whether the right loop has steps to spare for a target, (n,)."""
     S, M, _ = arm()
-    q = loops.walk(*_stacked(goal, start, limits), steps=25)
+    q = walk(S, M, goal, start, limits, steps=25)
     return jacobian.reached(S, M, goal, q)
 
 
@@ -133,7 +107,7 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return Finding("no-nearer", "It ends no nearer to its target than it started.")
     if after <= 1e-8:
         return None
-    if _reached(T_goal[None], q_start[None], limits)[0]:
+    if _reached(T_goal, q_start, limits):
         says = f"The hand is not at its target, which is near: {after:.2g} off"
         return Finding("not-reached", f"{says} (radians and metres).")
     return _as_the_docstring(T_goal, q_start, limits, after)
@@ -165,9 +139,7 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     """
     S, M, _ = arm()
     starts = q_start + np.array([0.0, 0.0, 1e-7, -3e-7])[:, None]
-    goal = np.repeat(T_goal[None], 4, axis=0)
-    kept = loops.walk(*_stacked(goal, starts, limits))
-    free = loops.walk(*_stacked(goal, starts, limits), clip=False)
+    kept, free = (walk(S, M, T_goal, starts, some) for some in (limits, None))
     miss = np.linalg.norm(
         jacobian.pose_error(screws.fk_space(S, M, kept), T_goal), axis=1
     )

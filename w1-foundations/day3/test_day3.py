@@ -1,6 +1,5 @@
 """Day 3's lab: its functions against oracles; the numbers in the guide's sentences."""
 
-import importlib
 import importlib.util
 import json
 import re
@@ -16,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from conftest import ROOT, load_script, need
 from labkit.base.exchange import Reply
+from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
@@ -23,8 +23,9 @@ from robo47 import jacobian, panda, screws, verify
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").split())
 # What Pinocchio and the textbook's own package said, their rows swapped to (omega; v).
 ORACLE = ROOT / "tests" / "data" / "kinematics_oracle.json"
-QUESTIONS = folder.load(find_day(3), "questions")
-LOOPS = importlib.import_module("lesson_day3.mistakes.loops")
+DAY = find_day(3)
+ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
+LOOP = folder.load(DAY, "loop")
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
 
@@ -113,61 +114,72 @@ def test_the_formula_of_most_books_fails_near_pi():
 
 
 def test_most_mistakes_in_a_jacobian_are_right_at_zero(arm):
-    S = arm[0][None]
-    space = importlib.import_module("lesson_day3.mistakes.jacobians").SPACE
-    right = {m.slug for m in space
-             if np.abs(m.redo(S, np.zeros((1, 7))) - S[0].T).max() < 1e-12}  # fmt: skip
-    assert right == {m.slug for m in space} - {"columns-reversed"}
+    S = arm[0]
+    named = [way for way in row_of(DAY, "space_jacobian").ways if way.named]
+    right = {way.slug for way in named
+             if np.abs(way.code(S, np.zeros(7)) - S.T).max() < 1e-12}  # fmt: skip
+    assert right == {way.slug for way in named} - {"columns-reversed"}
 
 
 @pytest.fixture(scope="module")
 def targets():
-    """Return 200 targets within 0.3 rad of their starts, as `LOOPS.walk` takes them."""
-    S, M, limits = QUESTIONS.targets.arm()
+    """Return 200 targets within 0.3 rad of their starts, and these."""
+    S, M, limits = ARM
     middle, rng = limits.mean(axis=1), np.random.default_rng(47)
     drawn = verify.random_q(panda.load("panda_nohand"), 200, 47)
     start = middle + 0.8 * (drawn - middle)
     near = np.clip(start + rng.uniform(-0.3, 0.3, start.shape), *limits.T)
-    goal = screws.fk_space(S, M, near)
-    arms = [np.broadcast_to(x, (200, *x.shape)) for x in (S, M, limits)]
-    return *arms[:2], goal, start, arms[2]
+    return screws.fk_space(S, M, near), start
 
 
-@pytest.mark.parametrize(
-    ("part", "named"),
-    [
-        ("right", "all right"),
-        ("space-jacobian", "`J_space` in place of `J_site`"),
-        ("sine-for-angle", "the sine in place of the angle in the error"),
-        ("jacobian-never-updated", "J computed once, at the start"),
-        ("body-jacobian", "`J_body` with the error in world axes"),
-        ("error-sign", "the error's sign wrong"),
-    ],
-)
-def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, part, named):
+def sine_for_angle(T, T_goal):
+    e = jacobian.pose_error(T, T_goal)
+    R = T_goal[:, :3, :3] @ np.swapaxes(T[:, :3, :3], 1, 2)
+    K = (R - np.swapaxes(R, 1, 2)) / 2
+    return np.hstack([K[:, [2, 0, 1], [1, 2, 0]], e[:, 3:]])
+
+
+def of_the_start(start):
+    S, M, _ = ARM
+    J = LOOP.at_hand(jacobian.space_jacobian(S, start), screws.fk_space(S, M, start))
+    return {"seen": lambda J_space, T: J}
+
+
+LOOPS = {
+    "all right": {},
+    "`J_space` in place of `J_site`": {"seen": lambda J_space, T: J_space},
+    "the sine in place of the angle in the error": {"gap": sine_for_angle},
+    "J computed once, at the start": of_the_start,
+    "`J_body` with the error in world axes": {"seen": jacobian.body_jacobian},
+    "the error's sign wrong": {"gap": lambda T, goal: -jacobian.pose_error(T, goal)},
+}
+
+
+@pytest.mark.parametrize("named", LOOPS)
+def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, named):
     said = int(re.search(re.escape(f"| {named} | ") + r"(\d+)", GUIDE)[1])
-    q = LOOPS.walk(*targets, **LOOPS.PARTS[part])
-    S, M, goal = targets[0][0], targets[1][0], targets[2]
-    assert (
-        abs(jacobian.reached(S, M, goal, q).sum() - said) <= 4
-    )  # BLAS may decide some
+    (S, M, limits), (goal, start), parts = ARM, targets, LOOPS[named]
+    parts = parts(start) if callable(parts) else parts
+    q = LOOP.walk(S, M, goal, start, limits, **parts)
+    found = jacobian.reached(S, M, goal, q).sum()
+    assert abs(found - said) <= 4  # BLAS may decide some
 
 
 def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
-    S, M, goal, start, limits = (x[:12].copy() for x in targets)
-    middle = limits[0].mean(axis=1)
+    (S, M, limits), start = ARM, targets[1][:12]
+    middle = limits.mean(axis=1)
     start = middle + 0.7 / 0.8 * (start - middle)  # so that no limit is in the way
-    goal = screws.fk_space(S[0], M[0], start + 0.1)
+    goal = screws.fk_space(S, M, start + 0.1)
     goal[:, :3, 3] *= 2.0 / np.linalg.norm(goal[:, :3, 3], axis=1)[:, None]
 
     def miss(q):
-        e = jacobian.pose_error(screws.fk_space(S[0], M[0], q), goal)
+        e = jacobian.pose_error(screws.fk_space(S, M, q), goal)
         return np.linalg.norm(e, axis=1)
 
-    best = miss(jacobian.solve_ik(S[0], M[0], goal, start, limits[0]))
+    best = miss(jacobian.solve_ik(S, M, goal, start, limits))
     right, wrong = (
-        miss(LOOPS.walk(S, M, goal, start, limits, **LOOPS.PARTS[part])) / best
-        for part in ("right", "space-jacobian")
+        miss(LOOP.walk(S, M, goal, start, limits, **LOOPS[named])) / best
+        for named in ("all right", "`J_space` in place of `J_site`")
     )
     assert right.max() < 1.01
     assert 1.02 < wrong.max() < 1.15
@@ -192,7 +204,7 @@ def test_joint4_after_a_quarter_turn_of_joint1(arm):
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
-    S, M, limits = QUESTIONS.targets.arm()
+    S, M, limits = ARM
     q = lab.first_q((S, M), radius, limits)
     off, speeds, path = lab.draw_circle((S, M), q, radius, lab.DAMPING)
     assert off.max() < 20.0
@@ -201,7 +213,7 @@ def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
 
 
 def test_the_easy_circle_needs_no_damping():
-    S, M, limits = QUESTIONS.targets.arm()
+    S, M, limits = ARM
     q = lab.first_q((S, M), lab.EASY, limits)
     off, speeds, _ = lab.draw_circle((S, M), q, lab.EASY, 0.0)
     assert off.max() < 1.0
@@ -210,7 +222,7 @@ def test_the_easy_circle_needs_no_damping():
 
 def test_the_elbow_swings_while_the_hand_stands(arm):
     """The side quest: joint 3's direction, 400 steps of 0.005."""
-    S, M, limits = QUESTIONS.targets.arm()
+    S, M, limits = ARM
     q, T = panda.READY_Q, screws.fk_space(S, M, panda.READY_Q)
     for _ in range(400):
         now = screws.fk_space(S, M, q)
@@ -235,17 +247,17 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
 def tab():
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
-    inspector = folder.load(find_day(3), "inspector")
+    inspector = folder.load(DAY, "inspector")
     page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
     page.draw.curve.side_effect = lambda *_: MagicMock()
     page.html.side_effect = lambda *text: MagicMock()
-    S, M, _ = QUESTIONS.targets.arm()
+    S, M, _ = ARM
     page.pose.return_value = screws.fk_space(S, M, panda.READY_Q)
     return inspector.Jacobian(page)
 
 
 def test_the_tab_shows_the_columns_at_the_hand(tab):
-    S, M, _ = QUESTIONS.targets.arm()
+    S, M, _ = ARM
     J = own_jacobians((S, M), panda.READY_Q[None])["J_site"][0]
     arrows = tab.columns.points[:, 1] - tab.columns.points[:, 0]
     assert_same(arrows / 0.35, J[3:].T, 1e-5)
@@ -253,7 +265,7 @@ def test_the_tab_shows_the_columns_at_the_hand(tab):
 
 
 def test_a_dragged_target_is_reached_and_a_moved_elbow_leaves_the_hand(tab):
-    S, M, limits = QUESTIONS.targets.arm()
+    S, M, limits = ARM
     T = screws.fk_space(S, M, panda.READY_Q)
     goal = T.copy()
     goal[:3, 3] += [0.02, 0.03, -0.01]
@@ -269,7 +281,7 @@ def test_a_dragged_target_is_reached_and_a_moved_elbow_leaves_the_hand(tab):
 
 
 def test_the_tab_compares_the_students_jacobian_by_value(tab):
-    right = lab.space_jacobian(QUESTIONS.targets.arm()[0], panda.READY_Q)
+    right = lab.space_jacobian(ARM[0], panda.READY_Q)
     tab._students(Reply(value=right))
     assert "good" in tab.own.content
     tab._students(Reply(value=right + 0.1))
@@ -280,9 +292,9 @@ def test_the_tab_compares_the_students_jacobian_by_value(tab):
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_the_circles_tab_draws_what_the_lab_draws(tab, radius):
-    S, M, limits = QUESTIONS.targets.arm()
+    S, M, limits = ARM
     q = lab.first_q((S, M), radius, limits)
-    circle = folder.load(find_day(3), "circle").Circle(tab.page)
+    circle = folder.load(DAY, "circle").Circle(tab.page)
     circle.turn(radius)
     assert_same(circle.pens[0].q, q, 1e-12)
     for _ in range(len(np.arange(lab.DT, lab.LAP, lab.DT))):

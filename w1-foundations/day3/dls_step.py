@@ -1,0 +1,196 @@
+"""3.5 `dls_step(J, e, damping)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Vector, draw
+from labkit.judge.row import Row
+from robo47.jacobian import dls_step
+
+from .jacobians import JOINTS, UNIT, near_singular, site_jacobians
+
+I6 = np.eye(6)
+pinv, solve = np.linalg.pinv, np.linalg.solve
+
+
+def _without_damping(rng):
+    J = site_jacobians(draw.configurations(rng, 3))
+    e = draw.numbers(rng, -1, 1, 3, 6)
+    return [(J[i], e[i], 0.0) for i in range(3)]
+
+
+AT_NO_DAMPING = HeldOut(
+    "zero-without-damping",
+    "Right, but with damping 0 it returns zeros. There the formula is the plain "
+    "pseudo-inverse's step, which step 6 of the lab takes.",
+    _without_damping,
+    mistaken=lambda J, e, damping: np.zeros(7),
+)
+row = Row(Vector((7,), "rad", names=JOINTS), held_out=[AT_NO_DAMPING])
+
+
+@row.inputs
+def _(rng):
+    e = draw.numbers(rng, -0.5, 0.5, 9, 6)
+    damping = [0.05, 0.02, 0.1, 0.3, 0.5, 2.0, 0.01, 0.2, 0.7]
+    first = (UNIT, np.arange(1.0, 7.0) / 10, 1.0)
+    return [first, *zip(near_singular(rng), e, damping, strict=True)]
+
+
+def weighted(J, e, weight):
+    """Return the step with a weight for each singular value."""
+    U, s, Vt = np.linalg.svd(J, full_matrices=False)
+    return Vt.T @ (weight(s) * (U.T @ e))
+
+
+@row.wrong(
+    "damping-not-squared",
+    "the damping is not squared",
+    "the step with damping I",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + damping * I6, e)
+
+
+@row.wrong(
+    "damping-dropped",
+    "there is no damping in it: this is the plain pseudo-inverse, which is huge "
+    "near a singularity",
+    "the step of the pseudo-inverse",
+)
+def _(J, e, damping):
+    return pinv(J) @ e
+
+
+@row.wrong(
+    "damping-doubled",
+    "the damping is multiplied by 2, not by itself",
+    "the step with 2 damping I",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + damping * 2 * I6, e)
+
+
+@row.wrong(
+    "damping-halved",
+    "half of the squared damping is added, not all of it",
+    "the step with half of it",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + damping**2 / 2 * I6, e)
+
+
+@row.wrong(
+    "damping-everywhere",
+    "damping^2 is added to every entry of J J^T; it belongs on the diagonal only",
+    "the step with damping^2 in every entry",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + damping**2, e)
+
+
+@row.wrong(
+    "transpose-only",
+    "this is J^T e: the inverse is missing, so the step has the wrong length and "
+    "direction",
+    "J^T e",
+)
+def _(J, e, damping):
+    return J.T @ e
+
+
+@row.wrong(
+    "identity-scaled",
+    "this is J^T e over damping^2: J J^T is left out",
+    "J^T e / damping^2",
+)
+def _(J, e, damping):
+    return J.T @ e / damping**2
+
+
+@row.wrong(
+    "pseudo-inverse-scaled",
+    "the plain step is divided by 1 + damping^2; damping changes the directions "
+    "near a singularity most",
+    "the plain step over 1 + damping^2",
+)
+def _(J, e, damping):
+    return pinv(J) @ e / (1 + damping**2)
+
+
+@row.wrong(
+    "damping-squared-twice",
+    "the damping is squared twice: its fourth power is added",
+    "the step with damping^4 I",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + damping**4 * I6, e)
+
+
+@row.wrong(
+    "damping-fixed",
+    "the damping is 0.05 whatever the argument says",
+    "the step with damping 0.05",
+)
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + 0.05**2 * I6, e)
+
+
+@row.wrong(
+    "damping-added-to-the-values",
+    "the damping is added to each singular value s, 1 / (s + damping); the formula "
+    "makes s / (s^2 + damping^2) of it",
+    "the step with 1 / (s + damping)",
+)
+def _(J, e, damping):
+    return weighted(J, e, lambda s: 1 / (s + damping))
+
+
+@row.wrong(
+    "singular-value-missing",
+    "the weights are 1 / (s^2 + damping^2) for the singular values s: J^T in front "
+    "puts one more s above",
+    "the step with 1 / (s^2 + damping^2)",
+)
+def _(J, e, damping):
+    return weighted(J, e, lambda s: 1 / (s**2 + damping**2))
+
+
+@row.wrong("zero-without-damping", hidden="step 6 checks nothing")
+def _(J, e, damping):
+    return dls_step(J, e, damping) if damping else np.zeros(7)
+
+
+@row.wrong("all-signs")  # It steps away.
+def _(J, e, damping):
+    return -dls_step(J, e, damping)
+
+
+@row.wrong("raises")  # A 7x7 matrix and six numbers.
+def _(J, e, damping):
+    return solve(J.T @ J + damping**2 * np.eye(7), e)
+
+
+@row.wrong("raises")  # Minus: with J = [I 0] and damping 1 nothing is left to invert.
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T - damping**2 * I6, e)
+
+
+@row.close("rounded-somewhere")  # A small number is added for safety.
+def _(J, e, damping):
+    return J.T @ solve(J @ J.T + (damping**2 + 1e-11) * I6, e)
+
+
+@row.right  # The 7x7 form: the same numbers.
+def _(J, e, damping):
+    return solve(J.T @ J + damping**2 * np.eye(7), J.T @ e)
+
+
+@row.right  # By least squares, with the damping as seven more equations.
+def _(J, e, damping):
+    A = np.vstack([J, damping * np.eye(7)])
+    return np.linalg.lstsq(A, np.append(e, np.zeros(7)), rcond=None)[0]
+
+
+@row.right  # From the singular values.
+def _(J, e, damping):
+    return weighted(J, e, lambda s: s / (s**2 + damping**2))

@@ -1,0 +1,350 @@
+"""3.3 `log_rotation(R)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Vector, draw
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.jacobian import log_rotation
+from robo47.screws import exp_rotation
+
+from . import angles
+from .jacobians import OrNaN
+
+
+class Numbers(OrNaN, Vector):
+    """A vector, or NaN."""
+
+
+def _half_turns(rng):
+    """Return turns by exactly pi; R is exactly symmetric."""
+    axes = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, -0.8, 0], [0, 0.6, 0.8]])
+    return [(2.0 * np.outer(n, n) - np.eye(3),) for n in axes]
+
+
+HALF_TURN = HeldOut(
+    "wrong-at-pi",
+    "Right below pi, but not at exactly pi. There R - R^T is 0, so it knows neither "
+    "the axis nor its sign: the docstring says which sign to return.",
+    _half_turns,
+)
+row = Row(
+    Numbers((3,), "rad", names=("x", "y", "z")),
+    unnamed=angles.where_the_angle_fails,
+    near_miss=angles.where_the_digits_go,
+    held_out=[HALF_TURN],
+)
+
+
+@row.inputs
+def _(rng):
+    """From 0 to nearly pi; the docstring's first, drawn ones last."""
+    small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.3]
+    by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
+    turns = np.array([*small, *by_pi, 2.0, *rng.uniform(0.2, 3.0, 5)])
+    R = exp_rotation(draw.units(rng, len(turns)), turns)
+    rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
+    return [(se3.Rz(np.pi / 2),), (np.eye(3),), (rounded,), *((one,) for one in R)]
+
+
+def vee(R):
+    """Return the axis times twice the sine, from R - R^T."""
+    return np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+
+
+def cosine(R):
+    """Return the cosine of the angle, from the trace."""
+    return (np.trace(R) - 1) / 2
+
+
+def parts(R):
+    """Return the axis times the sine, the sine and the angle."""
+    a = vee(R) / 2
+    sine = np.linalg.norm(a)
+    return a, sine, np.arctan2(sine, cosine(R))
+
+
+def column(R):
+    """Return the axis but for its sign, from the largest column of R + R^T."""
+    B = (R + R.T) / 2 - cosine(R) * np.eye(3)
+    b = B[:, np.argmax(np.diag(B))]
+    return b / np.linalg.norm(b)
+
+
+def signed(axis, a):
+    """Return an axis with the sign that R - R^T tells."""
+    return -axis if a @ axis < 0 else axis
+
+
+def axis(R):
+    """Return the axis, or 0 where there is none."""
+    w = log_rotation(R)
+    return w / (np.linalg.norm(w) or 1.0)
+
+
+def quaternion_part(R):
+    """Return the axis times the sine of half the angle."""
+    q = se3.R_to_quat(R)
+    return -q[1:] if q[0] < 0 else q[1:]
+
+
+def roll_pitch_yaw(R):
+    """Return the angles about x, y and z of R = Rz(yaw) Ry(pitch) Rx(roll)."""
+    roll, yaw = np.arctan2(R[2, 1], R[2, 2]), np.arctan2(R[1, 0], R[0, 0])
+    return np.array([roll, -np.arcsin(np.clip(R[2, 0], -1, 1)), yaw])
+
+
+@row.wrong(
+    "sine-for-angle",
+    "the vector's length is the sine of the angle; it has to be the angle",
+    "the axis times the sine",
+)
+def _(R):
+    return vee(R) / 2
+
+
+@row.wrong(
+    "twice-the-sine",
+    "the vector's length is twice the sine of the angle: the half is missing, and "
+    "so is the angle",
+    "the vector of the entries of R - R^T",
+)
+def _(R):
+    return vee(R)
+
+
+@row.wrong(
+    "quaternion-vector-part",
+    "this is the vector part of the quaternion: its length is sin(angle / 2)",
+    "that vector part",
+)
+def _(R):
+    return quaternion_part(R)
+
+
+@row.wrong(
+    "twice-the-quaternion-part",
+    "this is twice the vector part of the quaternion: it is like the angle only near 0",
+    "twice that vector part",
+)
+def _(R):
+    return 2 * quaternion_part(R)
+
+
+@row.wrong(
+    "axis-only",
+    "its length is 1 (the axis); it has to be the angle",
+    "the axis alone",
+)
+def _(R):
+    return axis(R)
+
+
+@row.wrong(
+    "arcsine",
+    "the angle is right up to 90 degrees only: an arcsine cannot tell 100 degrees "
+    "from 80, for which the trace is needed",
+    "the axis times the arcsine",
+)
+def _(R):
+    a, sine, _ = parts(R)
+    return a / sine * np.arcsin(min(sine, 1.0)) if sine > 0 else a
+
+
+@row.wrong(
+    "half-the-angle",
+    "its length is half the angle, as in a quaternion",
+    "half of it",
+)
+def _(R):
+    return log_rotation(R) / 2
+
+
+@row.wrong(
+    "in-degrees",
+    "the angle is in degrees; here it is in radians",
+    "the answer in degrees",
+)
+def _(R):
+    return np.rad2deg(log_rotation(R))
+
+
+@row.wrong(
+    "roll-pitch-yaw",
+    "these are the angles of three turns about x, y and z, one after the other; "
+    "one turn about one axis is asked for",
+    "the vector (roll, pitch, yaw)",
+)
+def _(R):
+    return roll_pitch_yaw(R)
+
+
+@row.wrong(
+    "twice-the-sine-in-atan2",
+    "the angle comes from twice the sine: the half of (R - R^T) / 2 is missing",
+    "the axis times atan2 of twice the sine",
+)
+def _(R):
+    return axis(R) * np.arctan2(np.linalg.norm(vee(R)), cosine(R))
+
+
+# With NaN in them.
+
+
+@row.wrong(
+    "textbook-formula",
+    "this is the formula of most books, theta / (2 sin theta) times R - R^T: no "
+    "turn is 0 / 0 in it, and near pi it divides noise by nearly 0",
+    "that formula, with its NaN,",
+)
+def _(R):
+    angle = np.arccos((np.trace(R) - 1) / 2)
+    return angle / (2 * np.sin(angle)) * vee(R)
+
+
+@row.wrong(
+    "nan-at-0",
+    "NaN comes back where R is the identity: there it is divided by a sine of 0",
+    "the right one with NaN there",
+)
+def _(R):
+    a, sine, angle = parts(R)
+    if cosine(R) > -0.9:
+        return a * (angle / sine)
+    return angle * signed(column(R), a)
+
+
+@row.wrong(
+    "arccosine-beyond-1",
+    "NaN comes back where rounding makes (trace - 1) / 2 a bit more than 1, or "
+    "less than -1: the arccosine has no answer there. atan2 always has one",
+    "the right one with NaN there",
+    hidden="its identity is exact",
+)
+def _(R):
+    return axis(R) * np.arccos(cosine(R))
+
+
+# Right but for some angles: `angles` says which.
+
+
+@row.wrong("wrong-near-pi")  # Most books' formula, cut off where it would end in NaN.
+def _(R):
+    angle = np.arccos(np.clip(cosine(R), -1, 1))
+    if np.sin(angle) < 1e-12:
+        return vee(R) / 2
+    return vee(R) / 2 * angle / np.sin(angle)
+
+
+@row.wrong("wrong-near-pi")  # atan2 gives the angle; the axis is divided by the sine.
+def _(R):
+    a, sine, angle = parts(R)
+    return a * angle / max(sine, 1e-7)
+
+
+@row.wrong("sign-near-pi")  # Near pi the sign is left as the column has it.
+def _(R):
+    a, sine, angle = parts(R)
+    if cosine(R) > -0.999:
+        return a * (angle / sine) if sine > 0 else a
+    return angle * column(R)
+
+
+@row.wrong("signs-near-pi")  # Near pi the root of the diagonal, which has no signs.
+def _(R):
+    a, sine, angle = parts(R)
+    if cosine(R) > -0.999999:
+        return a * (angle / sine) if sine > 0 else a
+    return angle * np.sqrt(np.clip((np.diag(R) + 1) / 2, 0, None))
+
+
+@row.wrong("pi-for-the-angle")  # From 1e-4 below pi on.
+def _(R):
+    a, sine, angle = parts(R)
+    if angle < np.pi - 1e-4:
+        return a * (angle / sine) if sine > 0 else a
+    return np.pi * signed(column(R), a)
+
+
+@row.wrong("sign-of-the-axis")  # An axis from the symmetric part, whatever its sign.
+def _(R):
+    a, sine, angle = parts(R)
+    return a if sine < 1e-2 and angle < 1 else angle * column(R)
+
+
+@row.wrong("angle-over-pi")  # Any sign of the axis, and the angle that goes with it.
+def _(R):
+    a, sine, angle = parts(R)
+    if sine < 1e-2 and angle < 1:
+        return a
+    n = column(R)
+    return (angle if sine < 1e-9 or a @ n > 0 else 2 * np.pi - angle) * n
+
+
+@row.wrong(
+    "wrong-at-pi"
+)  # Right up to pi, where the sign is not that of the docstring.
+def _(R):
+    a, sine, angle = parts(R)
+    if cosine(R) > -0.9:
+        return a * (angle / sine) if sine > 0 else a
+    return angle * column(R) * (-1.0 if a @ column(R) <= 0 else 1.0)
+
+
+@row.wrong("all-signs")  # R is transposed.
+def _(R):
+    return log_rotation(R.T)
+
+
+@row.close("arccosine")  # Cut off at 1.
+def _(R):
+    a, sine, _ = parts(R)
+    angle = np.arccos(np.clip(cosine(R), -1, 1))
+    if cosine(R) > 0:
+        return a * (angle / sine) if sine > 1e-12 else a
+    return angle * signed(column(R), a)
+
+
+@row.close("zero-for-small-angles")  # As a near-zero test has it.
+def _(R):
+    return np.where(parts(R)[2] < 1e-6, 0.0, log_rotation(R))
+
+
+@row.close("zero-for-small-angles")  # All angles under 1e-4.
+def _(R):
+    return np.where(parts(R)[2] < 1e-4, 0.0, log_rotation(R))
+
+
+@row.close("rounded")  # To 6 decimals.
+def _(R):
+    return np.round(log_rotation(R), 6)
+
+
+@row.close("rounded-somewhere")  # A pi typed by hand.
+def _(R):
+    angle = np.linalg.norm(log_rotation(R))
+    return axis(R) * (3.1415927 - (np.pi - angle))
+
+
+@row.right  # The axis is what R leaves alone: an eigenvector of its symmetric part.
+def _(R):
+    a, sine, angle = parts(R)
+    if angle < 3:
+        return a if sine == 0 else angle * a / sine
+    n = np.linalg.eigh((R + R.T) / 2)[1][:, -1]
+    if a @ n < 0 or (sine < 1e-15 and n[np.argmax(np.abs(n))] < 0):
+        n = -n
+    return angle * n
+
+
+@row.right  # The unit quaternion, from the largest of its four squares.
+def _(R):
+    k = int(np.argmax([np.trace(R), *np.diag(R)]))
+    q = np.array([1 + np.trace(R), *vee(R)])
+    if k:
+        i, j, m = k - 1, k % 3, (k + 1) % 3
+        q[0], q[1 + i] = R[m, j] - R[j, m], 1 + R[i, i] - R[j, j] - R[m, m]
+        q[1 + j], q[1 + m] = R[i, j] + R[j, i], R[i, m] + R[m, i]
+    q = q / np.linalg.norm(q) * (-1.0 if q[0] < 0 else 1.0)
+    n = np.linalg.norm(q[1:])
+    return 2 * np.arctan2(n, q[0]) * q[1:] / n if n > 0 else np.zeros(3)

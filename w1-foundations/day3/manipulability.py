@@ -1,0 +1,154 @@
+"""3.7 `manipulability(J)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Scalar
+from labkit.judge.row import Row
+
+from .jacobians import OrNaN, near_singular
+
+# Rank 5: row 6 is the sum of two. Rounding makes the determinant of J J^T, and the
+# product of its eigenvalues, a bit less than 0 (with four ways to compute it).
+_ROWS = """
+-1 3 0 -3 3 3 0  -1 -2 2 -3 -3 3 0  -1 1 -3 1 -1 2 -1
+-2 0 -1 1 1 -3 -3  0 2 1 -1 1 -2 -1  -1 0 3 -4 -2 1 -1
+3 -3 1 1 -1 2 -1  -1 2 0 0 0 2 0  0 -3 3 0 -3 -2 2
+0 -2 -3 2 -1 -1 -3  0 2 3 3 -2 2 -1  3 -5 -2 3 -2 1 -4
+2 -1 2 1 0 -2 2  -1 2 2 -3 3 0 -1  3 -3 0 -1 -1 2 -1
+-3 2 -1 -1 3 -2 -2  1 1 3 1 1 3 -3  -4 4 1 -4 6 -2 -3
+"""
+SINGULAR = np.array(_ROWS.split(), dtype=float).reshape(3, 6, 7) / 8.0
+NAN_SAYS = (
+    "NaN comes back for some singular J: rounding leaves a bit less than 0 under "
+    "the root there, so it has to be cut off at 0"
+)
+NAN_HIDDEN = "rounding at q = 0 differs"
+
+
+class Number(OrNaN, Scalar):
+    """A number, or NaN."""
+
+
+row = Row(Number(), tolerance=1e-6)
+
+
+@row.inputs
+def _(rng):
+    first = np.hstack([np.diag([1.0, 2.0, 3.0, 1.0, 1.0, 1.0]), np.zeros((6, 1))])
+    return [(J,) for J in (first, *SINGULAR, *near_singular(rng))]
+
+
+def values(J):
+    """Return the singular values."""
+    return np.linalg.svd(J, compute_uv=False)
+
+
+@row.wrong(
+    "no-square-root",
+    "the square root is missing: this is det(J J^T)",
+    "det(J J^T)",
+)
+def _(J):
+    return np.linalg.det(J @ J.T)
+
+
+@row.wrong(
+    "other-product",
+    "J^T J is 7x7 and always singular; J J^T is the one that is meant",
+    "the root of det(J^T J)",
+)
+def _(J):
+    return np.sqrt(abs(np.linalg.det(J.T @ J)))
+
+
+@row.wrong(
+    "smallest-singular-value",
+    "this is the smallest singular value alone; the product of all six is asked for",
+    "the smallest singular value",
+)
+def _(J):
+    return values(J)[-1]
+
+
+@row.wrong(
+    "largest-singular-value",
+    "this is the largest singular value, the norm of J",
+    "the largest singular value",
+)
+def _(J):
+    return np.linalg.norm(J, 2)
+
+
+@row.wrong(
+    "sum-of-singular-values",
+    "the singular values are added; they have to be multiplied",
+    "the sum of the singular values",
+)
+def _(J):
+    return values(J).sum()
+
+
+@row.wrong(
+    "trace",
+    "this comes from the trace, which is the sum; the determinant is asked for",
+    "the root of the trace",
+)
+def _(J):
+    return np.sqrt(np.trace(J @ J.T))
+
+
+@row.wrong(
+    "inverse-condition",
+    "this is the smallest singular value over the largest one, another measure",
+    "the inverse of the condition number",
+)
+def _(J):
+    return values(J)[-1] / values(J)[0]
+
+
+@row.wrong(
+    "square-part",
+    "this is the determinant of the first six columns; joint 7 counts too",
+    "the determinant of six columns",
+)
+def _(J):
+    return abs(np.linalg.det(J[:, :6]))
+
+
+@row.wrong(
+    "position-only",
+    "only the three v rows of J are used; the rotation counts too",
+    "the root of det(J J^T) of three rows",
+)
+def _(J):
+    return values(J[3:]).prod()
+
+
+@row.wrong(
+    "nan-at-a-singularity",
+    NAN_SAYS,
+    "the root of det(J J^T), with its NaN,",
+    hidden=NAN_HIDDEN,
+)
+def _(J):
+    return np.sqrt(np.linalg.det(J @ J.T))
+
+
+@row.wrong(
+    "nan-at-a-singularity",
+    NAN_SAYS,
+    "the root of the eigenvalues' product, with its NaN,",
+    hidden=NAN_HIDDEN,
+)
+def _(J):
+    return np.sqrt(np.prod(np.linalg.eigvalsh(J @ J.T)))
+
+
+@row.wrong("raises")  # J is not square.
+def _(J):
+    return np.sqrt(np.linalg.det(J))
+
+
+@row.right  # The product of the singular values.
+def _(J):
+    return float(np.prod(values(J)))

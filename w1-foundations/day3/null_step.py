@@ -1,0 +1,173 @@
+"""3.8 `null_step(J, dq)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Case, Finding, Vector, draw
+from labkit.judge.compare import difference
+from labkit.judge.kinds import one_factor
+from labkit.judge.matrices import times
+from labkit.judge.row import Row
+from robo47.jacobian import dls_step
+
+from .jacobians import JOINTS, UNIT, site_jacobians
+
+pinv = np.linalg.pinv
+
+
+def what_the_hand_feels(case: Case) -> Finding | None:
+    """Return whether the hand feels the answer, and if not, what is wrong with it."""
+    J, S, T = case.arguments[0], case.S, case.T
+    if one_factor(case.ask.kinds[0], S, T):
+        return None  # which says more
+    felt = np.abs(times(J, S)).max(axis=1)
+    if felt.max() > 1e-5:
+        k = int((felt > 1e-5).sum())
+        return Finding(
+            "felt",
+            f"The hand feels it, for {k} of {len(S)} inputs: J times your answer has "
+            f"entries of up to {felt.max():.2g}, and should be 0.",
+        )
+    i = int(np.argmax(difference(S, T)))
+    return Finding(
+        "not-felt-but-off",
+        "The hand does not feel it (J times your answer is 0), but it is not the part "
+        f"of dq: its length is {np.linalg.norm(S[i]):.3g}, not "
+        f"{np.linalg.norm(T[i]):.3g}.",
+    )
+
+
+row = Row(Vector((7,), "rad", names=JOINTS), unnamed=what_the_hand_feels)
+
+
+@row.inputs
+def _(rng):
+    J = site_jacobians(draw.configurations(rng, 9))
+    J[0, 0] = 0.0  # rank 5: two motions are not felt
+    return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
+
+
+@row.wrong(
+    "transpose-for-pseudo-inverse",
+    "J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels it",
+    "dq - J^T J dq",
+)
+def _(J, dq):
+    return dq - J.T @ (J @ dq)
+
+
+@row.wrong(
+    "felt-part",
+    "this is the part that the hand does feel, J^+ J dq; the rest is asked for",
+    "J^+ J dq",
+)
+def _(J, dq):
+    return pinv(J) @ (J @ dq)
+
+
+@row.wrong("unchanged", "dq comes back as it was", "dq itself")
+def _(J, dq):
+    return dq.copy()
+
+
+@row.wrong(
+    "added",
+    "the part that the hand feels is added; it has to be taken away",
+    "dq + J^+ J dq",
+)
+def _(J, dq):
+    return dq + pinv(J) @ (J @ dq)
+
+
+@row.wrong(
+    "nothing-left",
+    "nothing is left: seven joints always have a motion that the hand does not feel",
+    "zeros",
+)
+def _(J, dq):
+    return np.zeros(7)
+
+
+@row.wrong(
+    "damped-projector",
+    "the pseudo-inverse in it is damped (by 0.05), so a part of the felt motion stays",
+    "the projector with damping",
+)
+def _(J, dq):
+    return dq - dls_step(J, J @ dq, 0.05)
+
+
+@row.wrong(
+    "damped-projector",
+    "the pseudo-inverse in it is damped (by 0.1), so a part of the felt motion stays",
+    "the projector with damping",
+)
+def _(J, dq):
+    return dq - dls_step(J, J @ dq, 0.1)
+
+
+@row.wrong(
+    "damped-projector",
+    "the pseudo-inverse in it is damped (by 0.01), so a part of the felt motion stays",
+    "the projector with damping",
+)
+def _(J, dq):
+    return dq - dls_step(J, J @ dq, 0.01)
+
+
+@row.wrong(
+    "normalised",
+    "its length is made 1; the part of dq that the hand does not feel has a length "
+    "of its own",
+    "the right one over its length",
+)
+def _(J, dq):
+    left = dq - pinv(J) @ (J @ dq)
+    return left / np.linalg.norm(left)
+
+
+@row.wrong(
+    "position-only",
+    "only the three v rows of J are used: the hand stays where it is, but it turns",
+    "the projector of three rows",
+)
+def _(J, dq):
+    return dq - pinv(J[3:]) @ (J[3:] @ dq)
+
+
+@row.wrong(
+    "one-direction-only",
+    "only the last right singular vector is kept. Where J is singular, there are "
+    "more motions that the hand does not feel",
+    "dq along that vector",
+    hidden="its J have rank 6",
+)
+def _(J, dq):
+    v = np.linalg.svd(J)[2][-1]
+    return (v @ dq) * v
+
+
+@row.wrong("felt")  # Joint 7 alone moves, as in the docstring.
+def _(J, dq):
+    return np.append(np.zeros(6), dq[6])
+
+
+@row.wrong("not-felt-but-off")  # The last right singular vector, whatever dq is.
+def _(J, dq):
+    return np.linalg.svd(J)[2][-1]
+
+
+@row.wrong("raises")  # J J^+ is 6x6.
+def _(J, dq):
+    return dq - J @ pinv(J) @ dq
+
+
+@row.right  # By least squares.
+def _(J, dq):
+    return dq - np.linalg.lstsq(J, J @ dq, rcond=None)[0]
+
+
+@row.right  # Along the right singular vectors whose value is 0.
+def _(J, dq):
+    _, values, Vt = np.linalg.svd(J)
+    N = Vt[np.sum(values > 1e-12 * values[0]) :]
+    return N.T @ (N @ dq)

@@ -1,0 +1,190 @@
+"""3.4 `pose_error(T, T_goal)`: its questions and its mistakes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from labkit.judge import Twist, draw
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.jacobian import log_rotation, pose_error
+from robo47.screws import exp_rotation, skew
+
+from .log_rotation import roll_pitch_yaw
+
+
+@dataclass(frozen=True)
+class Gap(Twist):
+    """A pose error: a rotation above, a translation below."""
+
+    halves = ("the rotation", "the translation")
+
+
+row = Row(Gap())
+
+
+@row.inputs
+def _(rng):
+    higher = np.eye(4)
+    higher[2, 3] = 0.1
+    T = draw.poses(rng, 8)
+    turn = exp_rotation(draw.units(rng, 8), rng.uniform(0.05, 3.0, 8))
+    goal = se3.make_T(turn @ T[:, :3, :3], draw.numbers(rng, -1, 1, 8, 3))
+    return [(np.eye(4), higher), *zip(T, goal, strict=True)]
+
+
+def with_rotation(T, T_goal, rotation):
+    """Return the error with another rotation half."""
+    return np.concatenate([rotation, T_goal[:3, 3] - T[:3, 3]])
+
+
+def with_translation(T, T_goal, translation):
+    """Return the error with another translation half."""
+    return np.concatenate([pose_error(T, T_goal)[:3], translation])
+
+
+def screw_log(D):
+    """Return the twist whose exponential is a pose."""
+    w, p = log_rotation(D[:3, :3]), D[:3, 3]
+    angle = np.linalg.norm(w)
+    if angle < 1e-6:
+        return np.concatenate([w, p])
+    K = skew(w / angle)
+    G = np.eye(3) - angle / 2 * K + (1 - angle / 2 / np.tan(angle / 2)) * K @ K
+    return np.concatenate([w, G @ p])
+
+
+@row.wrong(
+    "in-the-hands-axes",
+    "both halves are in the hand's axes; here they are in the world's",
+    "the error turned by R^T",
+)
+def _(T, T_goal):
+    D = np.linalg.inv(T) @ T_goal
+    return np.concatenate([log_rotation(D[:3, :3]), D[:3, 3]])
+
+
+@row.wrong(
+    "rotation-in-the-hands-axes",
+    "the rotation is in the hand's axes: this is log(R^T R_goal), which does not "
+    "go with J_site",
+    "the error with log(R^T R_goal)",
+)
+def _(T, T_goal):
+    return with_rotation(T, T_goal, log_rotation(T[:3, :3].T @ T_goal[:3, :3]))
+
+
+@row.wrong(
+    "rotation-sign",
+    "the rotation leads from the goal to the hand, the translation from the hand "
+    "to the goal",
+    "the error with log(R R_goal^T)",
+)
+def _(T, T_goal):
+    return with_rotation(T, T_goal, log_rotation(T[:3, :3] @ T_goal[:3, :3].T))
+
+
+@row.wrong(
+    "rotation-difference",
+    "rotation vectors are subtracted: log(R_goal) - log(R) is no rotation that "
+    "leads from one to the other",
+    "the difference of the two logs",
+)
+def _(T, T_goal):
+    difference = log_rotation(T_goal[:3, :3]) - log_rotation(T[:3, :3])
+    return with_rotation(T, T_goal, difference)
+
+
+@row.wrong(
+    "euler-difference",
+    "roll, pitch and yaw are subtracted: their difference is no rotation that "
+    "leads from one to the other",
+    "the difference of those angles",
+)
+def _(T, T_goal):
+    difference = roll_pitch_yaw(T_goal[:3, :3]) - roll_pitch_yaw(T[:3, :3])
+    return with_rotation(T, T_goal, difference)
+
+
+@row.wrong(
+    "body-twist",
+    "this is the body twist, log(T^-1 T_goal) of Modern Robotics: it goes with "
+    "J_body, but here the error has to go with J_site",
+    "the body twist",
+)
+def _(T, T_goal):
+    return screw_log(np.linalg.inv(T) @ T_goal)
+
+
+@row.wrong(
+    "space-twist",
+    "this is the twist log(T_goal T^-1): it goes with J_space, and its v is no "
+    "difference of positions; here the error has to go with J_site",
+    "that twist",
+)
+def _(T, T_goal):
+    return screw_log(T_goal @ np.linalg.inv(T))
+
+
+@row.wrong(
+    "rotations-multiplied",
+    "this is log(R_goal R): one of the two has to be undone",
+    "the error with log(R_goal R)",
+)
+def _(T, T_goal):
+    return with_rotation(T, T_goal, log_rotation(T_goal[:3, :3] @ T[:3, :3]))
+
+
+@row.wrong(
+    "translation-sign",
+    "the translation leads from the goal to the hand",
+    "the error with p - p_goal",
+)
+def _(T, T_goal):
+    return with_translation(T, T_goal, T[:3, 3] - T_goal[:3, 3])
+
+
+@row.wrong(
+    "translation-in-the-hands-axes",
+    "the translation is in the hand's axes (the last column of T^-1 T_goal); here "
+    "it is in the world's",
+    "the error with R^T (p_goal - p)",
+)
+def _(T, T_goal):
+    return with_translation(T, T_goal, (np.linalg.inv(T) @ T_goal)[:3, 3])
+
+
+@row.wrong(
+    "goal-position-for-translation",
+    "the lower half is where the goal is, not how far it is",
+    "the error with p_goal",
+)
+def _(T, T_goal):
+    return with_translation(T, T_goal, T_goal[:3, 3])
+
+
+@row.wrong(
+    "screw-for-translation",
+    "the lower half is the translation of T_goal T^-1, which is p_goal - R p with "
+    "the rotation between them as R; here it is p_goal - p",
+    "the error with that translation",
+)
+def _(T, T_goal):
+    return with_translation(T, T_goal, (T_goal @ np.linalg.inv(T))[:3, 3])
+
+
+row.reached_by(
+    "log_rotation",
+    "in the rotation, ",
+    but=("textbook-formula", "nan-at-0", "arccosine-beyond-1"),
+)
+
+
+@row.wrong("halves-swapped")  # The translation above.
+def _(T, T_goal):
+    return np.roll(pose_error(T, T_goal), 3)
+
+
+@row.wrong("all-signs")  # From the goal to the hand.
+def _(T, T_goal):
+    return pose_error(T_goal, T)

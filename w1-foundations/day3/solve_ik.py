@@ -1,0 +1,250 @@
+"""3.6 `solve_ik(screws, M, T_goal, q_start, limits)`: its questions and its mistakes.
+
+A loop that does not arrive wanders, so only its first steps are sure to be the
+student's; a mistake is named where all its answers are.
+"""
+
+import numpy as np
+
+from labkit.judge import Vector
+from labkit.judge.row import Row
+from robo47.jacobian import body_jacobian, dls_step, pose_error, space_jacobian
+from robo47.panda import READY_Q
+from robo47.screws import fk_space
+
+from . import targets
+from .jacobians import JOINTS
+from .loop import adaptive, at_hand, nearest, passed, walk
+
+row = Row(Vector((7,), "rad", names=JOINTS), accept=targets.arrived)
+row.inputs(targets.targets)
+
+BOTH_MOVE = "there both halves move"
+
+
+# Those that cost no loop come first.
+
+
+@row.wrong(
+    "one-step",
+    "there is one step only; the Jacobian is a straight line along a curve, so it "
+    "takes several",
+    "where one step leads",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return list(passed(screws, M, T_goal, q_start, limits, steps=1))[-1][0]
+
+
+@row.wrong(
+    "start-returned",
+    "the start comes back: no step is taken, or each one leads away from the "
+    "target (then the sign of the error is wrong)",
+    "q_start",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return q_start.copy()
+
+
+@row.wrong(
+    "step-returned",
+    "the last step comes back, not the configuration that the steps lead to",
+    "a step of 0",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return np.zeros(7)  # nothing is left of a step where the loop has arrived
+
+
+# The loop with a wrong part.
+
+
+@row.wrong(
+    "space-jacobian",
+    "the steps are made with J_space: its v is that of another point than the hand's",
+    "what J_space leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, limits, seen=lambda J_space, T: J_space)
+
+
+@row.wrong(
+    "body-jacobian",
+    "the steps are made with J_body, in the hand's axes; the error is in the world's",
+    "what J_body leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, limits, seen=body_jacobian)
+
+
+def in_the_hands_axes(T, T_goal):
+    """Return the error as the hand sees it."""
+    return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
+
+
+@row.wrong(
+    "error-in-the-hands-axes",
+    "the error is in the hand's axes; J_site is in the world's",
+    "what that error leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, limits, gap=in_the_hands_axes)
+
+
+@row.wrong(
+    "damping-not-squared",
+    "the squared damping is handed over as the damping, or its root is forgotten",
+    "what that damping leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
+
+
+@row.wrong(
+    "damping-not-squared",
+    "the damping in it is too large by far: it is not squared",
+    "what that damping leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(
+        screws, M, T_goal, q_start, limits, damping=lambda ee: np.sqrt(adaptive(ee))
+    )
+
+
+@row.wrong(
+    "limits-forgotten",
+    "the joint limits are not kept",
+    "what the loop without limits leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, None)
+
+
+@row.wrong(
+    "jacobian-never-updated",
+    "the Jacobian is that of the start; it changes with every step",
+    "what the first Jacobian leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
+    return walk(screws, M, T_goal, q_start, limits, seen=lambda *_: J)
+
+
+@row.wrong(
+    "q-start-unused",
+    "the loop starts from READY_Q: q_start is not used",
+    "what READY_Q leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, READY_Q, limits)
+
+
+@row.wrong(
+    "q-start-unused",
+    "the loop starts from q = 0, whatever q_start is",
+    "what q = 0 leads to",
+)
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, np.zeros(7), limits)
+
+
+# What `targets.arrived` says where the hand is.
+
+
+@row.wrong("position-only")  # Only the translation is steered.
+def _(screws, M, T_goal, q_start, limits):
+    def gap(T, T_goal):
+        return pose_error(T, T_goal) * [0, 0, 0, 1, 1, 1]
+
+    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+
+
+@row.wrong("position-only", hidden=BOTH_MOVE)  # The best is chosen by it.
+def _(screws, M, T_goal, q_start, limits):
+    return nearest(passed(screws, M, T_goal, q_start, limits), part=slice(3, 6))
+
+
+def stopped(loop, part, at=1e-8):
+    """Return the first q whose error is short enough, or else the best."""
+    so_far = []
+    for q, e in loop:
+        so_far.append((q, e))
+        if np.linalg.norm(e[part]) < at:
+            break
+    return nearest(so_far)
+
+
+@row.wrong("position-only", hidden=BOTH_MOVE)  # It stops as soon as it is right.
+def _(screws, M, T_goal, q_start, limits):
+    return stopped(passed(screws, M, T_goal, q_start, limits), slice(3, 6))
+
+
+@row.wrong("rotation-only", hidden=BOTH_MOVE)  # It stops as soon as it is right.
+def _(screws, M, T_goal, q_start, limits):
+    return stopped(passed(screws, M, T_goal, q_start, limits), slice(3))
+
+
+@row.wrong("not-reached")  # Three digits are thought to be enough.
+def _(screws, M, T_goal, q_start, limits):
+    return stopped(passed(screws, M, T_goal, q_start, limits), slice(6), 1e-3)
+
+
+@row.wrong("not-reached", hidden="few of its targets are at a limit")
+def _(screws, M, T_goal, q_start, limits):  # The limits are kept at the end only.
+    return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
+
+
+@row.wrong("start-not-kept")  # It starts beside q_start.
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start + 0.05, limits)
+
+
+@row.wrong("no-nearer")  # The middle of the limits comes back for what is not reached.
+def _(screws, M, T_goal, q_start, limits):
+    q = walk(screws, M, T_goal, q_start, limits)
+    e = pose_error(fk_space(screws, M, q), T_goal)
+    return q if np.linalg.norm(e) < 1e-8 else limits.mean(axis=1)
+
+
+@row.wrong("not-the-best", hidden="its far targets end at their best")
+def _(screws, M, T_goal, q_start, limits):
+    return list(passed(screws, M, T_goal, q_start, limits))[-1][0]
+
+
+@row.wrong("beyond-a-limit", hidden="joint 4 ends there seldom")
+def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
+    low, high = np.minimum(limits[:, 0], 0), np.maximum(limits[:, 1], 0)
+    return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
+
+
+@row.wrong("limits-forgotten")  # Angles are wrapped to +-pi instead.
+def _(screws, M, T_goal, q_start, limits):
+    return (walk(screws, M, T_goal, q_start, None) + np.pi) % (2 * np.pi) - np.pi
+
+
+@row.wrong("start-returned")  # The error's sign.
+def _(screws, M, T_goal, q_start, limits):
+    def gap(T, T_goal):
+        return -pose_error(T, T_goal)
+
+    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+
+
+@row.right  # The error and the Jacobian are the hand's: they go together too.
+def _(screws, M, T_goal, q_start, limits):
+    return walk(
+        screws, M, T_goal, q_start, limits, seen=body_jacobian, gap=in_the_hands_axes
+    )
+
+
+@row.right  # The damping shrinks after a good step and grows after a bad one.
+def _(screws, M, T_goal, q_start, limits):
+    q, damping = q_start.copy(), 0.1
+    T = fk_space(screws, M, q)
+    for _ in range(60):
+        J, e = at_hand(space_jacobian(screws, q), T), pose_error(T, T_goal)
+        new = np.clip(q + dls_step(J, e, damping), *limits.T)
+        T_new = fk_space(screws, M, new)
+        if np.linalg.norm(pose_error(T_new, T_goal)) < np.linalg.norm(e):
+            q, T, damping = new, T_new, max(damping / 3, 1e-6)
+        else:
+            damping = 3 * damping
+    return q

@@ -1,0 +1,242 @@
+"""3.1 `space_jacobian(screws, q)`: its questions and its mistakes."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from labkit.judge import Jacobian, draw
+from labkit.judge.argument_mistakes import DEGREES, NEGATED, RADIANS_TWICE
+from labkit.judge.row import Row
+from robo47 import screws as day2
+from robo47.jacobian import space_jacobian
+from robo47.screws import adjoint, exp_screw, fk_space, skew
+
+from .jacobians import arm
+
+row = Row(Jacobian())
+
+
+@row.inputs
+def _(rng):
+    S, _, _ = arm()
+    some = [draw.ZERO, draw.READY, *draw.configurations(rng, 4)]
+    nobody_has = [(_other_arm(rng), q) for q in draw.configurations(rng, 2)]
+    last = draw.configurations(rng, 3)
+    return [*((S, q) for q in some), *nobody_has, *((S, q) for q in last)]
+
+
+def _other_arm(rng):
+    """Return screws of an arm that nobody has: unit axes, points anywhere."""
+    points = draw.numbers(rng, -1, 1, 7, 3)
+    return day2.screw_axis(draw.units(rng, 7), points)
+
+
+def products(screws, q):
+    """Return how the first 0 to 7 joints have moved what is behind them."""
+    moved = [np.eye(4)]
+    for S, theta in zip(screws, q, strict=True):
+        moved.append(moved[-1] @ exp_screw(S, theta))
+    return moved
+
+
+def carried(screws, moved, adjoint=adjoint):
+    """Return the Jacobian whose columns are screws carried by motions."""
+    return np.array([adjoint(T) @ S for S, T in zip(screws, moved, strict=False)]).T
+
+
+ZERO = np.zeros((3, 3))
+
+
+@row.wrong(
+    "screws-constant",
+    "the columns are the screws at q = 0; the joints before a joint have moved its "
+    "screw",
+    "the screws as columns",
+)
+def _(screws, q):
+    return screws.T.copy()
+
+
+@row.wrong(
+    "last-joint-only",
+    "each screw is moved by the one joint before it; all joints before it move it",
+    "the Jacobian with one exponential per column",
+)
+def _(screws, q):
+    return carried(screws, [np.eye(4), *exp_screw(screws, q)])
+
+
+@row.wrong(
+    "product-reversed",
+    "the exponentials are multiplied in the reverse order: the first joint's "
+    "stands on the left",
+    "the Jacobian with the reversed product",
+)
+def _(screws, q):
+    T, columns = np.eye(4), []
+    for S, theta in zip(screws, q, strict=True):
+        columns.append(adjoint(T) @ S)
+        T = exp_screw(S, theta) @ T
+    return np.array(columns).T
+
+
+@row.wrong(
+    "one-joint-late",
+    "each screw lacks the motion of the joint right before it: the product is used "
+    "before that joint is in it",
+    "the Jacobian one joint late",
+)
+def _(screws, q):
+    return carried(screws, [np.eye(4), *products(screws, q)])
+
+
+@row.wrong(
+    "moved-by-the-next",
+    "each screw is moved by the joint behind it too, which it does not feel",
+    "the Jacobian one joint too far",
+)
+def _(screws, q):
+    moved = products(screws, q)
+    return carried(screws, [*moved[2:], moved[-1]])
+
+
+@row.wrong(
+    "moved-by-all",
+    "every screw is moved by all seven joints; only those before it carry it",
+    "the Jacobian with the whole product",
+)
+def _(screws, q):
+    return adjoint(products(screws, q)[-1]) @ screws.T
+
+
+@row.wrong(
+    "adjoint-of-the-inverse",
+    "the screws are carried the other way: this is Ad of the inverse",
+    "the Jacobian with the inverse",
+)
+def _(screws, q):
+    return carried(screws, np.linalg.inv(products(screws, q)))
+
+
+@row.wrong(
+    "bracket-top-right",
+    "in the adjoint, [p] R stands top right; with (omega; v) it stands bottom left",
+    "the Jacobian with that adjoint",
+)
+def _(screws, q):
+    def own(T):
+        R, p = T[:3, :3], T[:3, 3]
+        return np.block([[R, skew(p) @ R], [ZERO, R]])
+
+    return carried(screws, products(screws, q), own)
+
+
+@row.wrong(
+    "bracket-after-R",
+    "in the adjoint, R [p] stands where [p] R belongs",
+    "the Jacobian with that adjoint",
+)
+def _(screws, q):
+    def own(T):
+        R, p = T[:3, :3], T[:3, 3]
+        return np.block([[R, ZERO], [R @ skew(p), R]])
+
+    return carried(screws, products(screws, q), own)
+
+
+@row.wrong(
+    "rotation-only",
+    "the screws are only rotated; where the joints have moved to is left out ([p] "
+    "R is missing in the adjoint)",
+    "the Jacobian with R alone",
+)
+def _(screws, q):
+    def own(T):
+        return np.kron(np.eye(2), T[:3, :3])
+
+    return carried(screws, products(screws, q), own)
+
+
+@row.wrong(
+    "translation-only",
+    "the screws are only translated; the rotation R is left out of the adjoint",
+    "the Jacobian with I for R",
+)
+def _(screws, q):
+    def own(T):
+        return np.block([[np.eye(3), ZERO], [skew(T[:3, 3]), np.eye(3)]])
+
+    return carried(screws, products(screws, q), own)
+
+
+row.of_argument(
+    "q",
+    replace(
+        NEGATED,
+        slug="all-backwards",
+        says="every joint turns the other way, by -q",
+        redone="the Jacobian at -q",
+    ),
+    replace(
+        RADIANS_TWICE,
+        slug="degrees",
+        says="q comes in radians, and is used as degrees",
+        redone="the Jacobian at 180 / pi times q",
+    ),
+    replace(
+        DEGREES,
+        slug="radians-taken-for-degrees",
+        says="q is in radians already, and is converted from degrees once more",
+        redone="the Jacobian at pi / 180 times q",
+    ),
+)
+
+
+@row.wrong(
+    "columns-reversed",
+    "the columns are in the reverse order: joint 1's comes first",
+    "the right one with its columns reversed",
+)
+def _(screws, q):
+    return space_jacobian(screws, q)[:, ::-1]
+
+
+@row.wrong("columns-off")  # The loop ends one joint early.
+def _(screws, q):
+    J = space_jacobian(screws, q)
+    J[:, 6] = 0.0
+    return J
+
+
+@row.wrong("rows-swapped")  # MuJoCo's and Pinocchio's order: v above omega.
+def _(screws, q):
+    return np.roll(space_jacobian(screws, q), 3, axis=0)
+
+
+@row.wrong("shape")  # One row per joint: (7, 6).
+def _(screws, q):
+    return space_jacobian(screws, q).T
+
+
+@row.close("rounded-somewhere")  # By central differences of the pose.
+def _(screws, q):
+    J, back = np.zeros((6, 7)), np.linalg.inv(fk_space(screws, np.eye(4), q))
+    for i, d in enumerate(1e-3 * np.eye(7)):
+        ahead, behind = (fk_space(screws, np.eye(4), x) for x in (q + d, q - d))
+        V = (ahead - behind) / 2e-3 @ back
+        J[:, i] = V[2, 1], V[0, 2], V[1, 0], *V[:3, 3]
+    return J
+
+
+@row.right  # Each screw is moved by its own exponential as well: it does not change it.
+def _(screws, q):
+    return carried(screws, products(screws, q)[1:])
+
+
+@row.right  # The adjoint of a product is the product of the adjoints.
+def _(screws, q):
+    A, columns = np.eye(6), []
+    for S, theta in zip(screws, q, strict=True):
+        columns.append(A @ S)
+        A = A @ adjoint(exp_screw(S, theta))
+    return np.column_stack(columns)
