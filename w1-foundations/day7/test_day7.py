@@ -14,6 +14,7 @@ from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
 from conftest import ROOT, load_script, need
+from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import capstone, panda, scenes, se3, simulate, trajectory
@@ -82,8 +83,7 @@ def test_the_cases_of_the_docstrings():
 
 
 def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
-    named = {m.slug: m for m in reversed(_mistakes("scalings", "SCALING"))}
-    t, T = np.array([0.6]), np.array([2.0])
+    named = {way.slug: way for way in reversed(row_of(DAY, "quintic_scaling").ways)}
     numbers = {
         "cubic": [0.216, 0.63, 0.6],
         "sd-not-divided": [0.16308, 1.323, 1.26],
@@ -91,12 +91,7 @@ def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
         "6-and-10-swapped": [0.0648, 0.2025, 0.0],
     }
     for slug, wanted in numbers.items():
-        assert_same(named[slug].redo(t, T)[0], wanted, 1e-12)
-
-
-def _mistakes(module, of):
-    folder.load(DAY, "questions")
-    return getattr(importlib.import_module(f"lesson_day7.mistakes.{module}"), of)
+        assert_same(named[slug].code(0.6, 2.0), wanted, 1e-12)
 
 
 # --- sentences of the guide ---

@@ -7,7 +7,7 @@ another mistake too hears of that one first.
 import numpy as np
 
 from labkit.judge import HeldOut, draw
-from robo47 import se3, trajectory
+from robo47 import se3
 from robo47.checks import Array
 
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
@@ -42,10 +42,8 @@ def _small(rng: np.random.Generator) -> list:
     return _ends(draw.rotations(rng, len(SMALL)), turns, 0.7, rng)
 
 
-def _not_turned(T0: Array, T1: Array, s: Array) -> Array:
-    T = trajectory.straight_pose(T0, T1, s)
-    T[:, :3, :3] = T0[:, :3, :3]
-    return T
+def _not_turned(T0: Array, T1: Array, s: float) -> Array:
+    return se3.make_T(T0[:3, :3], T0[:3, 3] + s * (T1[:3, 3] - T0[:3, 3]))
 
 
 TURNS = [
