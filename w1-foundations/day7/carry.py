@@ -27,7 +27,7 @@ def centre(m1, c1, m2, c2):
     return (m1 * c1 + m2 * c2) / (m1 + m2)
 
 
-def apart(d):
+def parallel_axes(d):
     """Return the inertia of 1 kg that is d away: the parallel-axis theorem."""
     return d @ d * np.eye(3) - np.outer(d, d)
 
@@ -39,11 +39,13 @@ def ten(m, c, inertia):
 
 def about(c, m1, c1, I1, m2, c2, I2):
     """Return the answer with another centre."""
-    return ten(m1 + m2, c, I1 + m1 * apart(c1 - c) + I2 + m2 * apart(c2 - c))
+    return ten(
+        m1 + m2, c, I1 + m1 * parallel_axes(c1 - c) + I2 + m2 * parallel_axes(c2 - c)
+    )
 
 
-def by(theorem, m1, c1, I1, m2, c2, I2):
-    """Return the answer with another theorem in the place of `apart`."""
+def by_theorem(theorem, m1, c1, I1, m2, c2, I2):
+    """Return the answer with another theorem instead of `parallel_axes`."""
     c = centre(m1, c1, m2, c2)
     return ten(m1 + m2, c, I1 + m1 * theorem(c1 - c) + I2 + m2 * theorem(c2 - c))
 
@@ -65,7 +67,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m1 * apart(c1) + I2 + m2 * apart(c2))
+    return ten(m, c, I1 + m1 * parallel_axes(c1) + I2 + m2 * parallel_axes(c2))
 
 
 @row.wrong(
@@ -76,7 +78,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m2 * apart(c2 - c))
+    return ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c))
 
 
 @row.wrong(
@@ -86,7 +88,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m1 * apart(c1 - c) + I2)
+    return ten(m, c, I1 + m1 * parallel_axes(c1 - c) + I2)
 
 
 @row.wrong(
@@ -96,7 +98,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m2 * apart(c2 - c1))
+    return ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c1))
 
 
 @row.wrong(
@@ -107,7 +109,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m * apart(c2 - c1))
+    return ten(m, c, I1 + I2 + m * parallel_axes(c2 - c1))
 
 
 @row.wrong(
@@ -116,7 +118,7 @@ def _(m1, c1, I1, m2, c2, I2):
     "the answer with a minus",
 )
 def _(m1, c1, I1, m2, c2, I2):
-    return by(lambda d: -apart(d), m1, c1, I1, m2, c2, I2)
+    return by_theorem(lambda d: -parallel_axes(d), m1, c1, I1, m2, c2, I2)
 
 
 @row.wrong(
@@ -126,7 +128,7 @@ def _(m1, c1, I1, m2, c2, I2):
     "the answer without d d^T",
 )
 def _(m1, c1, I1, m2, c2, I2):
-    return by(lambda d: d @ d * np.eye(3), m1, c1, I1, m2, c2, I2)
+    return by_theorem(lambda d: d @ d * np.eye(3), m1, c1, I1, m2, c2, I2)
 
 
 @row.wrong(
@@ -135,14 +137,16 @@ def _(m1, c1, I1, m2, c2, I2):
     "the answer with d d^T",
 )
 def _(m1, c1, I1, m2, c2, I2):
-    return by(lambda d: np.outer(d, d), m1, c1, I1, m2, c2, I2)
+    return by_theorem(lambda d: np.outer(d, d), m1, c1, I1, m2, c2, I2)
 
 
 @row.wrong(
     "dyad-sign", "d d^T has to come off, not to be added", "the answer with + d d^T"
 )
 def _(m1, c1, I1, m2, c2, I2):
-    return by(lambda d: d @ d * np.eye(3) + np.outer(d, d), m1, c1, I1, m2, c2, I2)
+    return by_theorem(
+        lambda d: d @ d * np.eye(3) + np.outer(d, d), m1, c1, I1, m2, c2, I2
+    )
 
 
 @row.wrong(
@@ -151,7 +155,7 @@ def _(m1, c1, I1, m2, c2, I2):
     "the answer with |d|",
 )
 def _(m1, c1, I1, m2, c2, I2):
-    return by(
+    return by_theorem(
         lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d), m1, c1, I1, m2, c2, I2
     )
 
@@ -163,7 +167,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + apart(c1 - c) + I2 + apart(c2 - c))
+    return ten(m, c, I1 + parallel_axes(c1 - c) + I2 + parallel_axes(c2 - c))
 
 
 @row.wrong(
@@ -173,7 +177,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m * apart(c1 - c) + I2 + m * apart(c2 - c))
+    return ten(m, c, I1 + m * parallel_axes(c1 - c) + I2 + m * parallel_axes(c2 - c))
 
 
 @row.wrong(
@@ -183,7 +187,7 @@ def _(m1, c1, I1, m2, c2, I2):
 )
 def _(m1, c1, I1, m2, c2, I2):
     m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m2 * apart(c1 - c) + I2 + m1 * apart(c2 - c))
+    return ten(m, c, I1 + m2 * parallel_axes(c1 - c) + I2 + m1 * parallel_axes(c2 - c))
 
 
 @row.wrong(
