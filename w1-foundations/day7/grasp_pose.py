@@ -36,14 +36,14 @@ def yaw_of(T):
 
 
 def tool(T_world_cube, above, yaw):
-    """Return the tool over the cube at a yaw."""
+    """Return the tool's pose over the cube, turned by a yaw of one's own."""
     T = se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3])
     T[2, 3] += above
     return T
 
 
 def turned_over(T, other):
-    """Return the tool's pose with another matrix in the place of DOWN."""
+    """Return the tool's pose with another matrix instead of DOWN."""
     T = T.copy()
     T[:3, :3] = T[:3, :3] @ DOWN @ other
     return T

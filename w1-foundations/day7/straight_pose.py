@@ -30,7 +30,7 @@ def exp(w):
 
 
 def line(T0, T1, s, R):
-    """Return the pose on the straight line whose first three columns hold R."""
+    """Return the pose at s of the straight line, with another rotation."""
     T = np.eye(4)
     T[:3, :3] = R
     T[:3, 3] = T0[:3, 3] + s * (T1[:3, 3] - T0[:3, 3])
@@ -38,7 +38,7 @@ def line(T0, T1, s, R):
 
 
 def at(T0, T1, s, p):
-    """Return the pose at s, but at another place."""
+    """Return the pose at s of the right turn, at another place."""
     return se3.make_T(straight_pose(T0, T1, s)[:3, :3], p)
 
 

@@ -32,7 +32,7 @@ def timing(L, v, a):
 
 
 def profile(t, L, a, top, T):
-    """Return the three pieces, whatever the top speed and the duration are."""
+    """Return position, speed and acceleration for any top speed and duration."""
     ramp, left = top / a, T - t
     if t <= 0:
         return np.zeros(3)
@@ -46,7 +46,7 @@ def profile(t, L, a, top, T):
 
 
 def to_top(t, L, a, top):
-    """Return the three pieces of another top speed."""
+    """Return position, speed and acceleration of another top speed."""
     return profile(t, L, a, top, L / top + top / a)
 
 
