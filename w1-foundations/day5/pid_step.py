@@ -360,5 +360,5 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
 
 @row.right  # A list of two, in plain Python.
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
-    new = [min(max(i + x * dt, -clamp), clamp) for i, x in zip(integral, e)]  # noqa: B905
+    new = [min(max(i + x * dt, -clamp), clamp) for i, x in zip(integral, e)]
     return [kp * e + kd * ed + ki * np.array(new), new]
