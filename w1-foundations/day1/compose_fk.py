@@ -8,8 +8,8 @@ from itertools import combinations
 import mujoco
 import numpy as np
 
-from labkit.judge import HeldOut, Pose, Probe
 from labkit.base.exchange import Path
+from labkit.judge import HeldOut, Pose, Probe
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
 from labkit.judge.row import Row

@@ -10,8 +10,8 @@ from functools import cache, lru_cache, reduce
 
 import numpy as np
 
-from labkit.judge import Robot, draw
 from labkit.base.exchange import Path
+from labkit.judge import Robot, draw
 from labkit.judge.matrices import pose
 from robo47 import se3, verify
 from robo47.checks import Array

@@ -8,15 +8,13 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from conftest import ROOT, load_script, need
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from labkit.log import read_rows
-from robo47 import control, panda, simulate
+from robo47 import panda, simulate
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day5-lab.md").read_text("utf-8").split())
@@ -53,30 +51,6 @@ def decay(bench, law, seconds, rate=500.0):
 # --- the functions ---
 
 
-@given(st.integers(0, 2**32 - 1))
-def test_the_labs_functions_agree_with_the_library(seed):
-    rng = np.random.default_rng(seed)
-    e, ed, kp, kd, g, x = rng.uniform(0.1, 9.0, (6, 7)) * rng.choice([-1, 1], (6, 7))
-    kp, kd = np.abs(kp), np.abs(kd)
-    omega, zeta = rng.uniform(1, 40), rng.choice([0.2, 0.9, 1.0, 1.1, 3.0])
-    M, clamp = rng.normal(size=(7, 7)), rng.uniform(0.01, 5)
-    t = np.linspace(0, 1, 11)
-    for name, args in {
-        "pd_torque": (e, ed, kp, kd),
-        "gains": (omega, zeta),
-        "sag_step": (x, g, kp),
-        "gravity_pd": (e, ed, kp, kd, g),
-        "computed_torque": (M, g, kd, ed, e, x, g, 400.0, 40.0),
-        "pid_step": (e, ed, x, 400.0, 40.0, 900.0, 0.01, clamp),
-        "saturate": (g, kp),
-        "fastest": (0.1 * clamp,),
-        "servo_ctrl": (g, e, ed, kp, kd),
-        "error_response": (t, omega, zeta),
-    }.items():
-        ours, theirs = getattr(lab, name)(*args), getattr(control, name)(*args)
-        assert_same(np.array(ours), np.array(theirs), 1e-9)
-
-
 @pytest.mark.parametrize("zeta", [0.1, 0.5, 1.0, 2.0, 5.0])
 def test_the_error_response_solves_its_equation(zeta):
     t, (kp, kd) = np.linspace(0, 0.5, 21), lab.gains(12.0, zeta)
@@ -87,23 +61,10 @@ def test_the_error_response_solves_its_equation(zeta):
     assert_same(lab.error_response(t, 12.0, zeta), truth.y[0], 1e-9)
 
 
-def test_the_worked_cases_in_the_docstrings_are_true():
-    one, none = np.eye(7)[0], np.zeros(7)
-    assert lab.pd_torque(0.1 * one, none, 100.0, 20.0)[0] == pytest.approx(10.0)
-    assert_same(lab.gains(20.0, 1.0), [400.0, 40.0], 0.0)
-    assert lab.error_response(np.array([0.1]), 10.0, 1.0)[0] == pytest.approx(
-        0.7358, abs=5e-5
-    )
-    assert_same(lab.sag_step(none, 10.0 * one, 100.0), -0.1 * one, 1e-16)
-    assert_same(lab.gravity_pd(none, none, 100.0, 20.0, one), one, 0.0)
-    bias = np.arange(7.0)
-    rest = (np.eye(7), bias, np.ones(7), none, none, none, none, 400.0, 40.0)
-    assert_same(lab.computed_torque(*rest), bias, 0.0)
-    _, integral = lab.pid_step(one, none, none, 400.0, 40.0, 4000.0, 0.1, 1.0)
-    assert_same(integral, 0.1 * one, 1e-16)
-    assert lab.saturate(100.0 * one, np.full(7, 87.0))[0] == 87.0
+def test_the_rounded_numbers_in_the_docstrings_are_true():
+    after = lab.error_response(np.array([0.1]), 10.0, 1.0)[0]
+    assert after == pytest.approx(0.7358, abs=5e-5)
     assert lab.fastest(0.002) == pytest.approx(414.2, abs=0.05)
-    assert_same(lab.servo_ctrl(none, bias, none, 4500.0, 450.0), bias, 0.0)
 
 
 def test_the_reference_starts_and_ends_at_rest_and_is_its_own_derivative():

@@ -14,6 +14,7 @@ from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
 from conftest import ROOT, load_script, need
+from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import capstone, panda, scenes, se3, simulate, trajectory
@@ -63,27 +64,16 @@ def test_speed_and_acceleration_are_the_derivatives(seed):
     assert_same((after[:2] - before[:2]) / (2 * h), now[1:], 1e-6)
 
 
-def test_the_cases_of_the_docstrings():
+def test_the_rounded_numbers_of_the_docstrings():
     assert_same(lab.quintic_scaling(0.6, 2.0), [0.16308, 0.6615, 1.26], 1e-12)
-    one = np.eye(7)[0]
     free = np.full(7, np.inf)
-    assert lab.quintic_duration(one, np.full(7, 1.875), free) == 1.0
-    assert_same(lab.trapezoid(1.0, 1.0, 0.5, 1.0), [0.375, 0.5, 0.0], 1e-12)
+    assert lab.quintic_duration(np.eye(7)[0], np.full(7, 1.875), free) == 1.0
     assert_same(lab.trapezoid(0.4472 / 2, 0.1, 1.0, 2.0)[:2], [0.05, 0.4472], 1e-4)
-    six = lab.quintic_coefficients(np.zeros(3), np.array([1.0, 0, 0]), 1.0)
-    assert_same(six, [0, 0, 0, 10, -15, 6], 1e-12)
-    cube = se3.make_T(se3.Rz(np.radians(80)), np.zeros(3))
-    turned = se3.Rz(np.radians(-10)) @ np.diag([1, -1, -1])
-    assert_same(lab.grasp_pose(cube, 0.1)[:3, :3], turned, 1e-12)
-    none, far = np.zeros((3, 3)), np.array([2.0, 0, 0])
-    both = lab.carry(1.0, np.zeros(3), none, 1.0, far, none)
-    assert_same(both, [2, 1, 0, 0, 0, 2, 2, 0, 0, 0])
     assert lab.heaviest_cube(0.9247, 1.0, 0.0) == pytest.approx(0.189, abs=5e-4)
 
 
 def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
-    named = {m.slug: m for m in reversed(_mistakes("scalings", "SCALING"))}
-    t, T = np.array([0.6]), np.array([2.0])
+    named = {way.slug: way for way in reversed(row_of(DAY, "quintic_scaling").ways)}
     numbers = {
         "cubic": [0.216, 0.63, 0.6],
         "sd-not-divided": [0.16308, 1.323, 1.26],
@@ -91,12 +81,7 @@ def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
         "6-and-10-swapped": [0.0648, 0.2025, 0.0],
     }
     for slug, wanted in numbers.items():
-        assert_same(named[slug].redo(t, T)[0], wanted, 1e-12)
-
-
-def _mistakes(module, of):
-    folder.load(DAY, "questions")
-    return getattr(importlib.import_module(f"lesson_day7.mistakes.{module}"), of)
+        assert_same(named[slug].code(0.6, 2.0), wanted, 1e-12)
 
 
 # --- sentences of the guide ---

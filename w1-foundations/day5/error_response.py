@@ -1,0 +1,343 @@
+"""5.3 `error_response(t, omega, zeta)`: its questions and its mistakes.
+
+Where a mistake is in one of the three cases alone, the library answers the others.
+"""
+
+import numpy as np
+
+from labkit.judge import Vector, draw
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
+from labkit.judge.row import Row
+from robo47.control import error_response
+
+TIMES = np.array([0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5])
+MIXED = np.array([0.1, 0.3, 0.15, 0.5, 0.2, 0.4, 0.25, 0.35])
+FROM_0 = "t there begins at 0, in order"  # why a lab's run cannot show it
+
+
+def which_case(case: Case) -> Finding | None:
+    """Say for which zeta or times the curve is wrong, and whether it starts at 1."""
+    t, _, zeta = case.arguments
+    right = np.abs(case.S - case.T).max(axis=1) < 1e-8
+    usual = (t[:, 0] == 0.0) & (np.diff(t, axis=1) > 0.0).all(axis=1)
+    if right[usual].all():
+        says = "Right where t begins at 0 and grows, wrong for other times: entry i of "
+        return Finding("times-wrong", f"{says}the answer belongs to entry i of t.")
+    cases = {
+        "zeta = 1": zeta == 1.0,
+        "zeta under 1": zeta < 1.0,
+        "zeta over 1": zeta > 1.0,
+    }
+    wrong = [name for name, some in cases.items() if not right[some & usual].all()]
+    if len(wrong) == len(cases):
+        if np.abs(case.S[t == 0.0] - 1.0).max() < 1e-8:
+            return None
+        says = "At t = 0 the error is 1; here it is not, for some zeta."
+        return Finding("does-not-start-at-one", says)
+    says = f"Wrong for {' and for '.join(wrong)}, right otherwise."
+    return Finding("one-case-wrong", says)
+
+
+row = Row(Vector((len(TIMES),)), unnamed=which_case)
+
+
+@row.inputs
+def _(rng):
+    zetas = [1.0, *draw.numbers(rng, 0.1, 0.9, 4), 1.0, *draw.numbers(rng, 1.1, 3, 4)]
+    omegas = [10.0, *draw.numbers(rng, 4, 30, 9)]
+    drawn = [(TIMES, float(w), float(z)) for w, z in zip(omegas, zetas, strict=True)]
+    near = [(TIMES, 10.0, zeta) for zeta in (0.9995, 1.0005)]
+    mixed = [(MIXED, 4.0, zeta) for zeta in (0.5, 1.0, 1.5)]
+    return [drawn[0], *near, *mixed, *drawn[1:]]
+
+
+def damped(omega, zeta):
+    """Return the frequency of the swing under zeta = 1."""
+    return omega * np.sqrt(1.0 - zeta**2)
+
+
+def rates(omega, zeta):
+    """Return the slow and the fast rate of the decay over zeta = 1."""
+    spread = omega * np.sqrt(zeta**2 - 1.0)
+    return zeta * omega - spread, zeta * omega + spread
+
+
+@row.wrong(
+    "one-formula-for-all", "zeta is not looked at: this is critical damping, every time"
+)
+def _(t, omega, zeta):
+    return (1.0 + omega * t) * np.exp(-omega * t)
+
+
+@row.wrong(
+    "envelope-alone",
+    "this is the envelope, e^(-zeta omega t); the error starts at rest, and this "
+    "curve starts with a slope",
+)
+def _(t, omega, zeta):
+    return np.exp(-zeta * omega * t)
+
+
+@row.wrong(
+    "envelope-of-omega",
+    "this is e^(-omega t), whatever zeta is; the error starts at rest, and this curve "
+    "starts with a slope",
+)
+def _(t, omega, zeta):
+    return np.exp(-omega * t)
+
+
+@row.wrong(
+    "half-the-damping",
+    "this is the curve of half the zeta: the equation has 2 zeta omega before ed",
+)
+def _(t, omega, zeta):
+    return error_response(t, omega, zeta / 2.0)
+
+
+@row.wrong(
+    "window-around-one",
+    "zeta near 1 gets the formula of zeta = 1, which is right at 1 alone; only "
+    "rounding, 1e-9 say, may count as 1",
+    hidden="no zeta there is so near to 1",
+)
+def _(t, omega, zeta):
+    return error_response(t, omega, 1.0 if abs(zeta - 1.0) < 0.05 else zeta)
+
+
+@row.wrong(
+    "time-from-the-first",
+    "time is counted from the first of t; t = 0 is where the error was 1, whether it "
+    "is in t or not",
+    hidden=FROM_0,
+)
+def _(t, omega, zeta):
+    return error_response(t - t[0], omega, zeta)
+
+
+@row.wrong(
+    "times-sorted",
+    "the times are sorted first; entry i of the answer belongs to entry i of t",
+    hidden=FROM_0,
+)
+def _(t, omega, zeta):
+    return error_response(np.sort(t), omega, zeta)
+
+
+@row.wrong(
+    "first-entry-one",
+    "the first entry is set to 1, whatever the first time is; only at t = 0 the error "
+    "is 1",
+    hidden=FROM_0,
+)
+def _(t, omega, zeta):
+    e = error_response(t, omega, zeta)
+    e[0] = 1.0
+    return e
+
+
+@row.wrong(
+    "output-in-place-of-error",
+    "this rises from 0 to 1: it is what the joint does, and the error is the rest",
+)
+def _(t, omega, zeta):
+    return 1.0 - error_response(t, omega, zeta)
+
+
+@row.wrong(
+    "omega-in-turns",
+    "omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s",
+)
+def _(t, omega, zeta):
+    return error_response(t, 2.0 * np.pi * omega, zeta)
+
+
+@row.wrong(
+    "second-solution-forgotten",
+    "for zeta = 1 the term omega t e^(-omega t) is missing: this curve does not start "
+    "at rest",
+)
+def _(t, omega, zeta):
+    if zeta != 1.0:
+        return error_response(t, omega, zeta)
+    return np.exp(-omega * t)
+
+
+@row.wrong(
+    "second-solution-sign",
+    "for zeta = 1 the term with omega t has the wrong sign: the error starts with a "
+    "slope and becomes negative, which critical damping never does",
+)
+def _(t, omega, zeta):
+    if zeta != 1.0:
+        return error_response(t, omega, zeta)
+    return (1.0 - omega * t) * np.exp(-omega * t)
+
+
+@row.wrong(
+    "second-solution-without-omega",
+    "for zeta = 1 it is 1 + t in place of 1 + omega t: seconds are added to 1",
+)
+def _(t, omega, zeta):
+    if zeta != 1.0:
+        return error_response(t, omega, zeta)
+    return (1.0 + t) * np.exp(-omega * t)
+
+
+@row.wrong(
+    "undamped-frequency",
+    "under zeta = 1 it swings with omega; damping makes it swing more slowly",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    return np.exp(-zeta * omega * t) * (np.cos(omega * t) + zeta * np.sin(omega * t))
+
+
+@row.wrong(
+    "sine-forgotten",
+    "under zeta = 1 the sine is missing: this curve does not start at rest",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    return np.exp(-zeta * omega * t) * np.cos(damped(omega, zeta) * t)
+
+
+@row.wrong(
+    "sine-sign",
+    "under zeta = 1 the sine has the wrong sign: this curve does not start at rest",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    w = damped(omega, zeta)
+    return np.exp(-zeta * omega * t) * (
+        np.cos(w * t) - zeta * omega / w * np.sin(w * t)
+    )
+
+
+@row.wrong(
+    "sine-unscaled",
+    "under zeta = 1 the sine lacks its factor: this curve does not start at rest",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    w = damped(omega, zeta)
+    return np.exp(-zeta * omega * t) * (np.cos(w * t) + np.sin(w * t))
+
+
+@row.wrong(
+    "sine-divided-by-omega",
+    "under zeta = 1 the sine's factor is zeta; what divides is the damped frequency, "
+    "not omega",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    w = damped(omega, zeta)
+    return np.exp(-zeta * omega * t) * (np.cos(w * t) + zeta * np.sin(w * t))
+
+
+@row.wrong(
+    "decays-with-omega",
+    "under zeta = 1 it decays with omega; the envelope falls with zeta omega",
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    w = damped(omega, zeta)
+    return np.exp(-omega * t) * (np.cos(w * t) + zeta * omega / w * np.sin(w * t))
+
+
+@row.wrong(
+    "root-forgotten", "under zeta = 1 the damped frequency lacks its square root"
+)
+def _(t, omega, zeta):
+    if zeta >= 1.0:
+        return error_response(t, omega, zeta)
+    w = omega * (1.0 - zeta**2)
+    swing = np.cos(w * t) + zeta * omega / w * np.sin(w * t)
+    return np.exp(-zeta * omega * t) * swing
+
+
+@row.wrong(
+    "slow-exponential-alone",
+    "over zeta = 1 only the slow exponential is there: this curve does not start at "
+    "rest",
+)
+def _(t, omega, zeta):
+    if zeta <= 1.0:
+        return error_response(t, omega, zeta)
+    return np.exp(-rates(omega, zeta)[0] * t)
+
+
+@row.wrong(
+    "both-halves",
+    "over zeta = 1 the two exponentials have equal weights: this curve does not start "
+    "at rest",
+)
+def _(t, omega, zeta):
+    if zeta <= 1.0:
+        return error_response(t, omega, zeta)
+    slow, fast = rates(omega, zeta)
+    return (np.exp(-slow * t) + np.exp(-fast * t)) / 2.0
+
+
+@row.wrong(
+    "weights-swapped", "over zeta = 1 each exponential has the weight of the other"
+)
+def _(t, omega, zeta):
+    if zeta <= 1.0:
+        return error_response(t, omega, zeta)
+    slow, fast = rates(omega, zeta)
+    return (fast * np.exp(-fast * t) - slow * np.exp(-slow * t)) / (fast - slow)
+
+
+@row.wrong(
+    "weights-summed",
+    "over zeta = 1 the weights have the wrong sign between them: this curve does not "
+    "start at rest",
+)
+def _(t, omega, zeta):
+    if zeta <= 1.0:
+        return error_response(t, omega, zeta)
+    slow, fast = rates(omega, zeta)
+    return (fast * np.exp(-slow * t) + slow * np.exp(-fast * t)) / (fast + slow)
+
+
+@row.wrong(
+    "critical-above-one",
+    "over zeta = 1 it is the curve of zeta = 1; more damping makes it slower",
+)
+def _(t, omega, zeta):
+    if zeta <= 1.0:
+        return error_response(t, omega, zeta)
+    return (1.0 + omega * t) * np.exp(-omega * t)
+
+
+@row.right  # One complex formula for under and over.
+def _(t, omega, zeta):
+    if zeta == 1:
+        return (1 + omega * t) / np.exp(omega * t)
+    s = omega * (-zeta + np.array([1, -1]) * np.sqrt(complex(zeta**2 - 1)))
+    return ((s[0] * np.exp(s[1] * t) - s[1] * np.exp(s[0] * t)) / (s[0] - s[1])).real
+
+
+@row.right  # The eigenvalues of the 2x2 system; at zeta = 1 the limit.
+def _(t, omega, zeta):
+    if zeta == 1:
+        return np.exp(-omega * t) * (1 + omega * t)
+    A = np.array([[0, 1], [-(omega**2), -2 * zeta * omega]])
+    w, V = np.linalg.eig(A.astype(complex))
+    c = np.linalg.solve(V, [1, 0])
+    return np.real([(V @ (c * np.exp(w * x)))[0] for x in t])
+
+
+@row.close("rounded-somewhere")  # zeta = 1 by a zeta nearly 1.
+def _(t, omega, zeta):
+    z = zeta + 1e-6 if zeta == 1 else zeta
+    s = omega * (-z + np.array([1, -1]) * np.sqrt(complex(z**2 - 1)))
+    return ((s[0] * np.exp(s[1] * t) - s[1] * np.exp(s[0] * t)) / (s[0] - s[1])).real

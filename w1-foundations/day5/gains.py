@@ -1,0 +1,95 @@
+"""5.2 `gains(omega, zeta)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Vector, draw
+from labkit.judge.row import Row
+
+row = Row(Vector((2,), scale=100.0, names=("kp", "kd")))
+
+
+@row.inputs
+def _(rng):
+    yield 20.0, 1.0
+    yield 20.0, 0.0  # undamped
+    omega, zeta = draw.numbers(rng, 3, 60, 9), draw.numbers(rng, 0.2, 2, 9)
+    yield from zip(omega.tolist(), zeta.tolist(), strict=True)
+
+
+@row.wrong(
+    "two-forgotten",
+    "kd is zeta omega; the standard form has a factor of its own before them, and "
+    "without it the joint is damped half as much as you asked",
+)
+def _(omega, zeta):
+    return np.array([omega**2, zeta * omega])
+
+
+@row.wrong(
+    "kp-is-omega", "kp is omega, not its square: compare the units, kp is in 1/s2"
+)
+def _(omega, zeta):
+    return np.array([omega, 2.0 * zeta * omega])
+
+
+@row.wrong(
+    "kd-is-omega",
+    "kd is omega whatever zeta is, which is right for zeta = 0.5 alone. It tracks "
+    "well and overshoots by a sixth",
+)
+def _(omega, zeta):
+    return np.array([omega**2, omega])
+
+
+@row.wrong(
+    "zeta-ignored", "kd does not depend on zeta: it is right for critical damping alone"
+)
+def _(omega, zeta):
+    return np.array([omega**2, 2.0 * omega])
+
+
+@row.wrong("swapped", "kp and kd are swapped")
+def _(omega, zeta):
+    return np.array([2.0 * zeta * omega, omega**2])
+
+
+@row.wrong(
+    "root-of-omega",
+    "kd has the square root of omega in it, as if omega were kp already",
+)
+def _(omega, zeta):
+    return np.array([omega**2, 2.0 * zeta * np.sqrt(omega)])
+
+
+@row.wrong(
+    "kd-with-omega-squared",
+    "kd has omega squared in it: compare the units, kd is in 1/s",
+)
+def _(omega, zeta):
+    return np.array([omega**2, 2.0 * zeta * omega**2])
+
+
+@row.wrong("zeta-squared-in-kp", "kp has zeta in it; damping changes kd alone")
+def _(omega, zeta):
+    return np.array([(zeta * omega) ** 2, 2.0 * zeta * omega])
+
+
+@row.wrong(
+    "omega-in-turns",
+    "omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s",
+)
+def _(omega, zeta):
+    omega = 2.0 * np.pi * omega
+    return np.array([omega**2, 2.0 * zeta * omega])
+
+
+@row.right  # From the two roots of the polynomial.
+def _(omega, zeta):
+    root = np.sqrt(complex(zeta**2 - 1))
+    a, b = omega * (-zeta + root), omega * (-zeta - root)
+    return np.array([(a * b).real, -(a + b).real])
+
+
+@row.right  # A plain list.
+def _(omega, zeta):
+    return [omega * omega, 2 * omega * zeta]

@@ -1,0 +1,111 @@
+"""5.5 `gravity_pd(e, ed, kp, kd, g_at_q)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge.row import Row
+
+from .joints import (
+    ONE,
+    TORQUE,
+    one_gain,
+    seven,
+    springs,
+    springs_of_one_gain,
+    stiff,
+)
+
+
+def gravity_of_one_gain(rng):
+    """Return errors, gains that are one number, and gravity's torques."""
+    still = 0.0 * ONE, 0.0 * ONE, 100.0, 20.0
+    return [(*case, seven(rng, -40, 40)) for case in (still, *springs_of_one_gain(rng))]
+
+
+row = Row(TORQUE, held_out=[one_gain(gravity_of_one_gain)])
+
+
+@row.inputs
+def _(rng):
+    still = 0.0 * ONE, 0.0 * ONE, *stiff(rng)
+    through = 0.0 * ONE, seven(rng, -2, 2), *stiff(rng)
+    cases = [still, through, *springs(rng)]
+    return [(*case, seven(rng, -40, 40)) for case in cases]
+
+
+@row.wrong(
+    "gravity-forgotten",
+    "gravity's torque is not in it: these springs sag like those of 5.1",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return kp * e + kd * ed
+
+
+@row.wrong(
+    "gravity-sign",
+    "gravity's torque has the wrong sign: g is what the motors must give to hold the "
+    "arm, and this pushes the arm down",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return kp * e + kd * ed - g_at_q
+
+
+@row.wrong("gravity-twice", "gravity's torque is in it twice")
+def _(e, ed, kp, kd, g_at_q):
+    return kp * e + kd * ed + 2.0 * g_at_q
+
+
+@row.wrong(
+    "gravity-through-the-gain",
+    "gravity's torque goes through kp; it is a torque already",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return kp * (e + g_at_q) + kd * ed
+
+
+@row.wrong(
+    "springs-forgotten",
+    "only gravity's torque is there: the arm floats and goes nowhere",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return g_at_q.copy()
+
+
+@row.wrong(
+    "gravity-through-both-gains",
+    "gravity's torque is multiplied by the whole of it; torques add",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return (kp * e + kd * ed) * g_at_q
+
+
+@row.wrong(
+    "gravity-at-the-goal-only",
+    "at the goal only gravity's torque is there, and elsewhere only the springs'; the "
+    "arm has its weight everywhere, and its springs too",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return g_at_q.copy() if np.all(e == 0.0) else kp * e + kd * ed
+
+
+@row.wrong(
+    "gravity-at-rest-only",
+    "gravity's torque is there only where ed is 0; a moving arm has its weight too",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return kp * e + kd * ed + g_at_q * (ed == 0.0)
+
+
+@row.wrong(
+    "nothing-at-the-goal",
+    "where e is 0, no torque comes back: the arm has its weight at the goal too",
+)
+def _(e, ed, kp, kd, g_at_q):
+    return np.zeros(7) if np.all(e == 0.0) else kp * e + kd * ed + g_at_q
+
+
+row.reached_by("pd_torque", "gravity is right; in the springs, ")
+
+
+@row.right  # The spring is told to go higher.
+def _(e, ed, kp, kd, g_at_q):
+    return kp * (e + g_at_q / kp) + kd * ed

@@ -1,0 +1,70 @@
+"""Seven joints: the errors, gains and torques that Day 5 asks about."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Vector, draw
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import REDONE
+
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+TORQUE = Vector((7,), "Nm", scale=10.0, names=JOINTS)
+ANGLE = Vector((7,), "rad", names=JOINTS)
+ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+
+
+def one_gain(inputs, gains="kp and kd are", lab="KP and KD are"):
+    """Return the question whether a right function also takes one number as a gain."""
+    says = (
+        f"Right where {gains} 7 numbers, but it stops or is wrong where {gains} one "
+        f"number, as {lab} in the lab. Which product of NumPy takes both kinds?"
+    )
+    return HeldOut("one-number-as-gain", says, inputs)
+
+
+def wrapped(angle):
+    """Return angles taken to within half a turn of 0."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
+
+
+WRAPPED = Change(
+    "error-wrapped",
+    "{name} is taken to within +-pi; these joints have stops, so a whole turn is not "
+    "the same as none",
+    wrapped,
+    REDONE,
+    hidden="no error there is half a turn",
+)
+
+
+def seven(rng, low, high):
+    """Return seven numbers, rounded."""
+    return draw.numbers(rng, low, high, 7)
+
+
+def errors(rng):
+    """Return an error of the angles, and one of the velocities."""
+    return seven(rng, -0.3, 0.3), seven(rng, -2, 2)
+
+
+def far(rng):
+    """Return errors beyond half a turn in some joints, on both sides."""
+    e, ed = errors(rng)
+    return e + 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0]), ed
+
+
+def stiff(rng):
+    """Return kp and kd, seven of each."""
+    return seven(rng, 50, 600), seven(rng, 5, 50)
+
+
+def springs(rng):
+    """Return errors and gains; the second errors are beyond half a turn."""
+    yield 0.1 * ONE, 0.0 * ONE, np.full(7, 100.0), np.full(7, 20.0)
+    yield *far(rng), *stiff(rng)
+    for _ in range(9):
+        yield *errors(rng), *stiff(rng)
+
+
+def springs_of_one_gain(rng):
+    """Return errors, and gains that are one number for all joints."""
+    return [(*errors(rng), *gains) for gains in ((100.0, 20.0), (87.5, 12.5))]

@@ -1,0 +1,157 @@
+"""5.8 `saturate(tau, limits)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import draw
+from labkit.judge.row import Row
+
+from .joints import ONE, TORQUE, seven
+
+PANDA = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
+
+row = Row(TORQUE)
+
+
+@row.inputs
+def _(rng):
+    yield 100.0 * ONE, PANDA
+    yield draw.rounded(PANDA * rng.uniform(-0.9, 0.9, 7)), PANDA  # within the limits
+    yield 0.0 * ONE, PANDA
+    for _ in range(5):
+        yield seven(rng, -120, 120), PANDA
+    for _ in range(4):
+        yield seven(rng, -60, 60), seven(rng, 10, 60)
+
+
+@row.wrong("not-bounded", "the torques come back as they are")
+def _(tau, limits):
+    return tau.copy()
+
+
+@row.wrong(
+    "above-only", "torques are bounded above and not below: -100 Nm comes out as it is"
+)
+def _(tau, limits):
+    return np.minimum(tau, limits)
+
+
+@row.wrong("below-only", "torques are bounded below and not above")
+def _(tau, limits):
+    return np.maximum(tau, -limits)
+
+
+@row.wrong(
+    "never-negative",
+    "torques are kept between 0 and the limit; a motor turns both ways",
+)
+def _(tau, limits):
+    return np.clip(tau, 0.0, limits)
+
+
+@row.wrong("sign-lost", "a torque at its limit loses its sign")
+def _(tau, limits):
+    return np.where(np.abs(tau) > limits, limits, tau)
+
+
+@row.wrong(
+    "limits-typed-in",
+    "the Panda's 87 and 12 Nm are typed in; take them from limits, another arm has "
+    "others",
+)
+def _(tau, limits):
+    return np.clip(tau, -PANDA, PANDA)
+
+
+@row.wrong(
+    "one-limit-for-all",
+    "all joints get the first motor's limit; the small ones give 12 Nm",
+)
+def _(tau, limits):
+    return np.clip(tau, -limits[0], limits[0])
+
+
+@row.wrong(
+    "smallest-limit-for-all",
+    "all joints get the smallest limit; each motor has its own",
+)
+def _(tau, limits):
+    return np.clip(tau, -limits.min(), limits.min())
+
+
+@row.wrong(
+    "all-scaled-down",
+    "one motor at its limit scales all seven down; the others can still give what "
+    "they are asked for",
+)
+def _(tau, limits):
+    return tau / max(1.0, np.max(np.abs(tau) / limits))
+
+
+@row.wrong(
+    "length-bounded",
+    "the length of the whole vector is compared with the limits; each motor knows its "
+    "own torque only",
+)
+def _(tau, limits):
+    return tau * np.minimum(1.0, limits / max(np.linalg.norm(tau), 1e-300))
+
+
+@row.wrong(
+    "switched-off", "a torque over its limit becomes 0; a motor then gives its limit"
+)
+def _(tau, limits):
+    return np.where(np.abs(tau) > limits, 0.0, tau)
+
+
+@row.wrong(
+    "always-full",
+    "every motor gives its limit, in one direction or the other; a torque within the "
+    "limits stays as it is",
+)
+def _(tau, limits):
+    return np.sign(tau) * limits
+
+
+@row.wrong(
+    "one-over-stops-all",
+    "one motor over its limit stops all seven; the others can still give what they "
+    "are asked for",
+)
+def _(tau, limits):
+    if np.any(np.abs(tau) > limits):
+        return np.zeros(7)
+    return tau.copy()
+
+
+@row.wrong(
+    "nothing-within-the-limits",
+    "where all torques are within their limits, 0 comes back; they should stay as "
+    "they are",
+)
+def _(tau, limits):
+    if np.all(np.abs(tau) <= limits):
+        return np.zeros(7)
+    return np.clip(tau, -limits, limits)
+
+
+@row.wrong(
+    "first-limit-typed-in",
+    "all joints get 87 Nm, typed in; take each motor's own from limits",
+)
+def _(tau, limits):
+    return np.clip(tau, -87.0, 87.0)
+
+
+@row.wrong("all-positive", "every torque has lost its sign; a motor turns both ways")
+def _(tau, limits):
+    return np.minimum(np.abs(tau), limits)
+
+
+@row.right  # The median of three.
+def _(tau, limits):
+    return np.median([-limits, tau, limits], axis=0)
+
+
+@row.right  # By sign and size.
+def _(tau, limits):
+    return np.sign(tau) * np.minimum(np.abs(tau), limits)

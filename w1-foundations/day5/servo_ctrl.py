@@ -1,0 +1,93 @@
+"""5.9 `servo_ctrl(tau, q, qd, kp, kd)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import draw
+from labkit.judge.row import Row
+
+from .joints import ANGLE, ONE, seven
+
+row = Row(ANGLE)
+
+
+@row.inputs
+def _(rng):
+    kp = np.array([4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 2000.0])
+    yield 0.0 * ONE, draw.READY, 0.0 * ONE, kp, kp / 10
+    for q in draw.configurations(rng, 9):
+        tau, qd = seven(rng, -40, 40), seven(rng, -2, 2)
+        yield tau, q, qd, seven(rng, 500, 4500), seven(rng, 50, 450)
+
+
+@row.wrong(
+    "damper-forgotten",
+    "the servo's own damper is not made up for: it takes kd qd off the torque",
+)
+def _(tau, q, qd, kp, kd):
+    return q + tau / kp
+
+
+@row.wrong(
+    "damper-sign",
+    "the servo's damper is counted twice: kd qd has to be added to the torque",
+)
+def _(tau, q, qd, kp, kd):
+    return q + (tau - kd * qd) / kp
+
+
+@row.wrong("angle-forgotten", "this is how far from q the command has to be; add q")
+def _(tau, q, qd, kp, kd):
+    return (tau + kd * qd) / kp
+
+
+@row.wrong("angle-sign", "the torque is taken off: a servo pulls towards its command")
+def _(tau, q, qd, kp, kd):
+    return q - (tau + kd * qd) / kp
+
+
+@row.wrong(
+    "damper-not-divided",
+    "only tau is divided by kp; the damper's part is a torque as well",
+)
+def _(tau, q, qd, kp, kd):
+    return q + tau / kp + kd * qd
+
+
+@row.wrong(
+    "times-stiffness",
+    "the torque is multiplied by kp; a stiffer servo needs less of an angle",
+)
+def _(tau, q, qd, kp, kd):
+    return q + (tau + kd * qd) * kp
+
+
+@row.wrong(
+    "torque-of-the-command",
+    "this is the servo's torque if tau were its command, not the other way round",
+)
+def _(tau, q, qd, kp, kd):
+    return kp * (tau - q) - kd * qd
+
+
+@row.wrong("gains-swapped", "kp and kd are swapped")
+def _(tau, q, qd, kp, kd):
+    return q + (tau + kp * qd) / kd
+
+
+@row.wrong("one-gain-for-all", "all joints get the first servo's kp; each has its own")
+def _(tau, q, qd, kp, kd):
+    return q + (tau + kd * qd) / kp[0]
+
+
+@row.wrong(
+    "angle-subtracted", "q is subtracted; the command is that far from q, so add it"
+)
+def _(tau, q, qd, kp, kd):
+    return (tau + kd * qd) / kp - q
+
+
+@row.wrong(
+    "stiffness-forgotten", "a torque is added to an angle; kp turns one into the other"
+)
+def _(tau, q, qd, kp, kd):
+    return q + tau + kd * qd

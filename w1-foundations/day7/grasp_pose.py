@@ -1,0 +1,182 @@
+"""7.7 `grasp_pose(T_world_cube, above)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Pose, draw
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.trajectory import grasp_pose
+
+DOWN = np.diag([1.0, -1.0, -1.0])
+QUARTER = np.pi / 2
+
+row = Row(Pose())
+
+
+@row.inputs
+def _(rng):
+    """Give cubes at many yaws, none half way between two quarter turns.
+
+    The first ones are typed: among them hardly any yaw, and no height at all.
+    """
+    quarters = np.arange(-2, 3)[rng.permutation(5)]
+    yaw = quarters * np.pi / 2 + rng.uniform(-0.7, 0.7, 5)
+    yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *draw.rounded(yaw)]
+    place = draw.numbers(rng, 0.1, 0.7, len(yaw), 3)
+    above = map(float, draw.numbers(rng, 0.02, 0.3, len(yaw)))
+    rows = list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
+    p = np.array([0.55, -0.15, 0.22])
+    low = [(np.radians(0.5), 0.0), (np.radians(-91.0), 0.005)]
+    return [*rows[:4], *((se3.make_T(se3.Rz(a), p), h) for a, h in low), *rows[4:]]
+
+
+def yaw_of(T):
+    """Return how far a cube is turned about z."""
+    return np.arctan2(T[1, 0], T[0, 0])
+
+
+def tool(T_world_cube, above, yaw):
+    """Return the tool's pose over the cube, turned by a yaw of one's own."""
+    T = se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3])
+    T[2, 3] += above
+    return T
+
+
+def turned_over(T, other):
+    """Return the tool's pose with another matrix instead of DOWN."""
+    T = T.copy()
+    T[:3, :3] = T[:3, :3] @ DOWN @ other
+    return T
+
+
+@row.wrong(
+    "yaw-not-folded",
+    "the tool turns with the cube all the way; a cube looks the same after a quarter "
+    "turn, and joint 7 has an end",
+    "the pose with the cube's own yaw",
+)
+def _(T_world_cube, above):
+    return tool(T_world_cube, above, yaw_of(T_world_cube))
+
+
+@row.wrong(
+    "folded-to-90",
+    "the yaw is folded into 0..90 degrees; into +-45 the tool turns less",
+    "the pose with yaw mod 90 degrees",
+)
+def _(T_world_cube, above):
+    return tool(T_world_cube, above, np.mod(yaw_of(T_world_cube), QUARTER))
+
+
+@row.wrong(
+    "rounded-towards-zero",
+    "the number of quarter turns is cut off, not rounded: up to 90 degrees stay",
+    "the pose with whole quarter turns cut off",
+)
+def _(T_world_cube, above):
+    yaw = yaw_of(T_world_cube)
+    return tool(T_world_cube, above, yaw - np.trunc(yaw / QUARTER) * QUARTER)
+
+
+@row.wrong(
+    "folded-by-half-turns",
+    "half turns are taken off; a cube looks the same after a quarter already",
+    "the pose with half turns taken off",
+)
+def _(T_world_cube, above):
+    yaw = yaw_of(T_world_cube)
+    return tool(T_world_cube, above, yaw - np.round(yaw / np.pi) * np.pi)
+
+
+@row.wrong(
+    "yaw-forgotten",
+    "the tool does not turn with the cube: the fingers meet its edges",
+    "the pose at yaw 0",
+)
+def _(T_world_cube, above):
+    return tool(T_world_cube, above, 0.0)
+
+
+@row.wrong(
+    "turned-the-wrong-way",
+    "the tool turns the other way than the cube: look at the yaw (its sign, and which "
+    "entries atan2 takes), then at the order of the turn and diag(1, -1, -1)",
+    "the pose with -yaw",
+)
+def _(T_world_cube, above):
+    yaw = yaw_of(T_world_cube)
+    return tool(T_world_cube, above, np.round(yaw / QUARTER) * QUARTER - yaw)
+
+
+@row.wrong(
+    "tool-up", "the tool looks up: its z axis has to point down", "the pose with z up"
+)
+def _(T_world_cube, above):
+    return turned_over(grasp_pose(T_world_cube, above), np.eye(3))
+
+
+@row.wrong(
+    "about-y",
+    "the tool is turned over about y: at yaw 0 its x points backwards",
+    "the pose turned over about y",
+)
+def _(T_world_cube, above):
+    return turned_over(grasp_pose(T_world_cube, above), np.diag([-1.0, 1.0, -1.0]))
+
+
+@row.wrong(
+    "left-handed",
+    "turning only z over makes a mirror image: the determinant is -1",
+    "the pose with diag(1, 1, -1)",
+)
+def _(T_world_cube, above):
+    return turned_over(grasp_pose(T_world_cube, above), np.diag([1.0, 1.0, -1.0]))
+
+
+@row.wrong(
+    "height-subtracted",
+    "the tool is below the cube: above counts up, and the tool's own z points down",
+    "the pose below the cube",
+)
+def _(T_world_cube, above):
+    return grasp_pose(T_world_cube, -above)
+
+
+@row.wrong(
+    "height-forgotten",
+    "the tool is in the cube's centre: above is not added",
+    "the pose at the cube's centre",
+)
+def _(T_world_cube, above):
+    return grasp_pose(T_world_cube, 0.0)
+
+
+@row.wrong(
+    "place-forgotten",
+    "the tool is over the world's origin: the cube's place is missing",
+    "the pose over the origin",
+)
+def _(T_world_cube, above):
+    R = grasp_pose(T_world_cube, above)[:3, :3]
+    return se3.make_T(R, [0.0, 0.0, above])
+
+
+@row.right  # T_world_cube @ T_cube_tcp, the best of four.
+def _(T_world_cube, above):
+    best = None
+    for k in range(4):
+        c, s = round(np.cos(k * np.pi / 2)), round(np.sin(k * np.pi / 2))
+        T_cube_tcp = [[c, s, 0, 0], [s, -c, 0, 0], [0, 0, -1, above], [0, 0, 0, 1]]
+        T = T_world_cube @ np.array(T_cube_tcp)
+        best = T if best is None or T[0, 0] > best[0, 0] else best
+    return best
+
+
+@row.right  # Quarter turns taken off one by one.
+def _(T_world_cube, above):
+    x, z = T_world_cube[:3, 0], np.array([0.0, 0.0, -1.0])
+    for _ in range(3):
+        if x[0] < abs(x[1]):
+            x = np.array([x[1], -x[0], 0.0])
+    R = np.stack([x, np.cross(z, x), z], axis=1)
+    return se3.make_T(R, T_world_cube[:3, 3] + [0.0, 0.0, above])

@@ -1,0 +1,144 @@
+"""7.3 `joint_move(q0, q1, t, T)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, draw
+from labkit.judge.row import Row
+from robo47.trajectory import joint_move, quintic_scaling
+
+from .quintic_scaling import times
+
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+
+row = Row(Matrix((3, 7), rows=("q", "qd", "qdd"), columns=JOINTS))
+
+
+@row.inputs
+def _(rng):
+    moments = times(rng, 6)
+    q0, q1 = (draw.configurations(rng, len(moments)) for _ in range(2))
+    rows = [(a, b, *moment) for a, b, moment in zip(q0, q1, moments, strict=True)]
+    # Past pi, where only joint6 goes: a joint's angle is no direction.
+    far = np.array([0.1, -0.4, 0.2, -1.8, 0.3, 3.7, 0.7])
+    return [*rows[:6], (q0[0], far, 1.8, 2.0), (far, q1[0], 0.3, 2.0), *rows[6:]]
+
+
+def along(q0, way, t, T):
+    """Return what a move from q0 along a way would be."""
+    return joint_move(q0, q0 + way, t, T)
+
+
+def wrapped(angles):
+    """Return angles within half a turn of 0."""
+    return np.mod(angles + np.pi, 2 * np.pi) - np.pi
+
+
+@row.wrong(
+    "start-everywhere",
+    "the start q0 is added to the speed and the acceleration too; it does not move",
+    "the answer with q0 in every row",
+)
+def _(q0, q1, t, T):
+    return q0 + np.outer(quintic_scaling(t, T), q1 - q0)
+
+
+@row.wrong(
+    "start-forgotten",
+    "the way is there, but not where it starts: q0 is missing",
+    "the answer without q0",
+)
+def _(q0, q1, t, T):
+    return np.outer(quintic_scaling(t, T), q1 - q0)
+
+
+@row.wrong(
+    "goal-for-way",
+    "the goal q1 stands where the way from q0 to q1 belongs: it ends at q0 + q1",
+    "the answer with q1 for the way",
+)
+def _(q0, q1, t, T):
+    return along(q0, q1, t, T)
+
+
+@row.wrong(
+    "way-reversed",
+    "the way points from q1 to q0: it moves away from the goal",
+    "the answer with the way reversed",
+)
+def _(q0, q1, t, T):
+    return along(q0, q0 - q1, t, T)
+
+
+@row.wrong("backwards", "it goes from q1 to q0", "the move the other way")
+def _(q0, q1, t, T):
+    return along(q1, q0 - q1, t, T)
+
+
+@row.wrong(
+    "speed-forwards-only",
+    "the way has lost its sign: every joint goes forwards",
+    "the answer with |q1 - q0|",
+)
+def _(q0, q1, t, T):
+    return along(q0, np.abs(q1 - q0), t, T)
+
+
+@row.wrong(
+    "rates-without-way",
+    "the speed and the acceleration are those of s; each joint's way is missing",
+    "the answer with sd and sdd for every joint",
+)
+def _(q0, q1, t, T):
+    s, sd, sdd = quintic_scaling(t, T)
+    return np.array([q0 + (q1 - q0) * s, np.full(7, sd), np.full(7, sdd)])
+
+
+@row.wrong(
+    "rates-of-the-goal",
+    "in the speed and the acceleration, q1 stands where the way q1 - q0 belongs",
+    "the answer with q1 sd and q1 sdd",
+)
+def _(q0, q1, t, T):
+    s, sd, sdd = quintic_scaling(t, T)
+    return np.array([q0 + (q1 - q0) * s, q1 * sd, q1 * sdd])
+
+
+@row.wrong(
+    "rates-divided-again",
+    "the speed and the acceleration are divided by T again; sd and sdd are "
+    "derivatives with respect to t already",
+    "the answer with sd / T and sdd / T^2",
+)
+def _(q0, q1, t, T):
+    s, sd, sdd = quintic_scaling(t, T)
+    return np.array([q0 + (q1 - q0) * s, (q1 - q0) * sd / T, (q1 - q0) * sdd / T**2])
+
+
+@row.wrong(
+    "q-wrapped",
+    "the angles are wrapped into +-pi; a joint's angle is no direction, and joint6 "
+    "goes up to 3.75 rad",
+    "the answer with q wrapped",
+)
+def _(q0, q1, t, T):
+    q, qd, qdd = joint_move(q0, q1, t, T)
+    return np.array([wrapped(q), qd, qdd])
+
+
+@row.wrong(
+    "way-wrapped",
+    "the way is wrapped into +-pi, the shorter way round; a joint cannot go through "
+    "its ends",
+    "the answer with the way wrapped",
+)
+def _(q0, q1, t, T):
+    return along(q0, wrapped(q1 - q0), t, T)
+
+
+row.reached_by("quintic_scaling", "in the scaling, ")
+
+
+@row.right  # Three vectors in a tuple.
+def _(q0, q1, t, T):
+    s, sd, sdd = quintic_scaling(t, T)
+    return (1 - s) * q0 + s * q1, (q1 - q0) * sd, (q1 - q0) * sdd

@@ -1,0 +1,287 @@
+"""7.2 `quintic_duration(dq, v_max, a_max)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Scalar, draw
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
+from labkit.judge.row import Row
+from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
+from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
+
+NO_LIMIT = 1e9  # rad/s2, in the docstring's case
+NO_WAY = HeldOut(
+    "no-way",
+    "Right, but not where no joint moves: that takes 0 s, as the docstring says.",
+    lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
+)
+
+
+def never_less(case: Case) -> Finding | None:
+    """Return that only short durations are wrong, and all of them the same."""
+    off = ~np.isclose(case.S, case.T, rtol=0.0, atol=1e-8)
+    least = float(case.S[off].min())
+    if off.all() or np.ptp(case.S[off]) > 1e-12:
+        return None
+    if case.T[off].max() > min(least, case.T[~off].min()):
+        return None
+    says = f"It is never less than {least:g} s; a short way takes less."
+    return Finding("never-less", says)
+
+
+row = Row(Scalar(unit="s"), unnamed=never_less, held_out=[NO_WAY])
+
+
+@row.inputs
+def _(rng):
+    one = np.array([1.0, 0, 0, 0, 0, 0, 0])
+    yield one, np.full(7, 1.875), np.full(7, NO_LIMIT)
+    ways = draw.numbers(rng, -2, 2, 3, 7)
+    for way in (*ways, 0.1 * ways[0], 1e-5 * ways[0]):
+        yield way, SPEED_LIMITS, ACC_LIMITS
+    yield from zip(
+        draw.numbers(rng, -2, 2, 6, 7),
+        draw.numbers(rng, 0.5, 3, 6, 7),
+        draw.numbers(rng, 2, 20, 6, 7),
+        strict=True,
+    )
+
+
+def seconds(dq, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
+    """Return what each joint needs by its speed and by its acceleration."""
+    dq = np.abs(dq)
+    return np.array([speed * dq / v_max, np.sqrt(acceleration * dq / a_max)])
+
+
+@row.wrong(
+    "peak-of-the-cubic",
+    "1.5 is the cubic's peak speed; the quintic is faster half way, so this breaks "
+    "the speed limit by a quarter",
+    "the duration with 1.5",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, speed=1.5).max()
+
+
+@row.wrong(
+    "peak-of-the-cubic",
+    "1.5 and 6 are the cubic's peaks; the quintic has others",
+    "the cubic's duration",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, speed=1.5, acceleration=6.0).max()
+
+
+@row.wrong(
+    "peak-of-the-cubic",
+    "6 is the cubic's peak acceleration; the quintic's is where the derivative of its "
+    "acceleration is 0",
+    "the duration with 6",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, acceleration=6.0).max()
+
+
+@row.wrong(
+    "peak-at-a-quarter",
+    "5.625 is the acceleration at a quarter of the time; its peak is a little "
+    "earlier, where its derivative is 0",
+    "the duration with 5.625",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, acceleration=5.625).max()
+
+
+@row.wrong(
+    "shorter-of-two",
+    "it takes the shorter of the two durations, which breaks one of the limits; the "
+    "longer one keeps both",
+    "the smaller of the two",
+)
+def _(dq, v_max, a_max):
+    by_speed, by_acceleration = seconds(dq, v_max, a_max)
+    return min(by_speed.max(), by_acceleration.max())
+
+
+@row.wrong(
+    "average-speed",
+    "the time dq / v would do for a move that is always at its top speed; this one "
+    "starts and stops softly",
+    "the duration with dq / v",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, speed=1.0).max()
+
+
+@row.wrong(
+    "peak-upside-down",
+    "the peak speed is 15/8 dq / T; here it is turned into 8/15",
+    "the duration with 8/15",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, speed=8 / 15).max()
+
+
+@row.wrong(
+    "peak-acceleration",
+    "the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is lost",
+    "the duration with 10/3",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, acceleration=10 / 3).max()
+
+
+@row.wrong(
+    "fastest-joint",
+    "it takes the joint that needs least; all the others break their limits",
+    "the smallest of the joints' durations",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).max(axis=0).min()
+
+
+@row.wrong(
+    "fastest-joint",
+    "it takes the joint that needs least, for the speed and for the acceleration; all "
+    "the others break their limits",
+    "the larger of the two minima",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).min(axis=1).max()
+
+
+@row.wrong(
+    "one-length",
+    "the ways of all joints are put together as one length, |dq|; each joint has its "
+    "own way and its own limits",
+    "the duration of |dq| with the lowest limits",
+)
+def _(dq, v_max, a_max):
+    return seconds(np.linalg.norm(dq), v_max.min(), a_max.min()).max()
+
+
+@row.wrong(
+    "summed",
+    "the joints' durations are added up; they move at the same time",
+    "the sum over the joints",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).max(axis=0).sum()
+
+
+@row.wrong(
+    "mean",
+    "it takes the mean of the joints' durations; half of them break their limits",
+    "the mean over the joints",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).max(axis=0).mean()
+
+
+@row.wrong(
+    "longest-way",
+    "it takes the joint with the longest way; one with a lower limit may need more",
+    "the duration of the joint with the longest way",
+)
+def _(dq, v_max, a_max):
+    i = np.argmax(np.abs(dq))
+    return seconds(dq[i], v_max[i], a_max[i]).max()
+
+
+@row.wrong(
+    "one-limit-for-all",
+    "the first joint's limits are used for all; each joint has its own",
+    "the duration with joint1's limits",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max[0], a_max[0]).max()
+
+
+@row.wrong(
+    "one-limit-for-all",
+    "the lowest limits are used for all; each joint has its own",
+    "the duration with the lowest limits",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max.min(), a_max.min()).max()
+
+
+@row.wrong(
+    "speed-only",
+    "only the speed limits count; a short move breaks the acceleration's",
+    "the duration by speed",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max)[0].max()
+
+
+@row.wrong(
+    "acceleration-only",
+    "only the acceleration limits count; a long move breaks the speed's",
+    "the duration by acceleration",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max)[1].max()
+
+
+@row.wrong(
+    "root-forgotten",
+    "acceleration falls with T squared, so T is a square root",
+    "the duration without the root",
+)
+def _(dq, v_max, a_max):
+    by_speed, by_acceleration = seconds(dq, v_max, a_max)
+    return max(by_speed.max(), (by_acceleration**2).max())
+
+
+@row.wrong(
+    "added-up",
+    "the two durations are added; the longer one keeps both limits",
+    "the sum of the two",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).max(axis=1).sum()
+
+
+@row.wrong(
+    "shorter-of-two",
+    "each joint takes the shorter of its two durations; both limits count",
+    "the shorter of the two",
+)
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max).min(axis=0).max()
+
+
+@row.wrong(
+    "forwards-only",
+    "a joint that moves backwards counts as one that is ready before it starts: the "
+    "way's sign is still in it",
+    "the duration with signed ways",
+)
+def _(dq, v_max, a_max):
+    by_speed, by_acceleration = seconds(dq, v_max, a_max)
+    return max((np.sign(dq) * by_speed).max(), by_acceleration.max())
+
+
+@row.wrong(
+    "ways-signed",
+    "the ways' signs are still in it: the root of a negative one is NaN, which max "
+    "passes over in silence",
+    "the duration with signed ways",
+)
+def _(dq, v_max, a_max):
+    by_speed = 15 / 8 * dq / v_max
+    return max(by_speed.max(), np.sqrt(10 / np.sqrt(3) * dq / a_max).max())
+
+
+@row.right  # Joint by joint.
+def _(dq, v_max, a_max):
+    longest = 0.0
+    for way, v, a in zip(np.abs(dq), v_max, a_max, strict=True):
+        longest = max(longest, 15 * way / (8 * v), (10 * way / (a * 3**0.5)) ** 0.5)
+    return longest
+
+
+@row.close("rounded-somewhere")  # 5.7735 for 10 / sqrt(3).
+def _(dq, v_max, a_max):
+    return seconds(dq, v_max, a_max, acceleration=5.77350).max()

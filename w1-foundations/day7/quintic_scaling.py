@@ -1,0 +1,268 @@
+"""7.1 `quintic_scaling(t, T)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Vector, draw
+from labkit.judge.ask import Case
+from labkit.judge.compare import difference
+from labkit.judge.mistake import Finding
+from labkit.judge.row import Row
+from robo47.trajectory import quintic_scaling
+
+QUINTIC = (0, 0, 0, 10, -15, 6)
+
+
+def by_quotients(case: Case) -> Finding | None:
+    """Return that sd and sdd are close where s is exact: a quotient leaves that."""
+    if difference(case.S[:, 0], case.T[:, 0]).max() > 1e-14:
+        return None
+    off = difference(case.S, case.T).max()
+    return Finding(
+        "difference-quotient",
+        f"s is exact, but sd or sdd is off by {off:.1e}, as a difference quotient "
+        "leaves it. The derivative of a polynomial is a polynomial: write it down.",
+    )
+
+
+def times(rng, n):
+    """Return times and durations: before, on the way, after, then n drawn ones."""
+    fixed = [(0.6, 2.0), (1.0, 2.0), (2.5, 2.0), (-0.4, 2.0), (0.5, 0.5), (0.9, 3.0)]
+    T = draw.numbers(rng, 0.3, 4.0, n)
+    t = draw.rounded(T * rng.uniform(0.02, 0.98, n))
+    return [*fixed, *zip(t.tolist(), T.tolist(), strict=True)]
+
+
+row = Row(Vector((3,), names=("s", "sd", "sdd")), near_miss=by_quotients)
+row.inputs(lambda rng: times(rng, 7))
+
+
+def polynomial(factors, x, T):
+    """Return a polynomial in x = t / T, and its derivatives with respect to t."""
+    p = np.polynomial.Polynomial(factors)
+    return np.array([p(x), p.deriv()(x) / T, p.deriv(2)(x) / T**2])
+
+
+def jumps(*names):
+    """Take a scaling that jumps at its ends, and the same with sd, sdd 0 there."""
+
+    def keep(scaling):
+        def at_rest(t, T):
+            return scaling(t, T) * [1.0, 0.0 < t < T, 0.0 < t < T]
+
+        row.wrong(*names)(scaling)
+        row.wrong(*names)(at_rest)
+
+    return keep
+
+
+@jumps(
+    "cubic",
+    "this is the cubic, 3 x^2 - 2 x^3; its acceleration jumps at both ends",
+    "the cubic",
+)
+def _(t, T):
+    return polynomial((0, 0, 3, -2), np.clip(t / T, 0.0, 1.0), T)
+
+
+@jumps("linear", "s grows at one rate, so the speed jumps at both ends", "s = x")
+def _(t, T):
+    x = np.clip(t / T, 0.0, 1.0)
+    return np.array([x, 1.0 / T, 0.0])
+
+
+@jumps(
+    "cosine",
+    "this is the raised cosine; its acceleration jumps at both ends",
+    "the raised cosine",
+)
+def _(t, T):
+    a = np.pi * np.clip(t / T, 0.0, 1.0)
+    sd, sdd = np.pi * np.sin(a) / (2 * T), np.pi**2 * np.cos(a) / (2 * T**2)
+    return np.array([(1 - np.cos(a)) / 2, sd, sdd])
+
+
+@row.wrong(
+    "septic",
+    "this is the polynomial of degree 7, which has no jerk at the ends either; the "
+    "task is the quintic",
+    "the polynomial of degree 7",
+)
+def _(t, T):
+    return polynomial((0, 0, 0, 0, 35, -84, 70, -20), np.clip(t / T, 0.0, 1.0), T)
+
+
+@row.wrong(
+    "6-and-10-swapped",
+    "the factors 6 and 10 are swapped: s ends at 1, but still moving",
+    "the quintic with 6 and 10 swapped",
+)
+def _(t, T):
+    return polynomial((0, 0, 0, 6, -15, 10), np.clip(t / T, 0.0, 1.0), T)
+
+
+@row.wrong(
+    "sign-of-15", "the factor 15 has the wrong sign: s(T) is 31", "the quintic with +15"
+)
+def _(t, T):
+    return polynomial((0, 0, 0, 10, 15, 6), np.clip(t / T, 0.0, 1.0), T)
+
+
+@row.wrong(
+    "sd-and-sdd-not-divided",
+    "each of sd and sdd is the derivative with respect to x = t / T; with respect to "
+    "t, each derivative divides by T once more",
+    "the answer with derivatives with respect to x",
+)
+def _(t, T):
+    return polynomial(QUINTIC, np.clip(t / T, 0.0, 1.0), 1.0)
+
+
+@row.wrong(
+    "sd-not-divided",
+    "the entry sd is the derivative with respect to x = t / T; with respect to t, "
+    "each derivative divides by T once more",
+    "sd without 1/T",
+)
+def _(t, T):
+    return quintic_scaling(t, T) * [1.0, T, 1.0]
+
+
+@row.wrong(
+    "sdd-not-divided",
+    "the entry sdd is the derivative with respect to x = t / T; with respect to t, "
+    "each derivative divides by T once more",
+    "sdd without 1/T^2",
+)
+def _(t, T):
+    return quintic_scaling(t, T) * [1.0, 1.0, T**2]
+
+
+@row.wrong(
+    "sdd-divided-once",
+    "the entry sdd is divided by T once; it is a second derivative",
+    "sdd with 1/T",
+)
+def _(t, T):
+    return quintic_scaling(t, T) * [1.0, 1.0, T]
+
+
+@row.wrong(
+    "multiplied-by-T",
+    "the derivatives are multiplied by T, where the chain rule divides",
+    "the answer with T and T^2 as factors",
+)
+def _(t, T):
+    return quintic_scaling(t, T) * [1.0, T**2, T**4]
+
+
+@row.wrong(
+    "t-for-x",
+    "the time itself stands where t / T belongs, so T does not count",
+    "the quintic of t",
+)
+def _(t, T):
+    return polynomial(QUINTIC, t, 1.0)
+
+
+@row.wrong(
+    "t-for-x",
+    "the time itself, clipped to 0..1, stands where t / T belongs",
+    "the quintic of t",
+)
+def _(t, T):
+    return polynomial(QUINTIC, np.clip(t, 0.0, 1.0), 1.0)
+
+
+@row.wrong("t-for-x", "the time itself stands where t / T belongs", "the quintic of t")
+def _(t, T):
+    return polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T)
+
+
+@row.wrong(
+    "not-clipped",
+    "after the end (and before the start) the polynomial goes on: at 1.25 T s is 1.22",
+    "the quintic without its ends",
+)
+def _(t, T):
+    return polynomial(QUINTIC, t / T, T)
+
+
+@row.wrong(
+    "end-not-clipped",
+    "it waits for the start, but after the end the polynomial goes on",
+    "the quintic without its end",
+)
+def _(t, T):
+    return polynomial(QUINTIC, max(t / T, 0.0), T)
+
+
+@row.wrong(
+    "start-not-clipped",
+    "it stops at the end, but before the start the polynomial is there already",
+    "the quintic without its start",
+)
+def _(t, T):
+    return polynomial(QUINTIC, min(t / T, 1.0), T)
+
+
+@row.wrong(
+    "only-s-clipped",
+    "s stops at the end, but sd and sdd go on: it says that it moves and stands",
+    "the answer without the ends of sd and sdd",
+)
+def _(t, T):
+    s, (_, sd, sdd) = quintic_scaling(t, T)[0], polynomial(QUINTIC, t / T, T)
+    return np.array([s, sd, sdd])
+
+
+@row.wrong(
+    "backwards",
+    "it runs from 1 to 0: the remaining time stands where the time belongs",
+    "the quintic of 1 - t / T",
+)
+def _(t, T):
+    return polynomial(QUINTIC, 1.0 - np.clip(t / T, 0.0, 1.0), T)
+
+
+@row.wrong(
+    "order",
+    "the order is s, sd, sdd; here the derivatives are swapped",
+    "the order s, sdd, sd",
+)
+def _(t, T):
+    return quintic_scaling(t, T)[[0, 2, 1]]
+
+
+@row.wrong(
+    "order", "the order is s, sd, sdd; here it runs backwards", "the order sdd, sd, s"
+)
+def _(t, T):
+    return quintic_scaling(t, T)[::-1]
+
+
+@row.right  # Horner's scheme, and the time stopped by hand.
+def _(t, T):
+    if t <= 0:
+        return np.array([0.0, 0.0, 0.0])
+    if t >= T:
+        return np.array([1.0, 0.0, 0.0])
+    x = t / T
+    s = x * x * x * (10 + x * (-15 + x * 6))
+    sd = x * x * (30 + x * (-60 + x * 30)) / T
+    return np.array([s, sd, x * (60 + x * (-180 + x * 120)) / (T * T)])
+
+
+@row.close("rounded-somewhere")  # In single precision.
+def _(t, T):
+    x = np.float32(np.clip(t / T, 0, 1))
+    s = 10 * x**3 - 15 * x**4 + 6 * x**5
+    sd, sdd = 30 * x**2 * (1 - x) ** 2 / T, (60 * x - 180 * x**2 + 120 * x**3) / T**2
+    return np.array([s, sd, sdd], dtype=np.float32)
+
+
+@row.close("difference-quotient")  # Central differences for the derivatives.
+def _(t, T):
+    s, h = np.polynomial.Polynomial(QUINTIC), 1e-4
+    x = np.clip(t / T, 0, 1)
+    sd = (s(x + h) - s(x - h)) / (2 * h * T)
+    return np.array([s(x), sd, (s(x + h) - 2 * s(x) + s(x - h)) / (h * T) ** 2])

@@ -1,0 +1,257 @@
+"""7.4 `trapezoid(t, L, v, a)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Vector, draw
+from labkit.judge.row import Row
+from robo47.trajectory import trapezoid
+
+row = Row(Vector((3,), names=("the position", "the speed", "the acceleration")))
+
+
+@row.inputs
+def _(rng):
+    """Give all pieces of a long move and of a short one, then drawn ones.
+
+    Between them, two moves just too short and just long enough to reach v. Never at
+    the moment when a piece ends: what the acceleration is there is a matter of taste.
+    """
+    long, short = (1.0, 0.5, 1.0), (0.1, 1.0, 2.0)
+    fixed = [(t, *long) for t in (1.0, 0.3, 2.2, 3.0, -0.2)]
+    fixed += [(t, *short) for t in (0.1, 0.3, 0.6)]
+    fixed += [(0.6, L, 1.0, 2.0) for L in (0.48, 0.51)]  # v^2 / a is 0.5
+    sizes = draw.numbers(rng, 0.3, 2.0, 6, 3)
+    drawn = np.column_stack([draw.numbers(rng, 0.1, 2.0, 6), sizes])
+    return [*fixed, *map(tuple, drawn.tolist())]
+
+
+def timing(L, v, a):
+    """Return the top speed, the time of a ramp, and the duration."""
+    top = min(v, np.sqrt(L * a))
+    return top, top / a, L / top + top / a
+
+
+def profile(t, L, a, top, T):
+    """Return position, speed and acceleration for any top speed and duration."""
+    ramp, left = top / a, T - t
+    if t <= 0:
+        return np.zeros(3)
+    if t < ramp:
+        return np.array([a * t**2 / 2, a * t, a])
+    if t < T - ramp:
+        return np.array([top * (t - ramp / 2), top, 0.0])
+    if left <= 0:
+        return np.array([L, 0.0, 0.0])
+    return np.array([L - a * left**2 / 2, a * left, -a])
+
+
+def to_top(t, L, a, top):
+    """Return position, speed and acceleration of another top speed."""
+    return profile(t, L, a, top, L / top + top / a)
+
+
+@row.wrong(
+    "no-triangle",
+    "the top speed is always v; a short way ends before v is reached, so it overshoots",
+    "the trapezoid without its triangle",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, v)
+
+
+@row.wrong(
+    "always-a-triangle",
+    "it never cruises: the top speed is sqrt(L a) even where that is over v",
+    "the triangle",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, np.sqrt(L * a))
+
+
+@row.wrong(
+    "triangle-too-high",
+    "half of the triangle is for braking, so its height is not sqrt(2 L a)",
+    "the triangle with sqrt(2 L a)",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, min(v, np.sqrt(2 * L * a)))
+
+
+@row.wrong(
+    "triangle-too-low",
+    "the triangle's height is not sqrt(L a / 2): its area has to be L",
+    "the triangle with sqrt(L a / 2)",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, min(v, np.sqrt(L * a / 2)))
+
+
+@row.wrong(
+    "triangle-not-a-root",
+    "the triangle's height is the root of L a; L a itself is the square of a speed",
+    "the triangle with L a",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, min(v, L * a))
+
+
+@row.wrong(
+    "triangle-too-late",
+    "it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; there "
+    "are two ramps",
+    "the triangle below v^2 / (2 a)",
+)
+def _(t, L, v, a):
+    return to_top(t, L, a, np.sqrt(L * a) if v**2 / (2 * a) > L else v)
+
+
+@row.wrong(
+    "ramps-take-no-time",
+    "the duration is L / v, as if it were at v from the first moment; the ramps cost "
+    "one ramp more",
+    "the profile with T = L / v",
+)
+def _(t, L, v, a):
+    top, _, _ = timing(L, v, a)
+    return profile(t, L, a, top, L / top)
+
+
+@row.wrong(
+    "both-ramps-added",
+    "the duration is one ramp's time, v / a, too long: compared with full speed, each "
+    "ramp costs only half of its own time",
+    "the profile with T = L / v + 2 v / a",
+)
+def _(t, L, v, a):
+    top, ramp, _ = timing(L, v, a)
+    return profile(t, L, a, top, L / top + 2 * ramp)
+
+
+@row.wrong(
+    "braking-accelerates",
+    "while it slows down the acceleration is negative",
+    "the profile with +a at the end",
+)
+def _(t, L, v, a):
+    x, speed, acc = trapezoid(t, L, v, a)
+    return np.array([x, speed, abs(acc)])
+
+
+@row.wrong(
+    "braking-overshoots",
+    "the last piece comes from beyond the end: what is left has to be taken off L",
+    "the profile with a plus in the last piece",
+)
+def _(t, L, v, a):
+    _, ramp, T = timing(L, v, a)
+    if T - ramp <= t < T:
+        return np.array([L + a * (T - t) ** 2 / 2, a * (T - t), -a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "half-forgotten",
+    "the way of a ramp is a t^2 / 2, not a t^2",
+    "the profile with a t^2",
+)
+def _(t, L, v, a):
+    _, ramp, T = timing(L, v, a)
+    if 0 < t < ramp:
+        return np.array([a * t**2, a * t, a])
+    if T - ramp <= t < T:
+        return np.array([L - a * (T - t) ** 2, a * (T - t), -a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "half-forgotten",
+    "in the first piece, the way of a ramp is a t^2 / 2, not a t^2",
+    "the profile with a t^2",
+)
+def _(t, L, v, a):
+    if 0 < t < timing(L, v, a)[1]:
+        return np.array([a * t**2, a * t, a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "ramps-way-forgotten",
+    "the cruise starts at 0; it has to start where the ramp ended",
+    "the cruise from 0",
+)
+def _(t, L, v, a):
+    top, ramp, T = timing(L, v, a)
+    if ramp <= t < T - ramp:
+        return np.array([top * (t - ramp), top, 0.0])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "ramp-at-full-speed",
+    "the cruise counts the ramp as if it had been at full speed all the time",
+    "the cruise with v t",
+)
+def _(t, L, v, a):
+    top, ramp, T = timing(L, v, a)
+    if ramp <= t < T - ramp:
+        return np.array([top * t, top, 0.0])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "does-not-stop",
+    "after the end it goes on with -a, backwards",
+    "the profile without its end",
+)
+def _(t, L, v, a):
+    left = timing(L, v, a)[2] - t
+    if left <= 0:
+        return np.array([L - a * left**2 / 2, a * left, -a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "does-not-wait",
+    "before the start it is on the ramp already",
+    "the profile without its start",
+)
+def _(t, L, v, a):
+    if t <= 0:
+        return np.array([a * t**2 / 2, a * t, a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "does-not-wait-or-stop",
+    "before the start and after the end the ramps go on",
+    "the profile without its ends",
+)
+def _(t, L, v, a):
+    left = timing(L, v, a)[2] - t
+    if t <= 0:
+        return np.array([a * t**2 / 2, a * t, a])
+    if left <= 0:
+        return np.array([L - a * left**2 / 2, a * left, -a])
+    return trapezoid(t, L, v, a)
+
+
+@row.wrong(
+    "order",
+    "the order is position, speed, acceleration; here it runs backwards",
+    "the order acceleration, speed, position",
+)
+def _(t, L, v, a):
+    return trapezoid(t, L, v, a)[::-1]
+
+
+@row.right  # Three durations, added up piece by piece.
+def _(t, L, v, a):
+    v = min(v, np.sqrt(a * L))
+    pieces = [(v / a, a), (L / v - v / a, 0.0), (v / a, -a)]
+    s, sd, t = 0.0, 0.0, max(t, 0.0)
+    for seconds, acc in pieces:
+        h = min(t, seconds)
+        s, sd, t = s + sd * h + acc * h**2 / 2, sd + acc * h, t - h
+        if t <= 0:
+            return np.array([s, sd, acc if h > 0 else 0.0])
+    return np.array([L, 0.0, 0.0])

@@ -1,0 +1,77 @@
+"""Turns that a logarithm often fails at, for task 7.6: half a turn, and a small one.
+
+They are asked only of an answer that is right for drawn turns: a function that has
+another mistake too hears of that one first.
+"""
+
+import numpy as np
+
+from labkit.judge import HeldOut, draw
+from robo47 import se3
+from robo47.checks import Array
+
+# At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
+HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
+NEARLY_HALF = np.pi - 1e-3
+SMALL = (2e-4, 3e-3, 0.03)  # radians
+
+
+def _ends(R0: Array, turns: Array, s: float, rng: np.random.Generator) -> list:
+    """Return two poses and s for each turn, which is made from R0."""
+    p0, p1 = draw.numbers(rng, -1, 1, 2, len(turns), 3)
+    T0, T1 = se3.make_T(R0, p0), se3.make_T(R0 @ turns, p1)
+    return [(a, b, s) for a, b in zip(T0, T1, strict=True)]
+
+
+def _half(rng: np.random.Generator) -> list:
+    n = np.array(HALF)
+    unit = n / np.linalg.norm(n, axis=1, keepdims=True)
+    turns = 2 * unit[:, :, None] * unit[:, None, :] - np.eye(3)  # exactly symmetric
+    own = np.tile(np.eye(3), (len(n), 1, 1))
+    drawn = draw.rotations(rng, len(n))
+    return [*_ends(own, turns, 1.0, rng), *_ends(drawn, turns, 1.0, rng)]
+
+
+def _half_or_nearly(rng: np.random.Generator) -> list:
+    turns = se3.axis_angle(draw.units(rng, 4), NEARLY_HALF)
+    return [*_half(rng), *_ends(draw.rotations(rng, 4), turns, 0.5, rng)]
+
+
+def _small(rng: np.random.Generator) -> list:
+    turns = se3.axis_angle(draw.units(rng, len(SMALL)), np.array(SMALL))
+    return _ends(draw.rotations(rng, len(SMALL)), turns, 0.7, rng)
+
+
+def _not_turned(T0: Array, T1: Array, s: float) -> Array:
+    return se3.make_T(T0[:3, :3], T0[:3, 3] + s * (T1[:3, 3] - T0[:3, 3]))
+
+
+TURNS = [
+    HeldOut(
+        "half-turn-for-none",
+        "Right, but a turn of 180 degrees is left out: at s = 1 the rotation is still "
+        "R0. The sine is 0 there as it is without a turn; what tells the two apart?",
+        _half,
+        mistaken=_not_turned,
+    ),
+    HeldOut(
+        "wrong-at-pi",
+        "Right, but not for turns of 180 degrees, or just under it. With R = R0^T R1: "
+        "R - R^T is (nearly) 0 there and does not show the axis; R + R^T does, with "
+        "its signs.",
+        _half_or_nearly,
+    ),
+    HeldOut(
+        "small-turn-for-none",
+        "Right, but a small turn is left out: the rotation stays R0. Below which angle "
+        "do you call it no turn?",
+        lambda rng: _small(rng)[:1],
+        mistaken=_not_turned,
+    ),
+    HeldOut(
+        "wrong-near-0",
+        "Right, but not for small turns, of 2 degrees and less. What does it do there "
+        "in place of the usual formula?",
+        _small,
+    ),
+]
