@@ -7,8 +7,9 @@
         yield 0.1 * ONE, 0.0 * ONE, 100.0 * ONE, 20.0 * ONE  # the docstring's case
         ...
 
-    @row.wrong("error-sign", "the spring pushes away from the goal")
-    def _(e, ed, kp, kd):
+    @row.wrong
+    def error_sign(e, ed, kp, kd):
+        "the spring pushes away from the goal => the right one with -e"
         return kd * ed - kp * e
 
 The decorated function is the mistake as a student writes it. Made again case by case,
@@ -104,10 +105,28 @@ class Row:
         return draw
 
     def wrong(
-        self, slug: str, says: str = "", redone: str = REDONE, hidden: str = ""
+        self,
+        slug: str | Code = "",
+        says: str = "",
+        redone: str = REDONE,
+        hidden: str = "",
     ) -> Any:
-        """Take a mistake; the arguments are those of a `Way`."""
-        return lambda code: self._keep(Way("wrong", slug, says, code, redone, hidden))
+        """Take a mistake, bare or with arguments; these are those of a `Way`.
+
+        Without them the function's name is the slug and its docstring the sentence,
+        followed by " => " and what to call the answer.
+        """
+        if callable(slug):
+            return self.wrong()(slug)
+
+        def keep(code: Code) -> Code:
+            name = slug or code.__name__.replace("_", "-")
+            told, _, called = " ".join((code.__doc__ or "").split()).partition(" => ")
+            return self._keep(
+                Way("wrong", name, says or told, code, called or redone, hidden)
+            )
+
+        return keep
 
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""

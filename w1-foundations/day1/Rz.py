@@ -19,110 +19,99 @@ def angles(rng):
     return [(x,) for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *map(float, drawn))]
 
 
-@row.wrong(
-    "turns-backwards",
-    "it turns the wrong way: a positive angle takes x towards -y",
-    "Rz(-theta)",
-)
-def _(theta):
+@row.wrong
+def turns_backwards(theta):
+    """it turns the wrong way: a positive angle takes x towards -y => Rz(-theta)"""
     return se3.Rz(-theta)
 
 
-@row.wrong(
-    "radians-taken-for-degrees",
-    "the angle is in radians already, and is converted from degrees once more",
-    "the turn by pi / 180 times the angle",
-)
-def _(theta):
+@row.wrong
+def radians_taken_for_degrees(theta):
+    """the angle is in radians already, and is converted from degrees once more => the
+    turn by pi / 180 times the angle"""
     return se3.Rz(np.deg2rad(theta))
 
 
-@row.wrong(
-    "degrees-into-cos",
-    "cos and sin are given degrees; they expect radians, as the angle comes",
-    "the turn by 180 / pi times the angle",
-)
-def _(theta):
+@row.wrong
+def degrees_into_cos(theta):
+    """cos and sin are given degrees; they expect radians, as the angle comes => the
+    turn by 180 / pi times the angle"""
     return se3.Rz(np.rad2deg(theta))
 
 
-@row.wrong("turns-about-x", "this turns about x, not about z", "that turn about x")
-def _(theta):
+@row.wrong
+def turns_about_x(theta):
+    """this turns about x, not about z => that turn about x"""
     return se3.Rx(theta)
 
 
-@row.wrong("turns-about-y", "this turns about y, not about z", "that turn about y")
-def _(theta):
+@row.wrong
+def turns_about_y(theta):
+    """this turns about y, not about z => that turn about y"""
     return se3.Ry(theta)
 
 
-@row.wrong("turns-about-x", "this turns about x, and backwards", "that turn about x")
-def _(theta):
+@row.wrong
+def turns_about_x(theta):
+    """this turns about x, and backwards => that turn about x"""
     return se3.Rx(-theta)
 
 
-@row.wrong("turns-about-y", "this turns about y, and backwards", "that turn about y")
-def _(theta):
+@row.wrong
+def turns_about_y(theta):
+    """this turns about y, and backwards => that turn about y"""
     return se3.Ry(-theta)
 
 
-@row.wrong(
-    "sin-and-cos-swapped",
-    "sin and cos have changed places: at 0 it already turns",
-    "the right one with the two swapped",
-)
-def _(theta):
+@row.wrong
+def sin_and_cos_swapped(theta):
+    """sin and cos have changed places: at 0 it already turns => the right one with the
+    two swapped"""
     c, s = np.sin(theta), np.cos(theta)
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
-@row.wrong(
-    "minus-missing",
-    "one of the two sines needs a minus: as it is, lengths change (R R^T is not I)",
-    "the right one without that minus",
-)
-def _(theta):
+@row.wrong
+def minus_missing(theta):
+    """one of the two sines needs a minus: as it is, lengths change (R R^T is not I) =>
+    the right one without that minus"""
     c, s = np.cos(theta), np.sin(theta)
     return np.array([[c, s, 0], [s, c, 0], [0, 0, 1]])
 
 
-@row.wrong(
-    "minus-twice",
-    "only one of the two sines has a minus: as it is, lengths change",
-    "the right one with both negated",
-)
-def _(theta):
+@row.wrong
+def minus_twice(theta):
+    """only one of the two sines has a minus: as it is, lengths change => the right one
+    with both negated"""
     c, s = np.cos(theta), np.sin(theta)
     return np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]])
 
 
-@row.wrong(
-    "reflection",
-    "a cosine has a minus that belongs to a sine: this mirrors (det R = -1)",
-    "the right one with that sign",
-)
-def _(theta):
+@row.wrong
+def reflection(theta):
+    """a cosine has a minus that belongs to a sine: this mirrors (det R = -1) => the
+    right one with that sign"""
     c, s = np.cos(theta), np.sin(theta)
     return np.array([[c, s, 0], [s, -c, 0], [0, 0, 1]])
 
 
-@row.wrong(
-    "z-lost",
-    "whatever is along z disappears: the last entry is 0, so det R = 0",
-    "the right one with a 0 there",
-)
-def _(theta):
+@row.wrong
+def z_lost(theta):
+    """whatever is along z disappears: the last entry is 0, so det R = 0 => the right
+    one with a 0 there"""
     c, s = np.cos(theta), np.sin(theta)
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 0]])
 
 
-@row.wrong("half-angle", "it turns by half of the angle", "the turn by half of it")
-def _(theta):
+@row.wrong
+def half_angle(theta):
+    """it turns by half of the angle => the turn by half of it"""
     return se3.Rz(theta / 2)
 
 
-@row.wrong("double-angle", "it turns by twice the angle", "the turn by twice as much")
-def _(theta):
+@row.wrong
+def double_angle(theta):
+    """it turns by twice the angle => the turn by twice as much"""
     return se3.Rz(2 * theta)
 
 

@@ -87,22 +87,16 @@ for k in range(1, 8):
 # The joints' angles.
 
 
-@row.wrong(
-    "joints-left-out",
-    "the links are right, but no joint turns: whatever q is, your pose is the one at "
-    "q = 0",
-    "the pose at q = 0",
-)
-def _(model, q, path=PATH):
+@row.wrong
+def joints_left_out(model, q, path=PATH):
+    """the links are right, but no joint turns: whatever q is, your pose is the one at q
+    = 0 => the pose at q = 0"""
     return fk(model, np.zeros(7), path)
 
 
-@row.wrong(
-    "home-whatever-q",
-    "whatever q is, your pose is the one at home",
-    "the pose at home",
-)
-def _(model, q, path=PATH):
+@row.wrong
+def home_whatever_q(model, q, path=PATH):
+    """whatever q is, your pose is the one at home => the pose at home"""
     return fk(model, READY_Q, path)
 
 
@@ -120,21 +114,17 @@ for shifted in SHIFTS:
     )(lambda model, q, path=PATH, shifted=shifted: fk(model, shifted(q), path))
 
 
-@row.wrong(
-    "first-angle-for-all",
-    "every joint is given the first angle, q[0]: the index never moves on",
-    "the pose with q[0] everywhere",
-)
-def _(model, q, path=PATH):
+@row.wrong
+def first_angle_for_all(model, q, path=PATH):
+    """every joint is given the first angle, q[0]: the index never moves on => the pose
+    with q[0] everywhere"""
     return fk(model, np.full(7, q[0]), path)
 
 
-@row.wrong(
-    "ready-subtracted",
-    "the ready pose's angles are subtracted; each joint turns by q itself",
-    "the pose at q minus those angles",
-)
-def _(model, q, path=PATH):
+@row.wrong
+def ready_subtracted(model, q, path=PATH):
+    """the ready pose's angles are subtracted; each joint turns by q itself => the pose
+    at q minus those angles"""
     return fk(model, q - READY_Q, path)
 
 
@@ -157,12 +147,9 @@ for i, k in combinations(range(7), 2):
     )
 
 
-@row.wrong(
-    "joints-in-reverse",
-    "q is read backwards: joint1 gets the last angle",
-    "the pose with q backwards",
-)
-def _(model, q, path=PATH):
+@row.wrong
+def joints_in_reverse(model, q, path=PATH):
+    """q is read backwards: joint1 gets the last angle => the pose with q backwards"""
     return fk(model, q[::-1], path)
 
 

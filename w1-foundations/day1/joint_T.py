@@ -20,12 +20,10 @@ row = Row(
 row.inputs(angles)
 
 
-@row.wrong(
-    "slides-along-z",
-    "the joint moves along z by q metres; the Panda's joints turn about z",
-    "a slide by q",
-)
-def _(q):
+@row.wrong
+def slides_along_z(q):
+    """the joint moves along z by q metres; the Panda's joints turn about z => a slide
+    by q"""
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 

@@ -23,12 +23,10 @@ def _(rng):
     return list(zip(draw.numbers(rng, -1, 1, len(quats), 3), quats, strict=True))
 
 
-@row.wrong(
-    "pos-divided",
-    "the rotation is right, but pos is divided by 1000; the file is in metres",
-    "the right one with pos / 1000",
-)
-def _(pos, quat):
+@row.wrong
+def pos_divided(pos, quat):
+    """the rotation is right, but pos is divided by 1000; the file is in metres => the
+    right one with pos / 1000"""
     return pose(se3.quat_to_R(quat), pos / 1000.0)
 
 

@@ -19,20 +19,17 @@ def _(rng):
     yield from zip(draw.rotations(rng, 5), moves, strict=True)
 
 
-@row.wrong(
-    "move-then-turn",
-    "the translation comes out turned by R: you move first and turn after, where a "
-    "pose turns first",
-)
-def _(R, t):
+@row.wrong
+def move_then_turn(R, t):
+    """the translation comes out turned by R: you move first and turn after, where a
+    pose turns first"""
     return pose(R, R @ t)
 
 
-@row.wrong(
-    "t-turned-back",
-    "the translation comes out turned by R backwards: t is already in the outer frame",
-)
-def _(R, t):
+@row.wrong
+def t_turned_back(R, t):
+    """the translation comes out turned by R backwards: t is already in the outer
+    frame"""
     return pose(R, R.T @ t)
 
 

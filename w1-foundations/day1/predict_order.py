@@ -153,12 +153,10 @@ row.wrong("same-order-twice", f"the second is wrong: {OTHER_ORDER}")(
 )
 
 
-@row.wrong(
-    "whole-numbers",
-    "only whole numbers are left: an array of integers cuts off what is stored in it",
-    "the right ones cut to whole numbers",
-)
-def _(T_world_ee, T_extra):
+@row.wrong
+def whole_numbers(T_world_ee, T_extra):
+    """only whole numbers are left: an array of integers cuts off what is stored in it
+    => the right ones cut to whole numbers"""
     return np.trunc(both(right)(T_world_ee, T_extra))
 
 

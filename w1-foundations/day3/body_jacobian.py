@@ -26,59 +26,44 @@ def turned(J, R):
     return np.vstack([R @ J[:3], R @ J[3:]])
 
 
-@row.wrong(
-    "adjoint-of-T",
-    "T leads from the hand to the world; here the twists are to be taken back",
-    "the Jacobian with Ad(T)",
-)
-def _(J_space, T):
+@row.wrong
+def adjoint_of_T(J_space, T):
+    """T leads from the hand to the world; here the twists are to be taken back => the
+    Jacobian with Ad(T)"""
     return adjoint(T) @ J_space
 
 
-@row.wrong(
-    "space-for-body",
-    "this is J_space still, as the world sees it",
-    "J_space itself",
-)
-def _(J_space, T):
+@row.wrong
+def space_for_body(J_space, T):
+    """this is J_space still, as the world sees it => J_space itself"""
     return J_space.copy()
 
 
-@row.wrong(
-    "site-for-body",
-    "this is J_site: the velocity of the right point, but in the world's axes",
-    "J_site",
-)
-def _(J_space, T):
+@row.wrong
+def site_for_body(J_space, T):
+    """this is J_site: the velocity of the right point, but in the world's axes =>
+    J_site"""
     return site_jacobian(J_space, T[:3, 3])
 
 
-@row.wrong(
-    "rotation-only",
-    "J_space is turned into the hand's axes, but v is still that of the point at "
-    "the world's origin",
-    "J_space in the hand's axes",
-)
-def _(J_space, T):
+@row.wrong
+def rotation_only(J_space, T):
+    """J_space is turned into the hand's axes, but v is still that of the point at the
+    world's origin => J_space in the hand's axes"""
     return turned(J_space, T[:3, :3].T)
 
 
-@row.wrong(
-    "transposed-adjoint",
-    "this is Ad(T) transposed; the inverse of an adjoint is not its transpose",
-    "the Jacobian with that transpose",
-)
-def _(J_space, T):
+@row.wrong
+def transposed_adjoint(J_space, T):
+    """this is Ad(T) transposed; the inverse of an adjoint is not its transpose => the
+    Jacobian with that transpose"""
     return adjoint(T).T @ J_space
 
 
-@row.wrong(
-    "turned-by-R",
-    "J_site is turned by R, which leads from the hand's axes to the world's; the "
-    "way back is R^T",
-    "J_site turned by R",
-)
-def _(J_space, T):
+@row.wrong
+def turned_by_R(J_space, T):
+    """J_site is turned by R, which leads from the hand's axes to the world's; the way
+    back is R^T => J_site turned by R"""
     return turned(site_jacobian(J_space, T[:3, 3]), T[:3, :3])
 
 

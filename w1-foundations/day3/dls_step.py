@@ -42,116 +42,83 @@ def weighted(J, e, weight):
     return Vt.T @ (weight(s) * (U.T @ e))
 
 
-@row.wrong(
-    "damping-not-squared",
-    "the damping is not squared",
-    "the step with damping I",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_not_squared(J, e, damping):
+    """the damping is not squared => the step with damping I"""
     return J.T @ solve(J @ J.T + damping * I6, e)
 
 
-@row.wrong(
-    "damping-dropped",
-    "there is no damping in it: this is the plain pseudo-inverse, which is huge "
-    "near a singularity",
-    "the step of the pseudo-inverse",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_dropped(J, e, damping):
+    """there is no damping in it: this is the plain pseudo-inverse, which is huge near a
+    singularity => the step of the pseudo-inverse"""
     return pinv(J) @ e
 
 
-@row.wrong(
-    "damping-doubled",
-    "the damping is multiplied by 2, not by itself",
-    "the step with 2 damping I",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_doubled(J, e, damping):
+    """the damping is multiplied by 2, not by itself => the step with 2 damping I"""
     return J.T @ solve(J @ J.T + damping * 2 * I6, e)
 
 
-@row.wrong(
-    "damping-halved",
-    "half of the squared damping is added, not all of it",
-    "the step with half of it",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_halved(J, e, damping):
+    """half of the squared damping is added, not all of it => the step with half of
+    it"""
     return J.T @ solve(J @ J.T + damping**2 / 2 * I6, e)
 
 
-@row.wrong(
-    "damping-everywhere",
-    "damping^2 is added to every entry of J J^T; it belongs on the diagonal only",
-    "the step with damping^2 in every entry",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_everywhere(J, e, damping):
+    """damping^2 is added to every entry of J J^T; it belongs on the diagonal only =>
+    the step with damping^2 in every entry"""
     return J.T @ solve(J @ J.T + damping**2, e)
 
 
-@row.wrong(
-    "transpose-only",
-    "this is J^T e: the inverse is missing, so the step has the wrong length and "
-    "direction",
-    "J^T e",
-)
-def _(J, e, damping):
+@row.wrong
+def transpose_only(J, e, damping):
+    """this is J^T e: the inverse is missing, so the step has the wrong length and
+    direction => J^T e"""
     return J.T @ e
 
 
-@row.wrong(
-    "identity-scaled",
-    "this is J^T e over damping^2: J J^T is left out",
-    "J^T e / damping^2",
-)
-def _(J, e, damping):
+@row.wrong
+def identity_scaled(J, e, damping):
+    """this is J^T e over damping^2: J J^T is left out => J^T e / damping^2"""
     return J.T @ e / damping**2
 
 
-@row.wrong(
-    "pseudo-inverse-scaled",
-    "the plain step is divided by 1 + damping^2; damping changes the directions "
-    "near a singularity most",
-    "the plain step over 1 + damping^2",
-)
-def _(J, e, damping):
+@row.wrong
+def pseudo_inverse_scaled(J, e, damping):
+    """the plain step is divided by 1 + damping^2; damping changes the directions near a
+    singularity most => the plain step over 1 + damping^2"""
     return pinv(J) @ e / (1 + damping**2)
 
 
-@row.wrong(
-    "damping-squared-twice",
-    "the damping is squared twice: its fourth power is added",
-    "the step with damping^4 I",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_squared_twice(J, e, damping):
+    """the damping is squared twice: its fourth power is added => the step with
+    damping^4 I"""
     return J.T @ solve(J @ J.T + damping**4 * I6, e)
 
 
-@row.wrong(
-    "damping-fixed",
-    "the damping is 0.05 whatever the argument says",
-    "the step with damping 0.05",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_fixed(J, e, damping):
+    """the damping is 0.05 whatever the argument says => the step with damping 0.05"""
     return J.T @ solve(J @ J.T + 0.05**2 * I6, e)
 
 
-@row.wrong(
-    "damping-added-to-the-values",
-    "the damping is added to each singular value s, 1 / (s + damping); the formula "
-    "makes s / (s^2 + damping^2) of it",
-    "the step with 1 / (s + damping)",
-)
-def _(J, e, damping):
+@row.wrong
+def damping_added_to_the_values(J, e, damping):
+    """the damping is added to each singular value s, 1 / (s + damping); the formula
+    makes s / (s^2 + damping^2) of it => the step with 1 / (s + damping)"""
     return weighted(J, e, lambda s: 1 / (s + damping))
 
 
-@row.wrong(
-    "singular-value-missing",
-    "the weights are 1 / (s^2 + damping^2) for the singular values s: J^T in front "
-    "puts one more s above",
-    "the step with 1 / (s^2 + damping^2)",
-)
-def _(J, e, damping):
+@row.wrong
+def singular_value_missing(J, e, damping):
+    """the weights are 1 / (s^2 + damping^2) for the singular values s: J^T in front
+    puts one more s above => the step with 1 / (s^2 + damping^2)"""
     return weighted(J, e, lambda s: 1 / (s**2 + damping**2))
 
 

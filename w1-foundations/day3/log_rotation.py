@@ -94,134 +94,101 @@ def roll_pitch_yaw(R):
     return np.array([roll, -np.arcsin(np.clip(R[2, 0], -1, 1)), yaw])
 
 
-@row.wrong(
-    "sine-for-angle",
-    "the vector's length is the sine of the angle; it has to be the angle",
-    "the axis times the sine",
-)
-def _(R):
+@row.wrong
+def sine_for_angle(R):
+    """the vector's length is the sine of the angle; it has to be the angle => the axis
+    times the sine"""
     return vee(R) / 2
 
 
-@row.wrong(
-    "twice-the-sine",
-    "the vector's length is twice the sine of the angle: the half is missing, and "
-    "so is the angle",
-    "the vector of the entries of R - R^T",
-)
-def _(R):
+@row.wrong
+def twice_the_sine(R):
+    """the vector's length is twice the sine of the angle: the half is missing, and so
+    is the angle => the vector of the entries of R - R^T"""
     return vee(R)
 
 
-@row.wrong(
-    "quaternion-vector-part",
-    "this is the vector part of the quaternion: its length is sin(angle / 2)",
-    "that vector part",
-)
-def _(R):
+@row.wrong
+def quaternion_vector_part(R):
+    """this is the vector part of the quaternion: its length is sin(angle / 2) => that
+    vector part"""
     return quaternion_part(R)
 
 
-@row.wrong(
-    "twice-the-quaternion-part",
-    "this is twice the vector part of the quaternion: it is like the angle only near 0",
-    "twice that vector part",
-)
-def _(R):
+@row.wrong
+def twice_the_quaternion_part(R):
+    """this is twice the vector part of the quaternion: it is like the angle only near 0
+    => twice that vector part"""
     return 2 * quaternion_part(R)
 
 
-@row.wrong(
-    "axis-only",
-    "its length is 1 (the axis); it has to be the angle",
-    "the axis alone",
-)
-def _(R):
+@row.wrong
+def axis_only(R):
+    """its length is 1 (the axis); it has to be the angle => the axis alone"""
     return axis(R)
 
 
-@row.wrong(
-    "arcsine",
-    "the angle is right up to 90 degrees only: an arcsine cannot tell 100 degrees "
-    "from 80, for which the trace is needed",
-    "the axis times the arcsine",
-)
-def _(R):
+@row.wrong
+def arcsine(R):
+    """the angle is right up to 90 degrees only: an arcsine cannot tell 100 degrees from
+    80, for which the trace is needed => the axis times the arcsine"""
     a, sine, _ = parts(R)
     return a / sine * np.arcsin(min(sine, 1.0)) if sine > 0 else a
 
 
-@row.wrong(
-    "half-the-angle",
-    "its length is half the angle, as in a quaternion",
-    "half of it",
-)
-def _(R):
+@row.wrong
+def half_the_angle(R):
+    """its length is half the angle, as in a quaternion => half of it"""
     return log_rotation(R) / 2
 
 
-@row.wrong(
-    "in-degrees",
-    "the angle is in degrees; here it is in radians",
-    "the answer in degrees",
-)
-def _(R):
+@row.wrong
+def in_degrees(R):
+    """the angle is in degrees; here it is in radians => the answer in degrees"""
     return np.rad2deg(log_rotation(R))
 
 
-@row.wrong(
-    "roll-pitch-yaw",
-    "these are the angles of three turns about x, y and z, one after the other; "
-    "one turn about one axis is asked for",
-    "the vector (roll, pitch, yaw)",
-)
+@row.wrong("roll-pitch-yaw")
 def _(R):
+    """these are the angles of three turns about x, y and z, one after the other; one
+    turn about one axis is asked for => the vector (roll, pitch, yaw)"""
     return roll_pitch_yaw(R)
 
 
-@row.wrong(
-    "twice-the-sine-in-atan2",
-    "the angle comes from twice the sine: the half of (R - R^T) / 2 is missing",
-    "the axis times atan2 of twice the sine",
-)
-def _(R):
+@row.wrong
+def twice_the_sine_in_atan2(R):
+    """the angle comes from twice the sine: the half of (R - R^T) / 2 is missing => the
+    axis times atan2 of twice the sine"""
     return axis(R) * np.arctan2(np.linalg.norm(vee(R)), cosine(R))
 
 
 # With NaN in them.
 
 
-@row.wrong(
-    "textbook-formula",
-    "this is the formula of most books, theta / (2 sin theta) times R - R^T: no "
-    "turn is 0 / 0 in it, and near pi it divides noise by nearly 0",
-    "that formula, with its NaN,",
-)
-def _(R):
+@row.wrong
+def textbook_formula(R):
+    """this is the formula of most books, theta / (2 sin theta) times R - R^T: no turn
+    is 0 / 0 in it, and near pi it divides noise by nearly 0 => that formula, with its
+    NaN,"""
     angle = np.arccos((np.trace(R) - 1) / 2)
     return angle / (2 * np.sin(angle)) * vee(R)
 
 
-@row.wrong(
-    "nan-at-0",
-    "NaN comes back where R is the identity: there it is divided by a sine of 0",
-    "the right one with NaN there",
-)
-def _(R):
+@row.wrong
+def nan_at_0(R):
+    """NaN comes back where R is the identity: there it is divided by a sine of 0 => the
+    right one with NaN there"""
     a, sine, angle = parts(R)
     if cosine(R) > -0.9:
         return a * (angle / sine)
     return angle * signed(column(R), a)
 
 
-@row.wrong(
-    "arccosine-beyond-1",
-    "NaN comes back where rounding makes (trace - 1) / 2 a bit more than 1, or "
-    "less than -1: the arccosine has no answer there. atan2 always has one",
-    "the right one with NaN there",
-    hidden="its identity is exact",
-)
-def _(R):
+@row.wrong(hidden="its identity is exact")
+def arccosine_beyond_1(R):
+    """NaN comes back where rounding makes (trace - 1) / 2 a bit more than 1, or less
+    than -1: the arccosine has no answer there. atan2 always has one => the right one
+    with NaN there"""
     return axis(R) * np.arccos(cosine(R))
 
 

@@ -43,84 +43,65 @@ def values(J):
     return np.linalg.svd(J, compute_uv=False)
 
 
-@row.wrong(
-    "no-square-root",
-    "the square root is missing: this is det(J J^T)",
-    "det(J J^T)",
-)
-def _(J):
+@row.wrong
+def no_square_root(J):
+    """the square root is missing: this is det(J J^T) => det(J J^T)"""
     return np.linalg.det(J @ J.T)
 
 
-@row.wrong(
-    "other-product",
-    "J^T J is 7x7 and always singular; J J^T is the one that is meant",
-    "the root of det(J^T J)",
-)
-def _(J):
+@row.wrong
+def other_product(J):
+    """J^T J is 7x7 and always singular; J J^T is the one that is meant => the root of
+    det(J^T J)"""
     return np.sqrt(abs(np.linalg.det(J.T @ J)))
 
 
-@row.wrong(
-    "smallest-singular-value",
-    "this is the smallest singular value alone; the product of all six is asked for",
-    "the smallest singular value",
-)
-def _(J):
+@row.wrong
+def smallest_singular_value(J):
+    """this is the smallest singular value alone; the product of all six is asked for =>
+    the smallest singular value"""
     return values(J)[-1]
 
 
-@row.wrong(
-    "largest-singular-value",
-    "this is the largest singular value, the norm of J",
-    "the largest singular value",
-)
-def _(J):
+@row.wrong
+def largest_singular_value(J):
+    """this is the largest singular value, the norm of J => the largest singular
+    value"""
     return np.linalg.norm(J, 2)
 
 
-@row.wrong(
-    "sum-of-singular-values",
-    "the singular values are added; they have to be multiplied",
-    "the sum of the singular values",
-)
-def _(J):
+@row.wrong
+def sum_of_singular_values(J):
+    """the singular values are added; they have to be multiplied => the sum of the
+    singular values"""
     return values(J).sum()
 
 
-@row.wrong(
-    "trace",
-    "this comes from the trace, which is the sum; the determinant is asked for",
-    "the root of the trace",
-)
-def _(J):
+@row.wrong
+def trace(J):
+    """this comes from the trace, which is the sum; the determinant is asked for => the
+    root of the trace"""
     return np.sqrt(np.trace(J @ J.T))
 
 
-@row.wrong(
-    "inverse-condition",
-    "this is the smallest singular value over the largest one, another measure",
-    "the inverse of the condition number",
-)
-def _(J):
+@row.wrong
+def inverse_condition(J):
+    """this is the smallest singular value over the largest one, another measure => the
+    inverse of the condition number"""
     return values(J)[-1] / values(J)[0]
 
 
-@row.wrong(
-    "square-part",
-    "this is the determinant of the first six columns; joint 7 counts too",
-    "the determinant of six columns",
-)
-def _(J):
+@row.wrong
+def square_part(J):
+    """this is the determinant of the first six columns; joint 7 counts too => the
+    determinant of six columns"""
     return abs(np.linalg.det(J[:, :6]))
 
 
-@row.wrong(
-    "position-only",
-    "only the three v rows of J are used; the rotation counts too",
-    "the root of det(J J^T) of three rows",
-)
-def _(J):
+@row.wrong
+def position_only(J):
+    """only the three v rows of J are used; the rotation counts too => the root of det(J
+    J^T) of three rows"""
     return values(J[3:]).prod()
 
 

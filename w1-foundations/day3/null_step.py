@@ -46,102 +46,80 @@ def _(rng):
     return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
 
 
-@row.wrong(
-    "transpose-for-pseudo-inverse",
-    "J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels it",
-    "dq - J^T J dq",
-)
-def _(J, dq):
+@row.wrong
+def transpose_for_pseudo_inverse(J, dq):
+    """J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels it =>
+    dq - J^T J dq"""
     return dq - J.T @ (J @ dq)
 
 
-@row.wrong(
-    "felt-part",
-    "this is the part that the hand does feel, J^+ J dq; the rest is asked for",
-    "J^+ J dq",
-)
-def _(J, dq):
+@row.wrong
+def felt_part(J, dq):
+    """this is the part that the hand does feel, J^+ J dq; the rest is asked for => J^+
+    J dq"""
     return pinv(J) @ (J @ dq)
 
 
-@row.wrong("unchanged", "dq comes back as it was", "dq itself")
-def _(J, dq):
+@row.wrong
+def unchanged(J, dq):
+    """dq comes back as it was => dq itself"""
     return dq.copy()
 
 
-@row.wrong(
-    "added",
-    "the part that the hand feels is added; it has to be taken away",
-    "dq + J^+ J dq",
-)
-def _(J, dq):
+@row.wrong
+def added(J, dq):
+    """the part that the hand feels is added; it has to be taken away => dq + J^+ J
+    dq"""
     return dq + pinv(J) @ (J @ dq)
 
 
-@row.wrong(
-    "nothing-left",
-    "nothing is left: seven joints always have a motion that the hand does not feel",
-    "zeros",
-)
-def _(J, dq):
+@row.wrong
+def nothing_left(J, dq):
+    """nothing is left: seven joints always have a motion that the hand does not feel =>
+    zeros"""
     return np.zeros(7)
 
 
-@row.wrong(
-    "damped-projector",
-    "the pseudo-inverse in it is damped (by 0.05), so a part of the felt motion stays",
-    "the projector with damping",
-)
-def _(J, dq):
+@row.wrong
+def damped_projector(J, dq):
+    """the pseudo-inverse in it is damped (by 0.05), so a part of the felt motion stays
+    => the projector with damping"""
     return dq - dls_step(J, J @ dq, 0.05)
 
 
-@row.wrong(
-    "damped-projector",
-    "the pseudo-inverse in it is damped (by 0.1), so a part of the felt motion stays",
-    "the projector with damping",
-)
-def _(J, dq):
+@row.wrong
+def damped_projector(J, dq):
+    """the pseudo-inverse in it is damped (by 0.1), so a part of the felt motion stays
+    => the projector with damping"""
     return dq - dls_step(J, J @ dq, 0.1)
 
 
-@row.wrong(
-    "damped-projector",
-    "the pseudo-inverse in it is damped (by 0.01), so a part of the felt motion stays",
-    "the projector with damping",
-)
-def _(J, dq):
+@row.wrong
+def damped_projector(J, dq):
+    """the pseudo-inverse in it is damped (by 0.01), so a part of the felt motion stays
+    => the projector with damping"""
     return dq - dls_step(J, J @ dq, 0.01)
 
 
-@row.wrong(
-    "normalised",
-    "its length is made 1; the part of dq that the hand does not feel has a length "
-    "of its own",
-    "the right one over its length",
-)
-def _(J, dq):
+@row.wrong
+def normalised(J, dq):
+    """its length is made 1; the part of dq that the hand does not feel has a length of
+    its own => the right one over its length"""
     left = dq - pinv(J) @ (J @ dq)
     return left / np.linalg.norm(left)
 
 
-@row.wrong(
-    "position-only",
-    "only the three v rows of J are used: the hand stays where it is, but it turns",
-    "the projector of three rows",
-)
-def _(J, dq):
+@row.wrong
+def position_only(J, dq):
+    """only the three v rows of J are used: the hand stays where it is, but it turns =>
+    the projector of three rows"""
     return dq - pinv(J[3:]) @ (J[3:] @ dq)
 
 
-@row.wrong(
-    "one-direction-only",
-    "only the last right singular vector is kept. Where J is singular, there are "
-    "more motions that the hand does not feel",
-    "dq along that vector",
-    hidden="its J have rank 6",
-)
-def _(J, dq):
+@row.wrong(hidden="its J have rank 6")
+def one_direction_only(J, dq):
+    """only the last right singular vector is kept. Where J is singular, there are more
+    motions that the hand does not feel => dq along that vector"""
     v = np.linalg.svd(J)[2][-1]
     return (v @ dq) * v
 

@@ -19,61 +19,48 @@ def _(rng):
     return [(spin, np.array([1.0, 0.0, 0.0])), *zip(drawn, points, strict=True)]
 
 
-@row.wrong(
-    "space-for-site",
-    "this is J_space still: its v is the velocity at the world's origin, not at p",
-    "J_space itself",
-)
-def _(J_space, p):
+@row.wrong
+def space_for_site(J_space, p):
+    """this is J_space still: its v is the velocity at the world's origin, not at p =>
+    J_space itself"""
     return J_space.copy()
 
 
-@row.wrong(
-    "cross-sign",
-    "the sign of the cross product is wrong: a spin about z takes (1, 0, 0) to +y",
-    "the Jacobian with v - omega x p",
-)
-def _(J_space, p):
+@row.wrong
+def cross_sign(J_space, p):
+    """the sign of the cross product is wrong: a spin about z takes (1, 0, 0) to +y =>
+    the Jacobian with v - omega x p"""
     omega, v = J_space[:3], J_space[3:]
     return np.vstack([omega, v + skew(p) @ omega])
 
 
-@row.wrong(
-    "v-dropped",
-    "v is only omega x p; the v that J_space has is left out",
-    "the Jacobian with omega x p alone",
-)
-def _(J_space, p):
+@row.wrong
+def v_dropped(J_space, p):
+    """v is only omega x p; the v that J_space has is left out => the Jacobian with
+    omega x p alone"""
     omega = J_space[:3]
     return np.vstack([omega, np.cross(omega, p, axis=0)])
 
 
-@row.wrong(
-    "halves-read-as-v-omega",
-    "the upper rows of J_space are taken for v, and the lower ones for omega",
-    "the Jacobian with the halves read the other way",
-)
-def _(J_space, p):
+@row.wrong
+def halves_read_as_v_omega(J_space, p):
+    """the upper rows of J_space are taken for v, and the lower ones for omega => the
+    Jacobian with the halves read the other way"""
     v, omega = J_space[:3], J_space[3:]
     return np.vstack([v + np.cross(omega, p, axis=0), omega])
 
 
-@row.wrong(
-    "v-cross-p",
-    "v x p is added, where omega x p belongs",
-    "the Jacobian with v + v x p",
-)
-def _(J_space, p):
+@row.wrong
+def v_cross_p(J_space, p):
+    """v x p is added, where omega x p belongs => the Jacobian with v + v x p"""
     omega, v = J_space[:3], J_space[3:]
     return np.vstack([omega, v + np.cross(v, p, axis=0)])
 
 
-@row.wrong(
-    "omega-changed",
-    "omega is changed by v x p; all points of a body have the same omega",
-    "the Jacobian with the cross product above",
-)
-def _(J_space, p):
+@row.wrong
+def omega_changed(J_space, p):
+    """omega is changed by v x p; all points of a body have the same omega => the
+    Jacobian with the cross product above"""
     omega, v = J_space[:3], J_space[3:]
     return np.vstack([omega + np.cross(v, p, axis=0), v])
 

@@ -25,53 +25,41 @@ BOTH_MOVE = "there both halves move"
 # Those that cost no loop come first.
 
 
-@row.wrong(
-    "one-step",
-    "there is one step only; the Jacobian is a straight line along a curve, so it "
-    "takes several",
-    "where one step leads",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def one_step(screws, M, T_goal, q_start, limits):
+    """there is one step only; the Jacobian is a straight line along a curve, so it
+    takes several => where one step leads"""
     return list(passed(screws, M, T_goal, q_start, limits, steps=1))[-1][0]
 
 
-@row.wrong(
-    "start-returned",
-    "the start comes back: no step is taken, or each one leads away from the "
-    "target (then the sign of the error is wrong)",
-    "q_start",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def start_returned(screws, M, T_goal, q_start, limits):
+    """the start comes back: no step is taken, or each one leads away from the target
+    (then the sign of the error is wrong) => q_start"""
     return q_start.copy()
 
 
-@row.wrong(
-    "step-returned",
-    "the last step comes back, not the configuration that the steps lead to",
-    "a step of 0",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def step_returned(screws, M, T_goal, q_start, limits):
+    """the last step comes back, not the configuration that the steps lead to => a step
+    of 0"""
     return np.zeros(7)  # nothing is left of a step where the loop has arrived
 
 
 # The loop with a wrong part.
 
 
-@row.wrong(
-    "space-jacobian",
-    "the steps are made with J_space: its v is that of another point than the hand's",
-    "what J_space leads to",
-)
+@row.wrong("space-jacobian")
 def _(screws, M, T_goal, q_start, limits):
+    """the steps are made with J_space: its v is that of another point than the hand's
+    => what J_space leads to"""
     return walk(screws, M, T_goal, q_start, limits, seen=lambda J_space, T: J_space)
 
 
-@row.wrong(
-    "body-jacobian",
-    "the steps are made with J_body, in the hand's axes; the error is in the world's",
-    "what J_body leads to",
-)
+@row.wrong("body-jacobian")
 def _(screws, M, T_goal, q_start, limits):
+    """the steps are made with J_body, in the hand's axes; the error is in the world's
+    => what J_body leads to"""
     return walk(screws, M, T_goal, q_start, limits, seen=body_jacobian)
 
 
@@ -80,69 +68,52 @@ def in_the_hands_axes(T, T_goal):
     return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
 
 
-@row.wrong(
-    "error-in-the-hands-axes",
-    "the error is in the hand's axes; J_site is in the world's",
-    "what that error leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def error_in_the_hands_axes(screws, M, T_goal, q_start, limits):
+    """the error is in the hand's axes; J_site is in the world's => what that error
+    leads to"""
     return walk(screws, M, T_goal, q_start, limits, gap=in_the_hands_axes)
 
 
-@row.wrong(
-    "damping-not-squared",
-    "the squared damping is handed over as the damping, or its root is forgotten",
-    "what that damping leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def damping_not_squared(screws, M, T_goal, q_start, limits):
+    """the squared damping is handed over as the damping, or its root is forgotten =>
+    what that damping leads to"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
-@row.wrong(
-    "damping-not-squared",
-    "the damping in it is too large by far: it is not squared",
-    "what that damping leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def damping_not_squared(screws, M, T_goal, q_start, limits):
+    """the damping in it is too large by far: it is not squared => what that damping
+    leads to"""
     return walk(
         screws, M, T_goal, q_start, limits, damping=lambda ee: np.sqrt(adaptive(ee))
     )
 
 
-@row.wrong(
-    "limits-forgotten",
-    "the joint limits are not kept",
-    "what the loop without limits leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def limits_forgotten(screws, M, T_goal, q_start, limits):
+    """the joint limits are not kept => what the loop without limits leads to"""
     return walk(screws, M, T_goal, q_start, None)
 
 
-@row.wrong(
-    "jacobian-never-updated",
-    "the Jacobian is that of the start; it changes with every step",
-    "what the first Jacobian leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def jacobian_never_updated(screws, M, T_goal, q_start, limits):
+    """the Jacobian is that of the start; it changes with every step => what the first
+    Jacobian leads to"""
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     return walk(screws, M, T_goal, q_start, limits, seen=lambda *_: J)
 
 
-@row.wrong(
-    "q-start-unused",
-    "the loop starts from READY_Q: q_start is not used",
-    "what READY_Q leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def q_start_unused(screws, M, T_goal, q_start, limits):
+    """the loop starts from READY_Q: q_start is not used => what READY_Q leads to"""
     return walk(screws, M, T_goal, READY_Q, limits)
 
 
-@row.wrong(
-    "q-start-unused",
-    "the loop starts from q = 0, whatever q_start is",
-    "what q = 0 leads to",
-)
-def _(screws, M, T_goal, q_start, limits):
+@row.wrong
+def q_start_unused(screws, M, T_goal, q_start, limits):
+    """the loop starts from q = 0, whatever q_start is => what q = 0 leads to"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 

@@ -47,32 +47,24 @@ def carried(screws, moved, adjoint=adjoint):
 ZERO = np.zeros((3, 3))
 
 
-@row.wrong(
-    "screws-constant",
-    "the columns are the screws at q = 0; the joints before a joint have moved its "
-    "screw",
-    "the screws as columns",
-)
-def _(screws, q):
+@row.wrong
+def screws_constant(screws, q):
+    """the columns are the screws at q = 0; the joints before a joint have moved its
+    screw => the screws as columns"""
     return screws.T.copy()
 
 
-@row.wrong(
-    "last-joint-only",
-    "each screw is moved by the one joint before it; all joints before it move it",
-    "the Jacobian with one exponential per column",
-)
-def _(screws, q):
+@row.wrong
+def last_joint_only(screws, q):
+    """each screw is moved by the one joint before it; all joints before it move it =>
+    the Jacobian with one exponential per column"""
     return carried(screws, [np.eye(4), *exp_screw(screws, q)])
 
 
-@row.wrong(
-    "product-reversed",
-    "the exponentials are multiplied in the reverse order: the first joint's "
-    "stands on the left",
-    "the Jacobian with the reversed product",
-)
-def _(screws, q):
+@row.wrong
+def product_reversed(screws, q):
+    """the exponentials are multiplied in the reverse order: the first joint's stands on
+    the left => the Jacobian with the reversed product"""
     T, columns = np.eye(4), []
     for S, theta in zip(screws, q, strict=True):
         columns.append(adjoint(T) @ S)
@@ -80,50 +72,40 @@ def _(screws, q):
     return np.array(columns).T
 
 
-@row.wrong(
-    "one-joint-late",
-    "each screw lacks the motion of the joint right before it: the product is used "
-    "before that joint is in it",
-    "the Jacobian one joint late",
-)
-def _(screws, q):
+@row.wrong
+def one_joint_late(screws, q):
+    """each screw lacks the motion of the joint right before it: the product is used
+    before that joint is in it => the Jacobian one joint late"""
     return carried(screws, [np.eye(4), *products(screws, q)])
 
 
-@row.wrong(
-    "moved-by-the-next",
-    "each screw is moved by the joint behind it too, which it does not feel",
-    "the Jacobian one joint too far",
-)
-def _(screws, q):
+@row.wrong
+def moved_by_the_next(screws, q):
+    """each screw is moved by the joint behind it too, which it does not feel => the
+    Jacobian one joint too far"""
     moved = products(screws, q)
     return carried(screws, [*moved[2:], moved[-1]])
 
 
-@row.wrong(
-    "moved-by-all",
-    "every screw is moved by all seven joints; only those before it carry it",
-    "the Jacobian with the whole product",
-)
-def _(screws, q):
+@row.wrong
+def moved_by_all(screws, q):
+    """every screw is moved by all seven joints; only those before it carry it => the
+    Jacobian with the whole product"""
     return adjoint(products(screws, q)[-1]) @ screws.T
 
 
-@row.wrong(
-    "adjoint-of-the-inverse",
-    "the screws are carried the other way: this is Ad of the inverse",
-    "the Jacobian with the inverse",
-)
-def _(screws, q):
+@row.wrong
+def adjoint_of_the_inverse(screws, q):
+    """the screws are carried the other way: this is Ad of the inverse => the Jacobian
+    with the inverse"""
     return carried(screws, np.linalg.inv(products(screws, q)))
 
 
-@row.wrong(
-    "bracket-top-right",
-    "in the adjoint, [p] R stands top right; with (omega; v) it stands bottom left",
-    "the Jacobian with that adjoint",
-)
-def _(screws, q):
+@row.wrong
+def bracket_top_right(screws, q):
+    """in the adjoint, [p] R stands top right; with (omega; v) it stands bottom left =>
+    the Jacobian with that adjoint"""
+
     def own(T):
         R, p = T[:3, :3], T[:3, 3]
         return np.block([[R, skew(p) @ R], [ZERO, R]])
@@ -131,12 +113,11 @@ def _(screws, q):
     return carried(screws, products(screws, q), own)
 
 
-@row.wrong(
-    "bracket-after-R",
-    "in the adjoint, R [p] stands where [p] R belongs",
-    "the Jacobian with that adjoint",
-)
-def _(screws, q):
+@row.wrong
+def bracket_after_R(screws, q):
+    """in the adjoint, R [p] stands where [p] R belongs => the Jacobian with that
+    adjoint"""
+
     def own(T):
         R, p = T[:3, :3], T[:3, 3]
         return np.block([[R, ZERO], [R @ skew(p), R]])
@@ -144,25 +125,22 @@ def _(screws, q):
     return carried(screws, products(screws, q), own)
 
 
-@row.wrong(
-    "rotation-only",
-    "the screws are only rotated; where the joints have moved to is left out ([p] "
-    "R is missing in the adjoint)",
-    "the Jacobian with R alone",
-)
-def _(screws, q):
+@row.wrong
+def rotation_only(screws, q):
+    """the screws are only rotated; where the joints have moved to is left out ([p] R is
+    missing in the adjoint) => the Jacobian with R alone"""
+
     def own(T):
         return np.kron(np.eye(2), T[:3, :3])
 
     return carried(screws, products(screws, q), own)
 
 
-@row.wrong(
-    "translation-only",
-    "the screws are only translated; the rotation R is left out of the adjoint",
-    "the Jacobian with I for R",
-)
-def _(screws, q):
+@row.wrong
+def translation_only(screws, q):
+    """the screws are only translated; the rotation R is left out of the adjoint => the
+    Jacobian with I for R"""
+
     def own(T):
         return np.block([[np.eye(3), ZERO], [skew(T[:3, 3]), np.eye(3)]])
 
@@ -192,12 +170,10 @@ row.of_argument(
 )
 
 
-@row.wrong(
-    "columns-reversed",
-    "the columns are in the reverse order: joint 1's comes first",
-    "the right one with its columns reversed",
-)
-def _(screws, q):
+@row.wrong
+def columns_reversed(screws, q):
+    """the columns are in the reverse order: joint 1's comes first => the right one with
+    its columns reversed"""
     return space_jacobian(screws, q)[:, ::-1]
 
 

@@ -24,99 +24,78 @@ def halves(V):
     return skew(V[:3]), skew(V[3:])
 
 
-@row.wrong(
-    "v-on-top",
-    "[v] stands in the upper right; an angular velocity does not change with v, so "
-    "that block is 0",
-    "the matrix with [v] up there",
-)
-def _(V):
+@row.wrong
+def v_on_top(V):
+    """[v] stands in the upper right; an angular velocity does not change with v, so
+    that block is 0 => the matrix with [v] up there"""
     W, U = halves(V)
     return np.block([[W, U], [NONE, W]])
 
 
-@row.wrong(
-    "halves-swapped",
-    "V is read as (v; omega); omega comes first",
-    "the matrix of (v; omega)",
-)
-def _(V):
+@row.wrong
+def halves_swapped(V):
+    """V is read as (v; omega); omega comes first => the matrix of (v; omega)"""
     U, W = halves(V)
     return np.block([[W, NONE], [U, W]])
 
 
-@row.wrong(
-    "v-forgotten",
-    "[v] is missing: this turns both halves, and does no more",
-    "the matrix without [v]",
-)
-def _(V):
+@row.wrong
+def v_forgotten(V):
+    """[v] is missing: this turns both halves, and does no more => the matrix without
+    [v]"""
     return np.kron(np.eye(2), skew(V[:3]))
 
 
-@row.wrong(
-    "second-omega-forgotten",
-    "the lower right block is empty; a linear velocity is turned, too",
-    "the matrix with 0 there",
-)
-def _(V):
+@row.wrong
+def second_omega_forgotten(V):
+    """the lower right block is empty; a linear velocity is turned, too => the matrix
+    with 0 there"""
     W, U = halves(V)
     return np.block([[W, NONE], [U, NONE]])
 
 
-@row.wrong("v-sign", "[v] has the wrong sign: ad(V) V is not 0", "the matrix with -[v]")
-def _(V):
+@row.wrong
+def v_sign(V):
+    """[v] has the wrong sign: ad(V) V is not 0 => the matrix with -[v]"""
     W, U = halves(V)
     return np.block([[W, NONE], [-U, W]])
 
 
-@row.wrong(
-    "v-in-both-corners",
-    "[v] stands in both corners; the upper right one is 0",
-    "the matrix with [v] twice",
-)
-def _(V):
+@row.wrong
+def v_in_both_corners(V):
+    """[v] stands in both corners; the upper right one is 0 => the matrix with [v]
+    twice"""
     W, U = halves(V)
     return np.block([[W, U], [U, W]])
 
 
-@row.wrong(
-    "v-last",
-    "the lower right block is [v]; both on the diagonal are [omega]",
-    "the matrix with [omega] and [v] on the diagonal",
-)
-def _(V):
+@row.wrong
+def v_last(V):
+    """the lower right block is [v]; both on the diagonal are [omega] => the matrix with
+    [omega] and [v] on the diagonal"""
     W, U = halves(V)
     return np.block([[W, NONE], [NONE, U]])
 
 
-@row.wrong(
-    "identity-added",
-    "the identity is added; ad(V) is what changes in a second, and for V = 0 "
-    "nothing does",
-    "the matrix plus the identity",
-)
-def _(V):
+@row.wrong
+def identity_added(V):
+    """the identity is added; ad(V) is what changes in a second, and for V = 0 nothing
+    does => the matrix plus the identity"""
     return np.eye(6) + screws.ad(V)
 
 
-@row.wrong(
-    "product-for-v",
-    "the lower left block is [v] [omega]; a product like this, [p] R, stands in "
-    "the adjoint of a pose. Here it is one of the two alone",
-    "the matrix with [v] [omega] there",
-)
-def _(V):
+@row.wrong
+def product_for_v(V):
+    """the lower left block is [v] [omega]; a product like this, [p] R, stands in the
+    adjoint of a pose. Here it is one of the two alone => the matrix with [v] [omega]
+    there"""
     W, U = halves(V)
     return np.block([[W, NONE], [U @ W, W]])
 
 
-@row.wrong(
-    "omega-everywhere",
-    "[omega] stands where [v] belongs",
-    "the matrix with [omega] three times",
-)
-def _(V):
+@row.wrong
+def omega_everywhere(V):
+    """[omega] stands where [v] belongs => the matrix with [omega] three times"""
     W, _ = halves(V)
     return np.block([[W, NONE], [W, W]])
 

@@ -125,82 +125,65 @@ def _(M, bias, damping, qd, tau):
     return solve(M, tau - bias - damping @ qd)
 
 
-@row.wrong(
-    "armature-twice",
-    "the armature is added to M, where it is already since task 4.3",
-    "the acceleration with M + 0.1 on the diagonal",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def armature_twice(M, bias, damping, qd, tau):
+    """the armature is added to M, where it is already since task 4.3 => the
+    acceleration with M + 0.1 on the diagonal"""
     return solve(M + 0.1 * np.eye(7), tau - bias - damping * qd)
 
 
-@row.wrong(
-    "mass-of-the-step",
-    "M + h damping is how the simulator takes a step of h = 2 ms; the acceleration "
-    "now needs M alone",
-    "the acceleration with M + h damping",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def mass_of_the_step(M, bias, damping, qd, tau):
+    """M + h damping is how the simulator takes a step of h = 2 ms; the acceleration now
+    needs M alone => the acceleration with M + h damping"""
     return solve(M + 0.002 * np.diag(damping), tau - bias - damping * qd)
 
 
-@row.wrong(
-    "velocity-returned",
-    "this is the velocity after a step of 2 ms, qd + h qdd; the acceleration qdd "
-    "was asked for",
-    "qd + 0.002 qdd",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def velocity_returned(M, bias, damping, qd, tau):
+    """this is the velocity after a step of 2 ms, qd + h qdd; the acceleration qdd was
+    asked for => qd + 0.002 qdd"""
     return qd + 0.002 * forward_dynamics(M, bias, damping, qd, tau)
 
 
-@row.wrong(
-    "multiplied-by-M",
-    "the net torque is multiplied by M; M times the acceleration is what it equals",
-    "M times the net torque",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def multiplied_by_M(M, bias, damping, qd, tau):
+    """the net torque is multiplied by M; M times the acceleration is what it equals =>
+    M times the net torque"""
     return M @ (tau - bias - damping * qd)
 
 
-@row.wrong(
-    "diagonal-only",
-    "only the diagonal of M is used; a torque at one joint accelerates the others, too",
-    "the net torque divided by the diagonal",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def diagonal_only(M, bias, damping, qd, tau):
+    """only the diagonal of M is used; a torque at one joint accelerates the others, too
+    => the net torque divided by the diagonal"""
     return (tau - bias - damping * qd) / np.diag(M)
 
 
-@row.wrong("mass-forgotten", "this is the net torque; M is missing", "the net torque")
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def mass_forgotten(M, bias, damping, qd, tau):
+    """this is the net torque; M is missing => the net torque"""
     return tau - bias - damping * qd
 
 
-@row.wrong(
-    "divided-entry-by-entry",
-    "1 / M turns over each entry; that is not the inverse of a matrix",
-    "the product with 1 / M",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def divided_entry_by_entry(M, bias, damping, qd, tau):
+    """1 / M turns over each entry; that is not the inverse of a matrix => the product
+    with 1 / M"""
     return (1 / M) @ (tau - bias - damping * qd)
 
 
-@row.wrong(
-    "damping-not-divided",
-    "the damping is taken off after M has been divided by; it is a torque, too",
-    "the difference of the two",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def damping_not_divided(M, bias, damping, qd, tau):
+    """the damping is taken off after M has been divided by; it is a torque, too => the
+    difference of the two"""
     return solve(M, tau - bias) - damping * qd
 
 
-@row.wrong(
-    "only-torque-divided",
-    "only the motors' torque is divided by M; bias and damping are torques, too",
-    "the difference of the two",
-)
-def _(M, bias, damping, qd, tau):
+@row.wrong
+def only_torque_divided(M, bias, damping, qd, tau):
+    """only the motors' torque is divided by M; bias and damping are torques, too => the
+    difference of the two"""
     return solve(M, tau) - bias - damping * qd
 
 

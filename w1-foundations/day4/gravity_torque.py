@@ -35,13 +35,10 @@ def torque(
     return tau
 
 
-@row.wrong(
-    "gravity-sign",
-    "the sign is wrong: this is the torque of gravity itself, and the motors have "
-    "to balance it. The arm would fall twice as fast",
-    "its negative",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def gravity_sign(J, masses, coms_world, g):
+    """the sign is wrong: this is the torque of gravity itself, and the motors have to
+    balance it. The arm would fall twice as fast => its negative"""
     return -gravity_torque(J, masses, coms_world, g)
 
 
@@ -78,59 +75,45 @@ for slug, says, holds in (
         return torque(J, masses, coms_world, g, holds=holds)
 
 
-@row.wrong(
-    "velocity-of-the-origin",
-    "the lower half of J is the velocity of the point at the world's origin; the "
-    "weight acts at the centre of mass",
-    "the torque with v in place of v + omega x c",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def velocity_of_the_origin(J, masses, coms_world, g):
+    """the lower half of J is the velocity of the point at the world's origin; the
+    weight acts at the centre of mass => the torque with v in place of v + omega x c"""
     return torque(J, masses, coms_world, g, velocity=lambda J, c: J[3:])
 
 
-@row.wrong(
-    "cross-product-sign",
-    "the velocity of the centre of mass is v + omega x c; here it is v + c x omega",
-    "the torque with v + c x omega",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def cross_product_sign(J, masses, coms_world, g):
+    """the velocity of the centre of mass is v + omega x c; here it is v + c x omega =>
+    the torque with v + c x omega"""
     return gravity_torque(J, masses, -coms_world, g)
 
 
-@row.wrong(
-    "v-left-out",
-    "the velocity of the centre of mass is v + omega x c; here v is missing",
-    "the torque with omega x c alone",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def v_left_out(J, masses, coms_world, g):
+    """the velocity of the centre of mass is v + omega x c; here v is missing => the
+    torque with omega x c alone"""
     return torque(J, masses, coms_world, g, velocity=lambda J, c: -skew(c) @ J[:3])
 
 
-@row.wrong(
-    "rows-swapped",
-    "the rows of J are read as (v; omega); omega comes first",
-    "the torque with J's halves swapped",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def rows_swapped(J, masses, coms_world, g):
+    """the rows of J are read as (v; omega); omega comes first => the torque with J's
+    halves swapped"""
     return gravity_torque(J[[3, 4, 5, 0, 1, 2]], masses, coms_world, g)
 
 
-@row.wrong(
-    "omega-rows-for-v",
-    "the upper half of J is used as the velocity; that is omega",
-    "the torque with omega for v",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def omega_rows_for_v(J, masses, coms_world, g):
+    """the upper half of J is used as the velocity; that is omega => the torque with
+    omega for v"""
     return torque(J, masses, coms_world, g, velocity=lambda J, c: J[:3])
 
 
-@row.wrong(
-    "centre-not-weighted",
-    "the mass beyond each joint sits at the plain mean of the links' centres; a "
-    "heavy link counts for more",
-    "the torque with the mean of the centres",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def centre_not_weighted(J, masses, coms_world, g):
+    """the mass beyond each joint sits at the plain mean of the links' centres; a heavy
+    link counts for more => the torque with the mean of the centres"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)
@@ -138,30 +121,23 @@ def _(J, masses, coms_world, g):
     return tau
 
 
-@row.wrong(
-    "all-mass-at-the-last-centre",
-    "all mass sits at the last link's centre; each link has one of its own",
-    "the torque with that centre for all",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def all_mass_at_the_last_centre(J, masses, coms_world, g):
+    """all mass sits at the last link's centre; each link has one of its own => the
+    torque with that centre for all"""
     return gravity_torque(J, masses, coms_world[[6] * 7], g)
 
 
-@row.wrong(
-    "signs-lost",
-    "no torque is negative here: a motor has to pull the other way as well",
-    "the right torque without its signs",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def signs_lost(J, masses, coms_world, g):
+    """no torque is negative here: a motor has to pull the other way as well => the
+    right torque without its signs"""
     return abs(gravity_torque(J, masses, coms_world, g))
 
 
-@row.wrong(
-    "mass-forgotten",
-    "the masses are missing: every link counts as 1 kg",
-    "the torque with 1 kg each",
-)
-def _(J, masses, coms_world, g):
+@row.wrong
+def mass_forgotten(J, masses, coms_world, g):
+    """the masses are missing: every link counts as 1 kg => the torque with 1 kg each"""
     return gravity_torque(J, np.ones(7), coms_world, g)
 
 

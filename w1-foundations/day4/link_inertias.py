@@ -109,44 +109,34 @@ for slug, says, redone, other in (
         return carried(T_links, masses, coms, inertias, **other)
 
 
-@row.wrong(
-    "left-in-link-axes",
-    "the inertias are where the links' own frames are: T_links is not used",
-    "spatial_inertia of what was given",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def left_in_link_axes(T_links, masses, coms, inertias):
+    """the inertias are where the links' own frames are: T_links is not used =>
+    spatial_inertia of what was given"""
     return spatial_inertia(masses, coms, inertias)
 
 
-@row.wrong(
-    "pose-inverted",
-    "T is used the wrong way round, for the centre and for the inertia: it maps "
-    "the link to the world. With adjoints: what stands on the right of G has to "
-    "take a twist from the world to the link",
-    "the answer with the inverse of T, which is Ad(T)^T G Ad(T),",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def pose_inverted(T_links, masses, coms, inertias):
+    """T is used the wrong way round, for the centre and for the inertia: it maps the
+    link to the world. With adjoints: what stands on the right of G has to take a twist
+    from the world to the link => the answer with the inverse of T, which is Ad(T)^T G
+    Ad(T),"""
     return link_inertias(np.linalg.inv(T_links), masses, coms, inertias)
 
 
-@row.wrong(
-    "adjoint-not-inverted",
-    "this is Ad(T) G Ad(T)^T; G takes a twist to a momentum, so what stands on its "
-    "right has to take a twist from the world to the link",
-    "Ad(T) G Ad(T)^T",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def adjoint_not_inverted(T_links, masses, coms, inertias):
+    """this is Ad(T) G Ad(T)^T; G takes a twist to a momentum, so what stands on its
+    right has to take a twist from the world to the link => Ad(T) G Ad(T)^T"""
     G = spatial_inertia(masses, coms, inertias)
     return np.array([adjoint(T) @ G_i @ adjoint(T).T for T, G_i in zip(T_links, G)])
 
 
-@row.wrong(
-    "R-transposed",
-    "R is transposed, for the centre and for the inertia: this turns both the "
-    "wrong way, from the world to the link",
-    "the answer with R^T for R",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def R_transposed(T_links, masses, coms, inertias):
+    """R is transposed, for the centre and for the inertia: this turns both the wrong
+    way, from the world to the link => the answer with R^T for R"""
     return carried(
         T_links,
         masses,
@@ -157,70 +147,54 @@ def _(T_links, masses, coms, inertias):
     )
 
 
-@row.wrong(
-    "origin-for-com",
-    "the mass sits at the link's origin; it sits at its centre of mass",
-    "the answer with p alone",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def origin_for_com(T_links, masses, coms, inertias):
+    """the mass sits at the link's origin; it sits at its centre of mass => the answer
+    with p alone"""
     return link_inertias(T_links, masses, 0 * coms, inertias)
 
 
-@row.wrong(
-    "first-pose-for-all",
-    "every link is taken to be where the first one is",
-    "the answer with the first pose seven times",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def first_pose_for_all(T_links, masses, coms, inertias):
+    """every link is taken to be where the first one is => the answer with the first
+    pose seven times"""
     return link_inertias(T_links[[0] * 7], masses, coms, inertias)
 
 
-@row.wrong(
-    "pose-of-the-link-before",
-    "every link is taken to be where the link before it is: T_links[0] is "
-    "link1's, as masses[0] is",
-    "the answer with the identity for link1, its pose for link2 and so on",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def pose_of_the_link_before(T_links, masses, coms, inertias):
+    """every link is taken to be where the link before it is: T_links[0] is link1's, as
+    masses[0] is => the answer with the identity for link1, its pose for link2 and so
+    on"""
     return link_inertias([np.eye(4), *T_links[:-1]], masses, coms, inertias)
 
 
-@row.wrong(
-    "pose-of-the-link-before",
-    "every link is taken to be where the link before it is: T_links[0] is "
-    "link1's, as masses[0] is",
-    "the answer with link7's pose for link1, its pose for link2 and so on",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def pose_of_the_link_before(T_links, masses, coms, inertias):
+    """every link is taken to be where the link before it is: T_links[0] is link1's, as
+    masses[0] is => the answer with link7's pose for link1, its pose for link2 and so
+    on"""
     return link_inertias([T_links[i - 1] for i in range(7)], masses, coms, inertias)
 
 
-@row.wrong(
-    "poses-multiplied",
-    "the poses are multiplied along the arm; each T of T_links is seen from the "
-    "world already",
-    "the answer with the product of the poses up to each link",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def poses_multiplied(T_links, masses, coms, inertias):
+    """the poses are multiplied along the arm; each T of T_links is seen from the world
+    already => the answer with the product of the poses up to each link"""
     return link_inertias(list(accumulate(T_links, np.matmul)), masses, coms, inertias)
 
 
-@row.wrong(
-    "last-link-for-all",
-    "all seven are link7's: is one array filled again for every link, and put "
-    "into the list each time? Make a new one",
-    "link7's matrix seven times",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def last_link_for_all(T_links, masses, coms, inertias):
+    """all seven are link7's: is one array filled again for every link, and put into the
+    list each time? Make a new one => link7's matrix seven times"""
     return link_inertias(T_links, masses, coms, inertias)[[6] * 7]
 
 
-@row.wrong(
-    "already-summed",
-    "each matrix holds the links beyond it as well; here each stands for one link",
-    "the sum from each link to the tip",
-)
-def _(T_links, masses, coms, inertias):
+@row.wrong
+def already_summed(T_links, masses, coms, inertias):
+    """each matrix holds the links beyond it as well; here each stands for one link =>
+    the sum from each link to the tip"""
     G = link_inertias(T_links, masses, coms, inertias)
     return np.array([G[i:].sum(axis=0) for i in range(7)])
 

@@ -25,32 +25,24 @@ def links(J, G, moves):
     return sum(J_i.T @ G_i @ J_i for J_i, G_i in zip(columns, G))
 
 
-@row.wrong(
-    "armature-forgotten",
-    "the armature is missing on the diagonal: the motors' rotors have to be turned "
-    "as well",
-    "M without it",
-)
-def _(J, G, armature):
+@row.wrong
+def armature_forgotten(J, G, armature):
+    """the armature is missing on the diagonal: the motors' rotors have to be turned as
+    well => M without it"""
     return mass_matrix(J, G, 0.0)
 
 
-@row.wrong(
-    "armature-everywhere",
-    "the armature is added to every entry; a rotor turns with its own joint alone, "
-    "so it belongs on the diagonal",
-    "M plus the armature everywhere",
-)
-def _(J, G, armature):
+@row.wrong
+def armature_everywhere(J, G, armature):
+    """the armature is added to every entry; a rotor turns with its own joint alone, so
+    it belongs on the diagonal => M plus the armature everywhere"""
     return mass_matrix(J, G, 0.0) + armature
 
 
-@row.wrong(
-    "armature-per-link",
-    "the armature is added once for each link; each rotor counts once",
-    "M with seven times the armature",
-)
-def _(J, G, armature):
+@row.wrong
+def armature_per_link(J, G, armature):
+    """the armature is added once for each link; each rotor counts once => M with seven
+    times the armature"""
     return mass_matrix(J, G, 7 * armature)
 
 
@@ -107,92 +99,68 @@ for slug, says, moves in (
         return links(J, G, moves)
 
 
-@row.wrong(
-    "halves-swapped",
-    "J and G do not have the same order: omega comes first in both",
-    "M with the halves of G swapped",
-)
-def _(J, G, armature):
+@row.wrong
+def halves_swapped(J, G, armature):
+    """J and G do not have the same order: omega comes first in both => M with the
+    halves of G swapped"""
     return mass_matrix(J[[3, 4, 5, 0, 1, 2]], G, armature)
 
 
-@row.wrong(
-    "corners-swapped",
-    "the corners of G count with the wrong sign. M is symmetric and positive "
-    "definite all the same",
-    "M with those signs",
-)
-def _(J, G, armature):
+@row.wrong
+def corners_swapped(J, G, armature):
+    """the corners of G count with the wrong sign. M is symmetric and positive definite
+    all the same => M with those signs"""
     flip = np.diag([1, 1, 1, -1, -1, -1])
     return mass_matrix(J, flip @ G @ flip, armature)
 
 
-@row.wrong(
-    "corners-dropped",
-    "turning and moving are added up separately: what ties them, the corners of G, "
-    "is missing",
-    "M without the corners of G",
-)
-def _(J, G, armature):
+@row.wrong
+def corners_dropped(J, G, armature):
+    """turning and moving are added up separately: what ties them, the corners of G, is
+    missing => M without the corners of G"""
     return mass_matrix(J, G * np.kron(np.eye(2), np.ones((3, 3))), armature)
 
 
-@row.wrong(
-    "angular-half-only",
-    "only the turning counts: the lower half of J, how fast the links move, is "
-    "not used",
-    "M from the upper half of J and the top left block of G",
-)
-def _(J, G, armature):
+@row.wrong
+def angular_half_only(J, G, armature):
+    """only the turning counts: the lower half of J, how fast the links move, is not
+    used => M from the upper half of J and the top left block of G"""
     return mass_matrix(np.vstack([J[:3], np.zeros((3, 7))]), G, armature)
 
 
-@row.wrong(
-    "linear-half-only",
-    "only the lower half of J counts, and of G the mass; a link that turns has "
-    "energy, too",
-    "M from the lower half of J and the lower right block of G",
-)
-def _(J, G, armature):
+@row.wrong
+def linear_half_only(J, G, armature):
+    """only the lower half of J counts, and of G the mass; a link that turns has energy,
+    too => M from the lower half of J and the lower right block of G"""
     return mass_matrix(np.vstack([np.zeros((3, 7)), J[3:]]), G, armature)
 
 
-@row.wrong(
-    "not-mirrored",
-    "only one half of M is filled; it is symmetric, so the other half is its "
-    "mirror image",
-    "the lower half of M",
-)
-def _(J, G, armature):
+@row.wrong
+def not_mirrored(J, G, armature):
+    """only one half of M is filled; it is symmetric, so the other half is its mirror
+    image => the lower half of M"""
     return np.tril(mass_matrix(J, G, armature))
 
 
-@row.wrong(
-    "not-mirrored",
-    "only one half of M is filled; it is symmetric, so the other half is its "
-    "mirror image",
-    "the upper half of M",
-)
-def _(J, G, armature):
+@row.wrong
+def not_mirrored(J, G, armature):
+    """only one half of M is filled; it is symmetric, so the other half is its mirror
+    image => the upper half of M"""
     return np.triu(mass_matrix(J, G, armature))
 
 
-@row.wrong(
-    "mirrored-with-the-diagonal",
-    "M and its transpose are added, so the diagonal counts twice",
-    "M with twice its diagonal",
-)
-def _(J, G, armature):
+@row.wrong
+def mirrored_with_the_diagonal(J, G, armature):
+    """M and its transpose are added, so the diagonal counts twice => M with twice its
+    diagonal"""
     lower = np.tril(mass_matrix(J, G, armature))
     return lower + lower.T
 
 
-@row.wrong(
-    "not-summed-back",
-    "each entry knows one link only; a joint carries all links beyond it",
-    "M from one link per entry",
-)
-def _(J, G, armature):
+@row.wrong
+def not_summed_back(J, G, armature):
+    """each entry knows one link only; a joint carries all links beyond it => M from one
+    link per entry"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):
@@ -200,30 +168,23 @@ def _(J, G, armature):
     return M
 
 
-@row.wrong(
-    "half",
-    "the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2",
-    "M with half of the links",
-)
-def _(J, G, armature):
+@row.wrong
+def half(J, G, armature):
+    """the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2 => M
+    with half of the links"""
     return mass_matrix(J, G / 2, armature)
 
 
-@row.wrong(
-    "half",
-    "the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2",
-    "half of M",
-)
-def _(J, G, armature):
+@row.wrong
+def half(J, G, armature):
+    """the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2 => half
+    of M"""
     return mass_matrix(J, G, armature) / 2
 
 
-@row.wrong(
-    "inverse-returned",
-    "this is the inverse of M: small where the arm is heavy",
-    "the inverse of M",
-)
-def _(J, G, armature):
+@row.wrong
+def inverse_returned(J, G, armature):
+    """this is the inverse of M: small where the arm is heavy => the inverse of M"""
     return np.linalg.inv(mass_matrix(J, G, armature))
 
 

@@ -78,147 +78,110 @@ for slug, says, redone, top in (
         return np.block([[top(m, c, C, I), m * C], [m * C.T, m * ONE]])
 
 
-@row.wrong(
-    "about-the-centre-of-mass",
-    "c is not used: all of it is about the centre of mass. About the origin three "
-    "of the four blocks hold c",
-    "the matrix with I and m on its diagonal and nothing else",
-)
-def _(m, c, I):
+@row.wrong
+def about_the_centre_of_mass(m, c, I):
+    """c is not used: all of it is about the centre of mass. About the origin three of
+    the four blocks hold c => the matrix with I and m on its diagonal and nothing
+    else"""
     return np.block([[I, NONE], [NONE, m * ONE]])
 
 
-@row.wrong(
-    "own-inertia-forgotten",
-    "the body's own inertia I is missing: this is a point mass",
-    "that of a point mass",
-)
-def _(m, c, I):
+@row.wrong
+def own_inertia_forgotten(m, c, I):
+    """the body's own inertia I is missing: this is a point mass => that of a point
+    mass"""
     return spatial_inertia(m, c, NONE)
 
 
-@row.wrong(
-    "products-of-inertia-sign",
-    "the entries of I off its diagonal have the wrong sign; I is the matrix that "
-    "it has to be, and is added as it is",
-    "the matrix with those signs",
-)
-def _(m, c, I):
+@row.wrong
+def products_of_inertia_sign(m, c, I):
+    """the entries of I off its diagonal have the wrong sign; I is the matrix that it
+    has to be, and is added as it is => the matrix with those signs"""
     return spatial_inertia(m, c, 2 * np.diag(np.diag(I)) - I)
 
 
-@row.wrong(
-    "diagonal-of-I",
-    "only the diagonal of I is used; the other entries are 0 along a body's own "
-    "axes, and these are the world's",
-    "the matrix with the rest of I as 0",
-)
-def _(m, c, I):
+@row.wrong
+def diagonal_of_I(m, c, I):
+    """only the diagonal of I is used; the other entries are 0 along a body's own axes,
+    and these are the world's => the matrix with the rest of I as 0"""
     return spatial_inertia(m, c, np.diag(np.diag(I)))
 
 
-@row.wrong(
-    "corners-alike",
-    "both corners are the same; one has to be the transpose of the other, else the "
-    "matrix is not symmetric",
-    "the matrix with m [c] twice",
-)
-def _(m, c, I):
+@row.wrong
+def corners_alike(m, c, I):
+    """both corners are the same; one has to be the transpose of the other, else the
+    matrix is not symmetric => the matrix with m [c] twice"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C], [m * C, m * ONE]])
 
 
-@row.wrong(
-    "corners-alike",
-    "both corners are the same; one has to be the transpose of the other, else the "
-    "matrix is not symmetric",
-    "the matrix with m [c]^T twice",
-)
-def _(m, c, I):
+@row.wrong
+def corners_alike(m, c, I):
+    """both corners are the same; one has to be the transpose of the other, else the
+    matrix is not symmetric => the matrix with m [c]^T twice"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C.T], [m * C.T, m * ONE]])
 
 
-@row.wrong(
-    "corners-swapped",
-    "the two corners have changed places. It is still symmetric and positive "
-    "definite, but its angular momentum points the wrong way",
-    "the matrix with [c] and [c]^T swapped",
-)
-def _(m, c, I):
+@row.wrong
+def corners_swapped(m, c, I):
+    """the two corners have changed places. It is still symmetric and positive definite,
+    but its angular momentum points the wrong way => the matrix with [c] and [c]^T
+    swapped"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C.T], [m * C, m * ONE]])
 
 
-@row.wrong(
-    "corners-empty",
-    "the two corners are empty: they tie the turning to the moving, and vanish "
-    "only about the centre of mass",
-    "the matrix with 0 there",
-)
-def _(m, c, I):
+@row.wrong
+def corners_empty(m, c, I):
+    """the two corners are empty: they tie the turning to the moving, and vanish only
+    about the centre of mass => the matrix with 0 there"""
     return np.block([[I + m * skew(c) @ skew(c).T, NONE], [NONE, m * ONE]])
 
 
-@row.wrong(
-    "one-corner-empty",
-    "the lower left corner is empty; the matrix is symmetric, so what stands in "
-    "the upper right one says what belongs there",
-    "the matrix with 0 there",
-)
-def _(m, c, I):
+@row.wrong
+def one_corner_empty(m, c, I):
+    """the lower left corner is empty; the matrix is symmetric, so what stands in the
+    upper right one says what belongs there => the matrix with 0 there"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C], [NONE, m * ONE]])
 
 
-@row.wrong(
-    "one-corner-empty",
-    "the upper right corner is empty; the matrix is symmetric, so what stands in "
-    "the lower left one says what belongs there",
-    "the matrix with 0 there",
-)
-def _(m, c, I):
+@row.wrong
+def one_corner_empty(m, c, I):
+    """the upper right corner is empty; the matrix is symmetric, so what stands in the
+    lower left one says what belongs there => the matrix with 0 there"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, NONE], [m * C.T, m * ONE]])
 
 
-@row.wrong(
-    "mass-forgotten-in-the-corners",
-    "the two corners have [c] without the mass",
-    "the matrix without m there",
-)
-def _(m, c, I):
+@row.wrong
+def mass_forgotten_in_the_corners(m, c, I):
+    """the two corners have [c] without the mass => the matrix without m there"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, C], [C.T, m * ONE]])
 
 
-@row.wrong(
-    "mass-forgotten-below",
-    "the lower right block is the identity, without the mass",
-    "the matrix with 1 for m there",
-)
-def _(m, c, I):
+@row.wrong
+def mass_forgotten_below(m, c, I):
+    """the lower right block is the identity, without the mass => the matrix with 1 for
+    m there"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C], [m * C.T, ONE]])
 
 
-@row.wrong(
-    "mass-everywhere",
-    "the lower right block has the mass in all nine entries; it belongs on the "
-    "diagonal",
-    "the matrix with m in all of them",
-)
-def _(m, c, I):
+@row.wrong
+def mass_everywhere(m, c, I):
+    """the lower right block has the mass in all nine entries; it belongs on the
+    diagonal => the matrix with m in all of them"""
     C = skew(c)
     return np.block([[I + m * C @ C.T, m * C], [m * C.T, m * np.ones((3, 3))]])
 
 
-@row.wrong(
-    "blocks-v-omega",
-    "the blocks are in the order (v; omega); omega comes first, as in J",
-    "the right one with its halves swapped",
-)
-def _(m, c, I):
+@row.wrong
+def blocks_v_omega(m, c, I):
+    """the blocks are in the order (v; omega); omega comes first, as in J => the right
+    one with its halves swapped"""
     C = skew(c)
     return np.block([[m * ONE, m * C.T], [m * C, I + m * C @ C.T]])
 

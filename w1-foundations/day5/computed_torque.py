@@ -36,209 +36,183 @@ def _(rng):
         yield M[i], bias[i], friction, qd[i], *wanted, omega**2, 1.8 * omega
 
 
-@row.wrong(
-    "gains-outside-M",
-    "the gains stand outside the product with M. It tracks well, but heavy and light "
-    "joints then answer differently, and errors do not decay as designed",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def gains_outside_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the gains stand outside the product with M. It tracks well, but heavy and light
+    joints then answer differently, and errors do not decay as designed"""
     return M @ qdd_ref + kp * e + kd * ed + bias + damping * qd
 
 
-@row.wrong(
-    "damping-forgotten",
-    "the joints' friction is missing: bias does not hold it, MuJoCo counts it as a "
-    "passive force",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def damping_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the joints' friction is missing: bias does not hold it, MuJoCo counts it as a
+    passive force"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias
 
 
-@row.wrong(
-    "damping-sign",
-    "the joints' friction has the wrong sign: the motor has to overcome it",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def damping_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the joints' friction has the wrong sign: the motor has to overcome it"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias - damping * qd
 
 
-@row.wrong(
-    "friction-of-the-error",
-    "friction is multiplied by ed; the joint rubs with its measured velocity",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def friction_of_the_error(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """friction is multiplied by ed; the joint rubs with its measured velocity"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * ed
 
 
-@row.wrong(
-    "friction-of-the-reference",
-    "friction is multiplied by the reference's velocity, qd + ed; the joint rubs with "
-    "its measured velocity",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def friction_of_the_reference(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """friction is multiplied by the reference's velocity, qd + ed; the joint rubs with
+    its measured velocity"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * (qd + ed)
 
 
-@row.wrong(
-    "friction-without-velocity",
-    "damping is added as it is: it becomes a torque once it is multiplied by qd",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def friction_without_velocity(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """damping is added as it is: it becomes a torque once it is multiplied by qd"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias + damping
 
 
-@row.wrong(
-    "friction-twice",
-    "the joints' friction is in it twice; bias does not hold it, so once is enough",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def friction_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the joints' friction is in it twice; bias does not hold it, so once is enough"""
     return M @ (qdd_ref + kd * ed + kp * e) + bias + 2.0 * damping * qd
 
 
-@row.wrong(
-    "bias-forgotten",
-    "bias is missing: gravity and Coriolis forces are left to the springs",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def bias_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """bias is missing: gravity and Coriolis forces are left to the springs"""
     return M @ (qdd_ref + kd * ed + kp * e) + damping * qd
 
 
-@row.wrong("bias-sign", "bias has the wrong sign: it is what the motors must give")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def bias_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """bias has the wrong sign: it is what the motors must give"""
     return M @ (qdd_ref + kd * ed + kp * e) - bias + damping * qd
 
 
-@row.wrong("bias-twice", "bias is in it twice")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def bias_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """bias is in it twice"""
     return M @ (qdd_ref + kd * ed + kp * e) + 2.0 * bias + damping * qd
 
 
-@row.wrong(
-    "qdd-ref-forgotten",
-    "the reference's own acceleration is missing: the springs must be stretched "
-    "before the arm speeds up",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def qdd_ref_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the reference's own acceleration is missing: the springs must be stretched before
+    the arm speeds up"""
     return M @ (kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong("qdd-ref-sign", "the reference's acceleration has the wrong sign")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def qdd_ref_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the reference's acceleration has the wrong sign"""
     return M @ (kd * ed + kp * e - qdd_ref) + bias + damping * qd
 
 
-@row.wrong("springs-forgotten", "there are no springs in it: errors stay what they are")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def springs_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """there are no springs in it: errors stay what they are"""
     return M @ qdd_ref + bias + damping * qd
 
 
-@row.wrong(
-    "damper-forgotten",
-    "there is a spring and no damper: edd + kp e = 0 swings for ever",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def damper_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """there is a spring and no damper: edd + kp e = 0 swings for ever"""
     return M @ (qdd_ref + kp * e) + bias + damping * qd
 
 
-@row.wrong("error-sign", "the spring pushes away from the goal")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def error_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the spring pushes away from the goal"""
     return M @ (qdd_ref + kd * ed - kp * e) + bias + damping * qd
 
 
-@row.wrong("velocity-error-sign", "the damper drives the motion: ed enters with a plus")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def velocity_error_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the damper drives the motion: ed enters with a plus"""
     return M @ (qdd_ref - kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong(
-    "both-signs",
-    "kp e and kd ed both have the wrong sign: e and ed are the reference minus what "
-    "is measured",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def both_signs(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """kp e and kd ed both have the wrong sign: e and ed are the reference minus what is
+    measured"""
     return M @ (qdd_ref - kd * ed - kp * e) + bias + damping * qd
 
 
 row.of_argument("e", WRAPPED)
 
 
-@row.wrong("gains-swapped", "kp and kd are swapped")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def gains_swapped(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """kp and kd are swapped"""
     return M @ (qdd_ref + kp * ed + kd * e) + bias + damping * qd
 
 
-@row.wrong(
-    "measured-velocity-damped",
-    "the damper works on the measured velocity, minus kd qd, so it brakes the "
-    "reference's own motion too; ed is what it has to work on",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def measured_velocity_damped(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the damper works on the measured velocity, minus kd qd, so it brakes the
+    reference's own motion too; ed is what it has to work on"""
     return M @ (qdd_ref - kd * qd + kp * e) + bias + damping * qd
 
 
-@row.wrong(
-    "inverse-of-M",
-    "the acceleration is divided by M; a torque is M times an acceleration",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def inverse_of_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the acceleration is divided by M; a torque is M times an acceleration"""
     return np.linalg.solve(M, qdd_ref + kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong("M-forgotten", "M is missing: an acceleration is added to torques")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def M_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """M is missing: an acceleration is added to torques"""
     return qdd_ref + kd * ed + kp * e + bias + damping * qd
 
 
-@row.wrong(
-    "diagonal-of-M",
-    "only the diagonal of M is used; a joint that speeds up pushes the others too",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def diagonal_of_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """only the diagonal of M is used; a joint that speeds up pushes the others too"""
     return np.diag(M) * (qdd_ref + kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong(
-    "everything-through-M",
-    "bias and friction go through M as well; they are torques already",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def everything_through_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """bias and friction go through M as well; they are torques already"""
     return M @ (qdd_ref + kd * ed + kp * e + bias + damping * qd)
 
 
-@row.wrong("bias-through-M", "bias goes through M as well; it is a torque already")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def bias_through_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """bias goes through M as well; it is a torque already"""
     return M @ (qdd_ref + kd * ed + kp * e + bias) + damping * qd
 
 
-@row.wrong("armature-twice", "the armature, 0.1 kg m2, is added to M; M has it already")
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def armature_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the armature, 0.1 kg m2, is added to M; M has it already"""
     M = M + ARMATURE * np.eye(7)
     return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong(
-    "bias-alone-at-the-goal",
-    "where e is 0 only bias comes back, but the arm may be moving there",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def bias_alone_at_the_goal(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """where e is 0 only bias comes back, but the arm may be moving there"""
     if np.all(e == 0.0):
         return bias.copy()
     return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
 
 
-@row.wrong(
-    "reference-outside-M",
-    "the reference's acceleration stands outside the product with M",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def reference_outside_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the reference's acceleration stands outside the product with M"""
     return M @ (kd * ed + kp * e) + qdd_ref + bias + damping * qd
 
 
-@row.wrong(
-    "errors-in-degrees",
-    "the errors are converted to degrees; everything else is in radians",
-)
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+@row.wrong
+def errors_in_degrees(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """the errors are converted to degrees; everything else is in radians"""
     return M @ (qdd_ref + np.rad2deg(kp * e + kd * ed)) + bias + damping * qd
 
 

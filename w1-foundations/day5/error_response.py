@@ -63,46 +63,36 @@ def rates(omega, zeta):
     return zeta * omega - spread, zeta * omega + spread
 
 
-@row.wrong(
-    "one-formula-for-all", "zeta is not looked at: this is critical damping, every time"
-)
-def _(t, omega, zeta):
+@row.wrong
+def one_formula_for_all(t, omega, zeta):
+    """zeta is not looked at: this is critical damping, every time"""
     return (1.0 + omega * t) * np.exp(-omega * t)
 
 
-@row.wrong(
-    "envelope-alone",
-    "this is the envelope, e^(-zeta omega t); the error starts at rest, and this "
-    "curve starts with a slope",
-)
-def _(t, omega, zeta):
+@row.wrong
+def envelope_alone(t, omega, zeta):
+    """this is the envelope, e^(-zeta omega t); the error starts at rest, and this curve
+    starts with a slope"""
     return np.exp(-zeta * omega * t)
 
 
-@row.wrong(
-    "envelope-of-omega",
-    "this is e^(-omega t), whatever zeta is; the error starts at rest, and this curve "
-    "starts with a slope",
-)
-def _(t, omega, zeta):
+@row.wrong
+def envelope_of_omega(t, omega, zeta):
+    """this is e^(-omega t), whatever zeta is; the error starts at rest, and this curve
+    starts with a slope"""
     return np.exp(-omega * t)
 
 
-@row.wrong(
-    "half-the-damping",
-    "this is the curve of half the zeta: the equation has 2 zeta omega before ed",
-)
-def _(t, omega, zeta):
+@row.wrong
+def half_the_damping(t, omega, zeta):
+    """this is the curve of half the zeta: the equation has 2 zeta omega before ed"""
     return error_response(t, omega, zeta / 2.0)
 
 
-@row.wrong(
-    "window-around-one",
-    "zeta near 1 gets the formula of zeta = 1, which is right at 1 alone; only "
-    "rounding, 1e-9 say, may count as 1",
-    hidden="no zeta there is so near to 1",
-)
-def _(t, omega, zeta):
+@row.wrong(hidden="no zeta there is so near to 1")
+def window_around_one(t, omega, zeta):
+    """zeta near 1 gets the formula of zeta = 1, which is right at 1 alone; only
+    rounding, 1e-9 say, may count as 1"""
     return error_response(t, omega, 1.0 if abs(zeta - 1.0) < 0.05 else zeta)
 
 
@@ -137,79 +127,63 @@ def _(t, omega, zeta):
     return e
 
 
-@row.wrong(
-    "output-in-place-of-error",
-    "this rises from 0 to 1: it is what the joint does, and the error is the rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def output_in_place_of_error(t, omega, zeta):
+    """this rises from 0 to 1: it is what the joint does, and the error is the rest"""
     return 1.0 - error_response(t, omega, zeta)
 
 
-@row.wrong(
-    "omega-in-turns",
-    "omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s",
-)
-def _(t, omega, zeta):
+@row.wrong
+def omega_in_turns(t, omega, zeta):
+    """omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s"""
     return error_response(t, 2.0 * np.pi * omega, zeta)
 
 
-@row.wrong(
-    "second-solution-forgotten",
-    "for zeta = 1 the term omega t e^(-omega t) is missing: this curve does not start "
-    "at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def second_solution_forgotten(t, omega, zeta):
+    """for zeta = 1 the term omega t e^(-omega t) is missing: this curve does not start
+    at rest"""
     if zeta != 1.0:
         return error_response(t, omega, zeta)
     return np.exp(-omega * t)
 
 
-@row.wrong(
-    "second-solution-sign",
-    "for zeta = 1 the term with omega t has the wrong sign: the error starts with a "
-    "slope and becomes negative, which critical damping never does",
-)
-def _(t, omega, zeta):
+@row.wrong
+def second_solution_sign(t, omega, zeta):
+    """for zeta = 1 the term with omega t has the wrong sign: the error starts with a
+    slope and becomes negative, which critical damping never does"""
     if zeta != 1.0:
         return error_response(t, omega, zeta)
     return (1.0 - omega * t) * np.exp(-omega * t)
 
 
-@row.wrong(
-    "second-solution-without-omega",
-    "for zeta = 1 it is 1 + t in place of 1 + omega t: seconds are added to 1",
-)
-def _(t, omega, zeta):
+@row.wrong
+def second_solution_without_omega(t, omega, zeta):
+    """for zeta = 1 it is 1 + t in place of 1 + omega t: seconds are added to 1"""
     if zeta != 1.0:
         return error_response(t, omega, zeta)
     return (1.0 + t) * np.exp(-omega * t)
 
 
-@row.wrong(
-    "undamped-frequency",
-    "under zeta = 1 it swings with omega; damping makes it swing more slowly",
-)
-def _(t, omega, zeta):
+@row.wrong
+def undamped_frequency(t, omega, zeta):
+    """under zeta = 1 it swings with omega; damping makes it swing more slowly"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     return np.exp(-zeta * omega * t) * (np.cos(omega * t) + zeta * np.sin(omega * t))
 
 
-@row.wrong(
-    "sine-forgotten",
-    "under zeta = 1 the sine is missing: this curve does not start at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def sine_forgotten(t, omega, zeta):
+    """under zeta = 1 the sine is missing: this curve does not start at rest"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     return np.exp(-zeta * omega * t) * np.cos(damped(omega, zeta) * t)
 
 
-@row.wrong(
-    "sine-sign",
-    "under zeta = 1 the sine has the wrong sign: this curve does not start at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def sine_sign(t, omega, zeta):
+    """under zeta = 1 the sine has the wrong sign: this curve does not start at rest"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     w = damped(omega, zeta)
@@ -218,44 +192,37 @@ def _(t, omega, zeta):
     )
 
 
-@row.wrong(
-    "sine-unscaled",
-    "under zeta = 1 the sine lacks its factor: this curve does not start at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def sine_unscaled(t, omega, zeta):
+    """under zeta = 1 the sine lacks its factor: this curve does not start at rest"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     w = damped(omega, zeta)
     return np.exp(-zeta * omega * t) * (np.cos(w * t) + np.sin(w * t))
 
 
-@row.wrong(
-    "sine-divided-by-omega",
-    "under zeta = 1 the sine's factor is zeta; what divides is the damped frequency, "
-    "not omega",
-)
-def _(t, omega, zeta):
+@row.wrong
+def sine_divided_by_omega(t, omega, zeta):
+    """under zeta = 1 the sine's factor is zeta; what divides is the damped frequency,
+    not omega"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     w = damped(omega, zeta)
     return np.exp(-zeta * omega * t) * (np.cos(w * t) + zeta * np.sin(w * t))
 
 
-@row.wrong(
-    "decays-with-omega",
-    "under zeta = 1 it decays with omega; the envelope falls with zeta omega",
-)
-def _(t, omega, zeta):
+@row.wrong
+def decays_with_omega(t, omega, zeta):
+    """under zeta = 1 it decays with omega; the envelope falls with zeta omega"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     w = damped(omega, zeta)
     return np.exp(-omega * t) * (np.cos(w * t) + zeta * omega / w * np.sin(w * t))
 
 
-@row.wrong(
-    "root-forgotten", "under zeta = 1 the damped frequency lacks its square root"
-)
-def _(t, omega, zeta):
+@row.wrong
+def root_forgotten(t, omega, zeta):
+    """under zeta = 1 the damped frequency lacks its square root"""
     if zeta >= 1.0:
         return error_response(t, omega, zeta)
     w = omega * (1.0 - zeta**2)
@@ -263,56 +230,47 @@ def _(t, omega, zeta):
     return np.exp(-zeta * omega * t) * swing
 
 
-@row.wrong(
-    "slow-exponential-alone",
-    "over zeta = 1 only the slow exponential is there: this curve does not start at "
-    "rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def slow_exponential_alone(t, omega, zeta):
+    """over zeta = 1 only the slow exponential is there: this curve does not start at
+    rest"""
     if zeta <= 1.0:
         return error_response(t, omega, zeta)
     return np.exp(-rates(omega, zeta)[0] * t)
 
 
-@row.wrong(
-    "both-halves",
-    "over zeta = 1 the two exponentials have equal weights: this curve does not start "
-    "at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def both_halves(t, omega, zeta):
+    """over zeta = 1 the two exponentials have equal weights: this curve does not start
+    at rest"""
     if zeta <= 1.0:
         return error_response(t, omega, zeta)
     slow, fast = rates(omega, zeta)
     return (np.exp(-slow * t) + np.exp(-fast * t)) / 2.0
 
 
-@row.wrong(
-    "weights-swapped", "over zeta = 1 each exponential has the weight of the other"
-)
-def _(t, omega, zeta):
+@row.wrong
+def weights_swapped(t, omega, zeta):
+    """over zeta = 1 each exponential has the weight of the other"""
     if zeta <= 1.0:
         return error_response(t, omega, zeta)
     slow, fast = rates(omega, zeta)
     return (fast * np.exp(-fast * t) - slow * np.exp(-slow * t)) / (fast - slow)
 
 
-@row.wrong(
-    "weights-summed",
-    "over zeta = 1 the weights have the wrong sign between them: this curve does not "
-    "start at rest",
-)
-def _(t, omega, zeta):
+@row.wrong
+def weights_summed(t, omega, zeta):
+    """over zeta = 1 the weights have the wrong sign between them: this curve does not
+    start at rest"""
     if zeta <= 1.0:
         return error_response(t, omega, zeta)
     slow, fast = rates(omega, zeta)
     return (fast * np.exp(-slow * t) + slow * np.exp(-fast * t)) / (fast + slow)
 
 
-@row.wrong(
-    "critical-above-one",
-    "over zeta = 1 it is the curve of zeta = 1; more damping makes it slower",
-)
-def _(t, omega, zeta):
+@row.wrong
+def critical_above_one(t, omega, zeta):
+    """over zeta = 1 it is the curve of zeta = 1; more damping makes it slower"""
     if zeta <= 1.0:
         return error_response(t, omega, zeta)
     return (1.0 + omega * t) * np.exp(-omega * t)

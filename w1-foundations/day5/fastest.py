@@ -14,50 +14,46 @@ def _(rng):
         yield (float(h),)
 
 
-@row.wrong(
-    "undamped-limit",
-    "2 / h is the limit of a spring without a damper; critical damping breaks "
-    "earlier, because the damper acts a step late",
-)
-def _(h):
+@row.wrong
+def undamped_limit(h):
+    """2 / h is the limit of a spring without a damper; critical damping breaks earlier,
+    because the damper acts a step late"""
     return 2.0 / h
 
 
-@row.wrong(
-    "one-over-h", "1 / h is a rule of thumb; ask when the step's eigenvalue reaches -1"
-)
-def _(h):
+@row.wrong
+def one_over_h(h):
+    """1 / h is a rule of thumb; ask when the step's eigenvalue reaches -1"""
     return 1.0 / h
 
 
-@row.wrong(
-    "larger-root",
-    "the quadratic equation has two roots, and the loop breaks at the smaller one",
-)
-def _(h):
+@row.wrong
+def larger_root(h):
+    """the quadratic equation has two roots, and the loop breaks at the smaller one"""
     return 2.0 * (np.sqrt(2.0) + 1.0) / h
 
 
-@row.wrong(
-    "nyquist",
-    "pi / h is how fast a signal may be to be seen at all, not to be controlled",
-)
-def _(h):
+@row.wrong
+def nyquist(h):
+    """pi / h is how fast a signal may be to be seen at all, not to be controlled"""
     return np.pi / h
 
 
-@row.wrong("factor-two-forgotten", "it is half as much as it should be")
-def _(h):
+@row.wrong
+def factor_two_forgotten(h):
+    """it is half as much as it should be"""
     return (np.sqrt(2.0) - 1.0) / h
 
 
-@row.wrong("in-hertz", "this is in turns per second; asked is rad/s")
-def _(h):
+@row.wrong
+def in_hertz(h):
+    """this is in turns per second; asked is rad/s"""
     return (np.sqrt(2.0) - 1.0) / h / np.pi
 
 
-@row.wrong("times-h", "it grows with the time step; a longer step must allow less")
-def _(h):
+@row.wrong
+def times_h(h):
+    """it grows with the time step; a longer step must allow less"""
     return 2.0 * (np.sqrt(2.0) - 1.0) * h
 
 

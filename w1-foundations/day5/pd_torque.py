@@ -16,97 +16,80 @@ row = Row(TORQUE, held_out=[one_gain(springs_of_one_gain)])
 row.inputs(springs)
 
 
-@row.wrong(
-    "error-sign",
-    "the spring pushes away from the goal: e is the goal minus the measured angle, so "
-    "it enters with a plus",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def error_sign(e, ed, kp, kd):
+    """the spring pushes away from the goal: e is the goal minus the measured angle, so
+    it enters with a plus"""
     return kd * ed - kp * e
 
 
-@row.wrong(
-    "velocity-error-sign",
-    "the damper drives the motion: ed is the wanted minus the measured velocity, so "
-    "it enters with a plus as well",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def velocity_error_sign(e, ed, kp, kd):
+    """the damper drives the motion: ed is the wanted minus the measured velocity, so it
+    enters with a plus as well"""
     return kp * e - kd * ed
 
 
-@row.wrong(
-    "all-signs", "spring and damper both push away from the goal: every sign is wrong"
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def all_signs(e, ed, kp, kd):
+    """spring and damper both push away from the goal: every sign is wrong"""
     return -kp * e - kd * ed
 
 
-@row.wrong(
-    "damper-forgotten", "there is a spring, but no damper: the arm would swing for long"
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def damper_forgotten(e, ed, kp, kd):
+    """there is a spring, but no damper: the arm would swing for long"""
     return kp * e
 
 
-@row.wrong(
-    "spring-forgotten",
-    "there is a damper, but no spring: nothing pulls the joint to its goal",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def spring_forgotten(e, ed, kp, kd):
+    """there is a damper, but no spring: nothing pulls the joint to its goal"""
     return kd * ed
 
 
-@row.wrong("gains-swapped", "kp and kd are swapped: the spring has the damper's gain")
-def _(e, ed, kp, kd):
+@row.wrong
+def gains_swapped(e, ed, kp, kd):
+    """kp and kd are swapped: the spring has the damper's gain"""
     return kd * e + kp * ed
 
 
-@row.wrong(
-    "one-gain-for-all", "all joints get the first joint's gains; each has its own here"
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def one_gain_for_all(e, ed, kp, kd):
+    """all joints get the first joint's gains; each has its own here"""
     return kp[0] * e + kd[0] * ed
 
 
-@row.wrong(
-    "in-degrees", "the errors are converted to degrees; the gains are per radian"
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def in_degrees(e, ed, kp, kd):
+    """the errors are converted to degrees; the gains are per radian"""
     return np.rad2deg(kp * e + kd * ed)
 
 
-@row.wrong(
-    "error-in-degrees",
-    "e is converted to degrees and ed is not; the gains are per radian",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def error_in_degrees(e, ed, kp, kd):
+    """e is converted to degrees and ed is not; the gains are per radian"""
     return kp * np.rad2deg(e) + kd * ed
 
 
-@row.wrong(
-    "summed-over-joints",
-    "the joints are summed into one number; every joint has its own spring",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def summed_over_joints(e, ed, kp, kd):
+    """the joints are summed into one number; every joint has its own spring"""
     return np.full(7, kp @ e + kd @ ed)
 
 
 row.of_argument("e", WRAPPED)
 
 
-@row.wrong(
-    "damper-through-both-gains",
-    "kd ed is multiplied by kp as well; kp and kd each have one error of their own",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def damper_through_both_gains(e, ed, kp, kd):
+    """kd ed is multiplied by kp as well; kp and kd each have one error of their own"""
     return kp * (e + kd * ed)
 
 
-@row.wrong(
-    "velocity-error-forgotten",
-    "kd is added as it is: it becomes a torque once it is multiplied by ed",
-)
-def _(e, ed, kp, kd):
+@row.wrong
+def velocity_error_forgotten(e, ed, kp, kd):
+    """kd is added as it is: it becomes a torque once it is multiplied by ed"""
     return kp * e + kd
 
 

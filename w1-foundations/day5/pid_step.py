@@ -68,292 +68,263 @@ def at_the_clamp(rng):
     yield 0.0 * ONE, seven(rng, -2, 2), near + 0.0, *gains, 0.01, 0.3
 
 
-@row.wrong(
-    "dt-forgotten",
-    "the error is added without dt: the sum then depends on how often you ask",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def dt_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the error is added without dt: the sum then depends on how often you ask"""
     integral = np.clip(integral + e, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "divided-by-dt",
-    "the error is divided by dt; the area of one step is the error times dt",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def divided_by_dt(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the error is divided by dt; the area of one step is the error times dt"""
     integral = np.clip(integral + e / dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong("half-the-step", "half of e dt is added; this call's area is e dt")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def half_the_step(e, ed, integral, kp, kd, ki, dt, clamp):
+    """half of e dt is added; this call's area is e dt"""
     integral = np.clip(integral + e * dt / 2.0, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "velocity-error-summed",
-    "ed is summed in place of e: that gives the error again, not its integral",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def velocity_error_summed(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ed is summed in place of e: that gives the error again, not its integral"""
     integral = np.clip(integral + ed * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong("integral-sign", "the error is taken off the integral, not added to it")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def integral_sign(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the error is taken off the integral, not added to it"""
     integral = np.clip(integral - e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "integral-term-sign",
-    "ki times the integral is subtracted: it pushes away from the goal, ever more",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def integral_term_sign(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ki times the integral is subtracted: it pushes away from the goal, ever more"""
     integral = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed - ki * integral, integral
 
 
-@row.wrong(
-    "starts-anew",
-    "the integral starts anew at every call; it has to go on from the one that is "
-    "given",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def starts_anew(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral starts anew at every call; it has to go on from the one that is
+    given"""
     integral = np.clip(e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "never-grows", "the integral never changes: this call's error is not added to it"
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def never_grows(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral never changes: this call's error is not added to it"""
     integral = np.clip(integral, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "not-clamped",
-    "the integral has no bound: it winds up while the motors are at their limit, and "
-    "the arm overshoots until it has unwound",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def not_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral has no bound: it winds up while the motors are at their limit, and
+    the arm overshoots until it has unwound"""
     integral = integral + e * dt
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "old-sum-clamped",
-    "the old sum is clamped, and then e dt is added: clamp the new one",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def old_sum_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the old sum is clamped, and then e dt is added: clamp the new one"""
     integral = np.clip(integral, -clamp, clamp) + e * dt
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "old-sum-clamped",
-    "the old sum and e dt are clamped one by one, and then added: clamp the new sum",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def old_sum_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the old sum and e dt are clamped one by one, and then added: clamp the new sum"""
     integral = np.clip(integral, -clamp, clamp) + np.clip(e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "step-clamped",
-    "only e dt is clamped, and the sum can still grow without a bound: clamp the new "
-    "sum",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def step_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """only e dt is clamped, and the sum can still grow without a bound: clamp the new
+    sum"""
     integral = integral + np.clip(e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "frozen-at-the-limit",
-    "at the limit the old value is kept; clamp the new sum to the limit",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def frozen_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
+    """at the limit the old value is kept; clamp the new sum to the limit"""
     raw = integral + e * dt
     new = np.where(np.abs(raw) > clamp, integral, raw)
     return kp * e + kd * ed + ki * new, new
 
 
-@row.wrong(
-    "frozen-at-the-limit",
-    "an integral at its limit stays there for ever; an error of the other sign must "
-    "be able to unwind it",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def frozen_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
+    """an integral at its limit stays there for ever; an error of the other sign must be
+    able to unwind it"""
     integral = np.where(np.abs(integral) >= clamp, integral, integral + e * dt)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "emptied-at-the-limit",
-    "at the limit the integral becomes 0: all that it has learned is lost; clamp it "
-    "to the limit",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def emptied_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
+    """at the limit the integral becomes 0: all that it has learned is lost; clamp it to
+    the limit"""
     raw = integral + e * dt
     new = np.where(np.abs(raw) > clamp, 0.0, raw)
     return kp * e + kd * ed + ki * new, new
 
 
-@row.wrong("clamped-on-one-side", "the integral is bounded above and not below")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def clamped_on_one_side(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is bounded above and not below"""
     integral = np.minimum(integral + e * dt, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong("clamped-on-one-side", "the integral is bounded below and not above")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def clamped_on_one_side(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is bounded below and not above"""
     integral = np.maximum(integral + e * dt, -clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "never-negative",
-    "the integral is kept between 0 and clamp; it must be able to be negative",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def never_negative(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is kept between 0 and clamp; it must be able to be negative"""
     integral = np.clip(integral + e * dt, 0.0, clamp)
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "clamped-too-late", "the acceleration uses the integral before it is bounded"
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def clamped_too_late(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the acceleration uses the integral before it is bounded"""
     integral = integral + e * dt
     return kp * e + kd * ed + ki * integral, np.clip(integral, -clamp, clamp)
 
 
-@row.wrong(
-    "bound-not-handed-back",
-    "the acceleration uses the bounded integral, but the unbounded one comes back and "
-    "goes on growing",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def bound_not_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the acceleration uses the bounded integral, but the unbounded one comes back and
+    goes on growing"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * new, integral + e * dt
 
 
-@row.wrong(
-    "term-clamped",
-    "ki times the integral is clamped; clamp is the bound of the integral itself",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def term_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ki times the integral is clamped; clamp is the bound of the integral itself"""
     integral = np.clip(ki * (integral + e * dt), -clamp, clamp) / ki
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong(
-    "old-integral-used", "the acceleration uses the integral from before this step"
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def old_integral_used(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the acceleration uses the integral from before this step"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, new
 
 
-@row.wrong("old-integral-kept", "the integral that was given comes back unchanged")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def old_integral_kept(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral that was given comes back unchanged"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * new, integral.copy()
 
 
-@row.wrong("ki-forgotten", "the integral is added without its gain")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def ki_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is added without its gain"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + new, new
 
 
-@row.wrong("no-integral-term", "the integral is not in the acceleration")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def no_integral_term(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is not in the acceleration"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed, new
 
 
-@row.wrong(
-    "this-step-alone-used",
-    "ki multiplies this step's e dt alone; the acceleration needs the whole sum",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def this_step_alone_used(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ki multiplies this step's e dt alone; the acceleration needs the whole sum"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * e * dt, new
 
 
-@row.wrong(
-    "dt-twice",
-    "the integral is multiplied by dt once more in the acceleration; dt is in it "
-    "already",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def dt_twice(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the integral is multiplied by dt once more in the acceleration; dt is in it
+    already"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * new * dt, new
 
 
-@row.wrong(
-    "ki-in-the-integral",
-    "the gain is inside the integral, so clamp bounds something else",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def ki_in_the_integral(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the gain is inside the integral, so clamp bounds something else"""
     integral = np.clip(integral + ki * e * dt, -clamp, clamp)
     return kp * e + kd * ed + integral, integral
 
 
-@row.wrong(
-    "term-handed-back",
-    "what comes back is ki times the integral; hand the integral itself back",
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def term_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
+    """what comes back is ki times the integral; hand the integral itself back"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * new, ki * new
 
 
-@row.wrong(
-    "springs-forgotten", "only the integral's part is there: kp e and kd ed are missing"
-)
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def springs_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
+    """only the integral's part is there: kp e and kd ed are missing"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return ki * new, new
 
 
-@row.wrong("spring-forgotten", "kp e is missing")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def spring_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
+    """kp e is missing"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kd * ed + ki * new, new
 
 
-@row.wrong("damper-forgotten", "kd ed is missing")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def damper_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
+    """kd ed is missing"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e + ki * new, new
 
 
-@row.wrong("gains-swapped", "kp and kd are swapped: kp belongs to e and kd to ed")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def gains_swapped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """kp and kd are swapped: kp belongs to e and kd to ed"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kd * e + kp * ed + ki * new, new
 
 
-@row.wrong("error-sign", "kp e has the wrong sign")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
+    """kp e has the wrong sign"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kd * ed - kp * e + ki * new, new
 
 
-@row.wrong("velocity-error-sign", "kd ed has the wrong sign")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def velocity_error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
+    """kd ed has the wrong sign"""
     new = np.clip(integral + e * dt, -clamp, clamp)
     return kp * e - kd * ed + ki * new, new
 
 
-@row.wrong("swapped", "the two answers are swapped: the acceleration comes first")
-def _(e, ed, integral, kp, kd, ki, dt, clamp):
+@row.wrong
+def swapped(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the two answers are swapped: the acceleration comes first"""
     integral = np.clip(integral + e * dt, -clamp, clamp)
     return integral, kp * e + kd * ed + ki * integral
 

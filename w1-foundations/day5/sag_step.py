@@ -30,88 +30,78 @@ def _(rng):
         yield q, seven(rng, -40, 40), seven(rng, 50, 600)
 
 
-@row.wrong(
-    "sags-upwards",
-    "the arm rests above its goal; a spring that has to give +g is stretched, so the "
-    "joint stays below",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def sags_upwards(q_goal, g_at_q, kp):
+    """the arm rests above its goal; a spring that has to give +g is stretched, so the
+    joint stays below"""
     return q_goal + g_at_q / kp
 
 
-@row.wrong(
-    "times-stiffness",
-    "gravity is multiplied by the stiffness: a stiffer spring would sag more",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def times_stiffness(q_goal, g_at_q, kp):
+    """gravity is multiplied by the stiffness: a stiffer spring would sag more"""
     return q_goal - g_at_q * kp
 
 
-@row.wrong("goal-forgotten", "this is how far the arm sags; asked is where it then is")
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def goal_forgotten(q_goal, g_at_q, kp):
+    """this is how far the arm sags; asked is where it then is"""
     return -g_at_q / kp
 
 
-@row.wrong("sag-only", "this is how far the arm sags; asked is where it then is")
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def sag_only(q_goal, g_at_q, kp):
+    """this is how far the arm sags; asked is where it then is"""
     return g_at_q / kp
 
 
-@row.wrong(
-    "stiffness-forgotten",
-    "gravity's torque is taken for an angle; stiffness turns one into the other",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def stiffness_forgotten(q_goal, g_at_q, kp):
+    """gravity's torque is taken for an angle; stiffness turns one into the other"""
     return q_goal - g_at_q
 
 
-@row.wrong(
-    "one-gain-for-all",
-    "all joints get the first joint's stiffness; each has its own here",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def one_gain_for_all(q_goal, g_at_q, kp):
+    """all joints get the first joint's stiffness; each has its own here"""
     return q_goal - g_at_q / kp[0]
 
 
-@row.wrong(
-    "does-not-sag",
-    "the goal comes back as it is; a spring gives torque only where there is an error",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def does_not_sag(q_goal, g_at_q, kp):
+    """the goal comes back as it is; a spring gives torque only where there is an
+    error"""
     return q_goal.copy()
 
 
-@row.wrong("sag-in-degrees", "the sag is in degrees, the goal in radians")
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def sag_in_degrees(q_goal, g_at_q, kp):
+    """the sag is in degrees, the goal in radians"""
     return q_goal - np.rad2deg(g_at_q / kp)
 
 
-@row.wrong("goal-scaled-too", "the goal is divided by the stiffness as well")
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def goal_scaled_too(q_goal, g_at_q, kp):
+    """the goal is divided by the stiffness as well"""
     return (q_goal - g_at_q) / kp
 
 
-@row.wrong(
-    "always-below",
-    "gravity's sign is lost: where g is negative, the joint rests above its goal",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def always_below(q_goal, g_at_q, kp):
+    """gravity's sign is lost: where g is negative, the joint rests above its goal"""
     return q_goal - np.abs(g_at_q) / kp
 
 
-@row.wrong(
-    "stiffness-squared", "gravity's torque is divided by kp twice: compare the units"
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def stiffness_squared(q_goal, g_at_q, kp):
+    """gravity's torque is divided by kp twice: compare the units"""
     return q_goal - g_at_q / kp**2
 
 
-@row.wrong(
-    "answer-wrapped",
-    "the angle is taken to within +-pi; these joints have stops, so a whole turn is "
-    "not the same as none, and joint6 goes beyond pi",
-)
-def _(q_goal, g_at_q, kp):
+@row.wrong
+def answer_wrapped(q_goal, g_at_q, kp):
+    """the angle is taken to within +-pi; these joints have stops, so a whole turn is
+    not the same as none, and joint6 goes beyond pi"""
     return wrapped(q_goal - g_at_q / kp)
 
 

@@ -45,174 +45,129 @@ def _turned(L):
     return V.T @ np.diag(np.sqrt(values)) @ V
 
 
-@row.wrong(
-    "Lambda-ignored",
-    "Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring",
-    "diag(2 sqrt(K))",
-)
-def _(K, Lambda):
+@row.wrong
+def Lambda_ignored(K, Lambda):
+    """Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring => diag(2
+    sqrt(K))"""
     return np.diag(2.0 * np.sqrt(K))
 
 
-@row.wrong(
-    "another-design",
-    "this does not ring either: you take Lambda and K to axes in which both are "
-    "diagonal. Here the damping is the sum of two products of the roots of Lambda "
-    "and K",
-    "that other design",
-)
-def _(K, Lambda):
+@row.wrong
+def another_design(K, Lambda):
+    """this does not ring either: you take Lambda and K to axes in which both are
+    diagonal. Here the damping is the sum of two products of the roots of Lambda and K
+    => that other design"""
     return _by_modes(K, Lambda)
 
 
-@row.wrong(
-    "entries-square-rooted",
-    "np.sqrt takes the root of every entry of Lambda; the root of a matrix is the "
-    "one that, times itself, is the matrix",
-    "the right one with np.sqrt(Lambda)",
-)
-def _(K, Lambda):
+@row.wrong
+def entries_square_rooted(K, Lambda):
+    """np.sqrt takes the root of every entry of Lambda; the root of a matrix is the one
+    that, times itself, is the matrix => the right one with np.sqrt(Lambda)"""
     return _sum(np.sqrt(Lambda), np.sqrt(K))
 
 
-@row.wrong(
-    "entries-square-rooted",
-    "np.sqrt takes the root of every entry of Lambda, NaN where it is negative; "
-    "the root of a matrix is the one that, times itself, is the matrix",
-    "the right one with np.sqrt(Lambda)",
-)
-def _(K, Lambda):
+@row.wrong
+def entries_square_rooted(K, Lambda):
+    """np.sqrt takes the root of every entry of Lambda, NaN where it is negative; the
+    root of a matrix is the one that, times itself, is the matrix => the right one with
+    np.sqrt(Lambda)"""
     return np.sqrt(Lambda) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(Lambda)
 
 
-@row.wrong(
-    "entries-square-rooted",
-    "the root is taken of the size of every entry of Lambda; the root of a matrix "
-    "is the one that, times itself, is the matrix",
-    "the right one with np.sqrt(abs(Lambda))",
-)
-def _(K, Lambda):
+@row.wrong
+def entries_square_rooted(K, Lambda):
+    """the root is taken of the size of every entry of Lambda; the root of a matrix is
+    the one that, times itself, is the matrix => the right one with
+    np.sqrt(abs(Lambda))"""
     return _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K))
 
 
-@row.wrong(
-    "diagonal-only",
-    "this is 2 sqrt(k m) for each axis alone; Lambda couples the axes",
-    "the right one with Lambda's diagonal",
-)
-def _(K, Lambda):
+@row.wrong
+def diagonal_only(K, Lambda):
+    """this is 2 sqrt(k m) for each axis alone; Lambda couples the axes => the right one
+    with Lambda's diagonal"""
     return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
 
 
-@row.wrong(
-    "one-order-only",
-    "the product of the two roots is taken in one order, twice; with both orders, "
-    "once each, it is symmetric",
-    "2 sqrt(Lambda) sqrt(K)",
-)
-def _(K, Lambda):
+@row.wrong
+def one_order_only(K, Lambda):
+    """the product of the two roots is taken in one order, twice; with both orders, once
+    each, it is symmetric => 2 sqrt(Lambda) sqrt(K)"""
     return 2.0 * root(Lambda) @ np.diag(np.sqrt(K))
 
 
-@row.wrong(
-    "one-order-only",
-    "the product of the two roots is taken in one order, twice; with both orders, "
-    "once each, it is symmetric",
-    "2 sqrt(K) sqrt(Lambda)",
-)
-def _(K, Lambda):
+@row.wrong
+def one_order_only(K, Lambda):
+    """the product of the two roots is taken in one order, twice; with both orders, once
+    each, it is symmetric => 2 sqrt(K) sqrt(Lambda)"""
     return 2.0 * np.diag(np.sqrt(K)) @ root(Lambda)
 
 
-@row.wrong(
-    "half-of-it",
-    "the product of the two roots is there in one order only",
-    "sqrt(Lambda) sqrt(K)",
-)
-def _(K, Lambda):
+@row.wrong
+def half_of_it(K, Lambda):
+    """the product of the two roots is there in one order only => sqrt(Lambda)
+    sqrt(K)"""
     return root(Lambda) @ np.diag(np.sqrt(K))
 
 
-@row.wrong(
-    "factor-two",
-    "there is a 2 too many: the two orders are the 2 already",
-    "twice the right one",
-)
-def _(K, Lambda):
+@row.wrong
+def factor_two(K, Lambda):
+    """there is a 2 too many: the two orders are the 2 already => twice the right one"""
     return 2.0 * _sum(root(Lambda), np.sqrt(K))
 
 
-@row.wrong(
-    "factor-two-missing",
-    "half of it is missing: the two orders are added, not averaged",
-    "half of the right one",
-)
-def _(K, Lambda):
+@row.wrong
+def factor_two_missing(K, Lambda):
+    """half of it is missing: the two orders are added, not averaged => half of the
+    right one"""
     return 0.5 * _sum(root(Lambda), np.sqrt(K))
 
 
-@row.wrong(
-    "K-not-rooted",
-    "K is used as it is; its square root belongs there",
-    "the right one with K for its root",
-)
-def _(K, Lambda):
+@row.wrong
+def K_not_rooted(K, Lambda):
+    """K is used as it is; its square root belongs there => the right one with K for its
+    root"""
     return _sum(root(Lambda), K)
 
 
-@row.wrong(
-    "Lambda-not-rooted",
-    "Lambda is used as it is; its square root belongs there",
-    "the right one with Lambda for its root",
-)
-def _(K, Lambda):
+@row.wrong
+def Lambda_not_rooted(K, Lambda):
+    """Lambda is used as it is; its square root belongs there => the right one with
+    Lambda for its root"""
     return _sum(Lambda, np.sqrt(K))
 
 
-@row.wrong(
-    "eigenvectors-transposed",
-    "the eigenvectors are transposed: those of eigh are the columns, so the root "
-    "is V diag V^T",
-    "the right one with V^T diag V",
-)
-def _(K, Lambda):
+@row.wrong
+def eigenvectors_transposed(K, Lambda):
+    """the eigenvectors are transposed: those of eigh are the columns, so the root is V
+    diag V^T => the right one with V^T diag V"""
     return _sum(_turned(Lambda), np.sqrt(K))
 
 
-@row.wrong(
-    "eigenvalues-not-rooted-back",
-    "the root is left in the eigenvectors' axes: diag(sqrt(values)) has to be "
-    "turned back",
-    "the right one with diag(sqrt(values))",
-)
-def _(K, Lambda):
+@row.wrong
+def eigenvalues_not_rooted_back(K, Lambda):
+    """the root is left in the eigenvectors' axes: diag(sqrt(values)) has to be turned
+    back => the right one with diag(sqrt(values))"""
     return _sum(np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K))
 
 
-@row.wrong(
-    "cholesky",
-    "a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda",
-    "the right one with the Cholesky factor",
-)
-def _(K, Lambda):
+@row.wrong
+def cholesky(K, Lambda):
+    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => the
+    right one with the Cholesky factor"""
     return _sum(np.linalg.cholesky(Lambda), np.sqrt(K))
 
 
-@row.wrong(
-    "root-of-inverse",
-    "the root is that of Lambda's inverse",
-    "the right one with the inverse root",
-)
-def _(K, Lambda):
+@row.wrong
+def root_of_inverse(K, Lambda):
+    """the root is that of Lambda's inverse => the right one with the inverse root"""
     return _sum(np.linalg.inv(root(Lambda)), np.sqrt(K))
 
 
-@row.wrong(
-    "root-of-the-product",
-    "this is 2 sqrt(K Lambda), entry by entry",
-    "2 sqrt(abs(K Lambda))",
-)
-def _(K, Lambda):
+@row.wrong
+def root_of_the_product(K, Lambda):
+    """this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K Lambda))"""
     return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))
 
 

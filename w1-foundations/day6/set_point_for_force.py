@@ -31,111 +31,84 @@ def _at(wrench, row, value):
     return out
 
 
-@row.wrong(
-    "above-the-surface",
-    "the target is above the surface: the hand never touches it and presses with 0",
-    "surface + force / k",
-)
-def _(force, k, surface):
+@row.wrong
+def above_the_surface(force, k, surface):
+    """the target is above the surface: the hand never touches it and presses with 0 =>
+    surface + force / k"""
     return surface + force / k
 
 
-@row.wrong(
-    "force-times-k",
-    "force is multiplied by k; a stiffer spring needs less depth",
-    "surface - force k",
-)
-def _(force, k, surface):
+@row.wrong
+def force_times_k(force, k, surface):
+    """force is multiplied by k; a stiffer spring needs less depth => surface - force
+    k"""
     return surface - force * k
 
 
-@row.wrong(
-    "k-over-force",
-    "the fraction is upside down: N divided by N/m is m",
-    "surface - k / force",
-)
-def _(force, k, surface):
+@row.wrong
+def k_over_force(force, k, surface):
+    """the fraction is upside down: N divided by N/m is m => surface - k / force"""
     return surface - k / force
 
 
-@row.wrong(
-    "depth-only",
-    "this is how deep below the surface; the height to command is asked for",
-    "force / k",
-)
-def _(force, k, surface):
+@row.wrong
+def depth_only(force, k, surface):
+    """this is how deep below the surface; the height to command is asked for => force /
+    k"""
     return force / k
 
 
-@row.wrong(
-    "depth-negative",
-    "the height of the surface is missing",
-    "-force / k",
-)
-def _(force, k, surface):
+@row.wrong
+def depth_negative(force, k, surface):
+    """the height of the surface is missing => -force / k"""
     return -force / k
 
 
-@row.wrong(
-    "millimetres",
-    "the depth is in millimetres; here everything is in metres",
-    "the right one with the depth in mm",
-)
-def _(force, k, surface):
+@row.wrong
+def millimetres(force, k, surface):
+    """the depth is in millimetres; here everything is in metres => the right one with
+    the depth in mm"""
     return surface - 1000.0 * force / k
 
 
-@row.wrong(
-    "half-a-spring",
-    "there is a 2 too many: force is k times depth, its half belongs to energy",
-    "surface - 2 force / k",
-)
-def _(force, k, surface):
+@row.wrong
+def half_a_spring(force, k, surface):
+    """there is a 2 too many: force is k times depth, its half belongs to energy =>
+    surface - 2 force / k"""
     return surface - 2.0 * force / k
 
 
-@row.wrong(
-    "surface-only",
-    "force and k are not used: at the surface itself the spring pulls with 0 N",
-    "surface",
-)
-def _(force, k, surface):
+@row.wrong
+def surface_only(force, k, surface):
+    """force and k are not used: at the surface itself the spring pulls with 0 N =>
+    surface"""
     return surface
 
 
-@row.wrong(
-    "whole-metres",
-    "// leaves whole numbers only, here whole metres of depth; / divides",
-    "surface - force // k",
-)
-def _(force, k, surface):
+@row.wrong
+def whole_metres(force, k, surface):
+    """// leaves whole numbers only, here whole metres of depth; / divides => surface -
+    force // k"""
     return surface - force // k
 
 
-@row.wrong(
-    "docstrings-numbers",
-    "k is 400, as in the docstring, whatever it is given",
-    "surface - force / 400",
-)
-def _(force, k, surface):
+@row.wrong
+def docstrings_numbers(force, k, surface):
+    """k is 400, as in the docstring, whatever it is given => surface - force / 400"""
     return surface - force / 400.0
 
 
-@row.wrong(
-    "docstrings-numbers",
-    "the surface is at 0.42, as in the docstring, whatever it is given",
-    "0.42 - force / k",
-)
-def _(force, k, surface):
+@row.wrong
+def docstrings_numbers(force, k, surface):
+    """the surface is at 0.42, as in the docstring, whatever it is given => 0.42 - force
+    / k"""
     return 0.42 - force / k
 
 
-@row.wrong(
-    "half-a-depth",
-    "half of the depth is missing: force is k times depth, its half belongs to energy",
-    "surface - force / (2 k)",
-)
-def _(force, k, surface):
+@row.wrong
+def half_a_depth(force, k, surface):
+    """half of the depth is missing: force is k times depth, its half belongs to energy
+    => surface - force / (2 k)"""
     return surface - 0.5 * force / k
 
 

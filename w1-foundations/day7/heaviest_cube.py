@@ -17,93 +17,71 @@ def _(rng):
     return [(0.9247, 1.0, 0.0), *down, *map(tuple, draw.rounded(drawn).tolist())]
 
 
-@row.wrong(
-    "one-finger",
-    "one finger's friction is missing: two faces hold the cube",
-    "half of it",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def one_finger(grip, mu, acceleration):
+    """one finger's friction is missing: two faces hold the cube => half of it"""
     return mu * grip / (G + acceleration)
 
 
-@row.wrong(
-    "acceleration-forgotten",
-    "the cube's acceleration does not count; while it speeds up it needs more",
-    "the mass at rest",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def acceleration_forgotten(grip, mu, acceleration):
+    """the cube's acceleration does not count; while it speeds up it needs more => the
+    mass at rest"""
     return 2 * mu * grip / G
 
 
-@row.wrong(
-    "acceleration-sign",
-    "the acceleration is taken off gravity; upwards it comes on top",
-    "the mass with g - a",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def acceleration_sign(grip, mu, acceleration):
+    """the acceleration is taken off gravity; upwards it comes on top => the mass with g
+    - a"""
     return 2 * mu * grip / (G - acceleration)
 
 
-@row.wrong(
-    "gravity-forgotten",
-    "gravity is missing: at rest nothing would have to be lifted",
-    "the mass without gravity",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def gravity_forgotten(grip, mu, acceleration):
+    """gravity is missing: at rest nothing would have to be lifted => the mass without
+    gravity"""
     return np.divide(2 * mu * grip, acceleration)
 
 
-@row.wrong(
-    "weight-for-mass",
-    "this is the force in newtons; the mass is that force over g + a",
-    "the friction's force",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def weight_for_mass(grip, mu, acceleration):
+    """this is the force in newtons; the mass is that force over g + a => the friction's
+    force"""
     return 2 * mu * grip
 
 
-@row.wrong(
-    "friction-forgotten",
-    "friction does not count; without mu nothing is lifted",
-    "the mass with mu = 1",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def friction_forgotten(grip, mu, acceleration):
+    """friction does not count; without mu nothing is lifted => the mass with mu = 1"""
     return 2 * grip / (G + acceleration)
 
 
-@row.wrong(
-    "divided-by-friction",
-    "the friction mu stands below the line; more friction lifts more",
-    "the mass with 1 / mu",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def divided_by_friction(grip, mu, acceleration):
+    """the friction mu stands below the line; more friction lifts more => the mass with
+    1 / mu"""
     return 2 * grip / (mu * (G + acceleration))
 
 
-@row.wrong(
-    "gravity-negative",
-    "gravity has the wrong sign here: its z is -9.81, and it pulls down",
-    "the mass with -9.81",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def gravity_negative(grip, mu, acceleration):
+    """gravity has the wrong sign here: its z is -9.81, and it pulls down => the mass
+    with -9.81"""
     return 2 * mu * grip / (acceleration - G)
 
 
-@row.wrong(
-    "acceleration-without-sign",
-    "the acceleration's sign is lost: downwards, it takes weight off the fingers",
-    "the mass with |a|",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def acceleration_without_sign(grip, mu, acceleration):
+    """the acceleration's sign is lost: downwards, it takes weight off the fingers =>
+    the mass with |a|"""
     return 2 * mu * grip / (G + abs(acceleration))
 
 
-@row.wrong(
-    "acceleration-without-sign",
-    "an acceleration downwards does not count; it takes weight off the fingers",
-    "the mass with max(a, 0)",
-)
-def _(grip, mu, acceleration):
+@row.wrong
+def acceleration_without_sign(grip, mu, acceleration):
+    """an acceleration downwards does not count; it takes weight off the fingers => the
+    mass with max(a, 0)"""
     return 2 * mu * grip / (G + max(acceleration, 0.0))
 
 

@@ -42,116 +42,93 @@ def at(T0, T1, s, p):
     return se3.make_T(straight_pose(T0, T1, s)[:3, :3], p)
 
 
-@row.wrong(
-    "by-entries",
-    "R's entries go straight from the one to the other; on the way they are no "
-    "rotation",
-    "the mean of the entries",
-)
-def _(T0, T1, s):
+@row.wrong
+def by_entries(T0, T1, s):
+    """R's entries go straight from the one to the other; on the way they are no
+    rotation => the mean of the entries"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, R0 + s * (R1 - R0))
 
 
-@row.wrong(
-    "nlerp",
-    "the quaternions go straight and are normalised: the same turn, but not at one "
-    "rate",
-    "the normalised mean of the quaternions",
-)
-def _(T0, T1, s):
+@row.wrong
+def nlerp(T0, T1, s):
+    """the quaternions go straight and are normalised: the same turn, but not at one
+    rate => the normalised mean of the quaternions"""
     a, b = se3.R_to_quat(T0[:3, :3]), se3.R_to_quat(T1[:3, :3])
     b = b if a @ b >= 0 else -b
     return line(T0, T1, s, se3.quat_to_R((1 - s) * a + s * b))
 
 
-@row.wrong(
-    "turn-in-world-axes",
-    "the turn is written in world axes, R1 R0^T, but stands on the right of R0, where "
-    "the first frame's own axes belong",
-    "R0 exp(s log(R1 R0^T))",
-)
-def _(T0, T1, s):
+@row.wrong
+def turn_in_world_axes(T0, T1, s):
+    """the turn is written in world axes, R1 R0^T, but stands on the right of R0, where
+    the first frame's own axes belong => R0 exp(s log(R1 R0^T))"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, R0 @ exp(s * log_rotation(R1 @ R0.T)))
 
 
-@row.wrong(
-    "turn-on-the-left",
-    "the turn is written in the first frame's axes, R0^T R1, but stands on the left "
-    "of R0, where world axes belong",
-    "exp(s log(R0^T R1)) R0",
-)
-def _(T0, T1, s):
+@row.wrong
+def turn_on_the_left(T0, T1, s):
+    """the turn is written in the first frame's axes, R0^T R1, but stands on the left of
+    R0, where world axes belong => exp(s log(R0^T R1)) R0"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, exp(s * log_rotation(R0.T @ R1)) @ R0)
 
 
-@row.wrong(
-    "turn-backwards",
-    "it turns the other way: the logarithm is that of the way back",
-    "R0 exp(s log(R1^T R0))",
-)
-def _(T0, T1, s):
+@row.wrong
+def turn_backwards(T0, T1, s):
+    """it turns the other way: the logarithm is that of the way back => R0 exp(s
+    log(R1^T R0))"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, R0 @ exp(s * log_rotation(R1.T @ R0)))
 
 
-@row.wrong(
-    "start-forgotten",
-    "the turn starts from the identity; it starts from R0",
-    "exp(s log(R0^T R1))",
-)
-def _(T0, T1, s):
+@row.wrong
+def start_forgotten(T0, T1, s):
+    """the turn starts from the identity; it starts from R0 => exp(s log(R0^T R1))"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, exp(s * log_rotation(R0.T @ R1)))
 
 
-@row.wrong(
-    "goals-own-turn",
-    "s times the logarithm of R1 alone: where it starts does not count",
-    "R0 exp(s log(R1))",
-)
-def _(T0, T1, s):
+@row.wrong
+def goals_own_turn(T0, T1, s):
+    """s times the logarithm of R1 alone: where it starts does not count => R0 exp(s
+    log(R1))"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, R0 @ exp(s * log_rotation(R1)))
 
 
-@row.wrong(
-    "logarithms-mixed",
-    "the two logarithms go straight from the one to the other; rotations do not add up",
-    "the exponential of their mean",
-)
-def _(T0, T1, s):
+@row.wrong
+def logarithms_mixed(T0, T1, s):
+    """the two logarithms go straight from the one to the other; rotations do not add up
+    => the exponential of their mean"""
     w0, w1 = log_rotation(T0[:3, :3]), log_rotation(T1[:3, :3])
     return line(T0, T1, s, exp(w0 + s * (w1 - w0)))
 
 
-@row.wrong("not-turned", "the rotation stays that of the first pose", "R0")
-def _(T0, T1, s):
+@row.wrong
+def not_turned(T0, T1, s):
+    """the rotation stays that of the first pose => R0"""
     return line(T0, T1, s, T0[:3, :3])
 
 
-@row.wrong(
-    "turned-at-once", "the rotation is that of the last pose from the start", "R1"
-)
-def _(T0, T1, s):
+@row.wrong
+def turned_at_once(T0, T1, s):
+    """the rotation is that of the last pose from the start => R1"""
     return line(T0, T1, s, T1[:3, :3])
 
 
-@row.wrong("whole-turn", "s is missing in the rotation: it is turned at once", "R1")
-def _(T0, T1, s):
+@row.wrong
+def whole_turn(T0, T1, s):
+    """s is missing in the rotation: it is turned at once => R1"""
     R0, R1 = T0[:3, :3], T1[:3, :3]
     return line(T0, T1, s, R0 @ exp(log_rotation(R0.T @ R1)))
 
 
-@row.wrong(
-    "screw-motion",
-    "this is the screw motion from the one to the other: its origin runs along an "
-    "arc, not a line",
-    "T0 exp(s log(T0^-1 T1))",
-)
-def _(T0, T1, s):
+@row.wrong
+def screw_motion(T0, T1, s):
+    """this is the screw motion from the one to the other: its origin runs along an arc,
+    not a line => T0 exp(s log(T0^-1 T1))"""
     T = se3.inverse(T0) @ T1
     w, p = log_rotation(T[:3, :3]), T[:3, 3]
     theta = np.linalg.norm(w)
@@ -162,48 +139,43 @@ def _(T0, T1, s):
     return T0 @ exp_screw(np.append(w / theta, np.linalg.solve(G, p)), s * theta)
 
 
-@row.wrong(
-    "way-in-the-first-frame",
-    "the way is turned by R0; both positions are in the world already",
-    "p0 + s R0 (p1 - p0)",
-)
-def _(T0, T1, s):
+@row.wrong
+def way_in_the_first_frame(T0, T1, s):
+    """the way is turned by R0; both positions are in the world already => p0 + s R0 (p1
+    - p0)"""
     p0, p1 = T0[:3, 3], T1[:3, 3]
     return at(T0, T1, s, p0 + s * T0[:3, :3] @ (p1 - p0))
 
 
-@row.wrong(
-    "start-place-forgotten",
-    "the way starts from the world's origin; it starts from p0",
-    "s (p1 - p0)",
-)
-def _(T0, T1, s):
+@row.wrong
+def start_place_forgotten(T0, T1, s):
+    """the way starts from the world's origin; it starts from p0 => s (p1 - p0)"""
     p0, p1 = T0[:3, 3], T1[:3, 3]
     return at(T0, T1, s, s * (p1 - p0))
 
 
-@row.wrong(
-    "goal-for-way",
-    "the goal p1 stands where the way from p0 to p1 belongs",
-    "p0 + s p1",
-)
-def _(T0, T1, s):
+@row.wrong
+def goal_for_way(T0, T1, s):
+    """the goal p1 stands where the way from p0 to p1 belongs => p0 + s p1"""
     p0, p1 = T0[:3, 3], T1[:3, 3]
     return at(T0, T1, s, p0 + s * p1)
 
 
-@row.wrong("not-moved", "the position stays that of the first pose", "p0")
-def _(T0, T1, s):
+@row.wrong
+def not_moved(T0, T1, s):
+    """the position stays that of the first pose => p0"""
     return at(T0, T1, s, T0[:3, 3])
 
 
-@row.wrong("backwards", "it goes from the last pose to the first", "the way back")
-def _(T0, T1, s):
+@row.wrong
+def backwards(T0, T1, s):
+    """it goes from the last pose to the first => the way back"""
     return straight_pose(T1, T0, s)
 
 
-@row.wrong("transposed", "the rotation is transposed", "its transpose")
-def _(T0, T1, s):
+@row.wrong
+def transposed(T0, T1, s):
+    """the rotation is transposed => its transpose"""
     return line(T0, T1, s, straight_pose(T0, T1, s)[:3, :3].T)
 
 

@@ -50,111 +50,85 @@ def to_top(t, L, a, top):
     return profile(t, L, a, top, L / top + top / a)
 
 
-@row.wrong(
-    "no-triangle",
-    "the top speed is always v; a short way ends before v is reached, so it overshoots",
-    "the trapezoid without its triangle",
-)
-def _(t, L, v, a):
+@row.wrong
+def no_triangle(t, L, v, a):
+    """the top speed is always v; a short way ends before v is reached, so it overshoots
+    => the trapezoid without its triangle"""
     return to_top(t, L, a, v)
 
 
-@row.wrong(
-    "always-a-triangle",
-    "it never cruises: the top speed is sqrt(L a) even where that is over v",
-    "the triangle",
-)
-def _(t, L, v, a):
+@row.wrong
+def always_a_triangle(t, L, v, a):
+    """it never cruises: the top speed is sqrt(L a) even where that is over v => the
+    triangle"""
     return to_top(t, L, a, np.sqrt(L * a))
 
 
-@row.wrong(
-    "triangle-too-high",
-    "half of the triangle is for braking, so its height is not sqrt(2 L a)",
-    "the triangle with sqrt(2 L a)",
-)
-def _(t, L, v, a):
+@row.wrong
+def triangle_too_high(t, L, v, a):
+    """half of the triangle is for braking, so its height is not sqrt(2 L a) => the
+    triangle with sqrt(2 L a)"""
     return to_top(t, L, a, min(v, np.sqrt(2 * L * a)))
 
 
-@row.wrong(
-    "triangle-too-low",
-    "the triangle's height is not sqrt(L a / 2): its area has to be L",
-    "the triangle with sqrt(L a / 2)",
-)
-def _(t, L, v, a):
+@row.wrong
+def triangle_too_low(t, L, v, a):
+    """the triangle's height is not sqrt(L a / 2): its area has to be L => the triangle
+    with sqrt(L a / 2)"""
     return to_top(t, L, a, min(v, np.sqrt(L * a / 2)))
 
 
-@row.wrong(
-    "triangle-not-a-root",
-    "the triangle's height is the root of L a; L a itself is the square of a speed",
-    "the triangle with L a",
-)
-def _(t, L, v, a):
+@row.wrong
+def triangle_not_a_root(t, L, v, a):
+    """the triangle's height is the root of L a; L a itself is the square of a speed =>
+    the triangle with L a"""
     return to_top(t, L, a, min(v, L * a))
 
 
-@row.wrong(
-    "triangle-too-late",
-    "it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; there "
-    "are two ramps",
-    "the triangle below v^2 / (2 a)",
-)
-def _(t, L, v, a):
+@row.wrong
+def triangle_too_late(t, L, v, a):
+    """it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; there
+    are two ramps => the triangle below v^2 / (2 a)"""
     return to_top(t, L, a, np.sqrt(L * a) if v**2 / (2 * a) > L else v)
 
 
-@row.wrong(
-    "ramps-take-no-time",
-    "the duration is L / v, as if it were at v from the first moment; the ramps cost "
-    "one ramp more",
-    "the profile with T = L / v",
-)
-def _(t, L, v, a):
+@row.wrong
+def ramps_take_no_time(t, L, v, a):
+    """the duration is L / v, as if it were at v from the first moment; the ramps cost
+    one ramp more => the profile with T = L / v"""
     top, _, _ = timing(L, v, a)
     return profile(t, L, a, top, L / top)
 
 
-@row.wrong(
-    "both-ramps-added",
-    "the duration is one ramp's time, v / a, too long: compared with full speed, each "
-    "ramp costs only half of its own time",
-    "the profile with T = L / v + 2 v / a",
-)
-def _(t, L, v, a):
+@row.wrong
+def both_ramps_added(t, L, v, a):
+    """the duration is one ramp's time, v / a, too long: compared with full speed, each
+    ramp costs only half of its own time => the profile with T = L / v + 2 v / a"""
     top, ramp, _ = timing(L, v, a)
     return profile(t, L, a, top, L / top + 2 * ramp)
 
 
-@row.wrong(
-    "braking-accelerates",
-    "while it slows down the acceleration is negative",
-    "the profile with +a at the end",
-)
-def _(t, L, v, a):
+@row.wrong
+def braking_accelerates(t, L, v, a):
+    """while it slows down the acceleration is negative => the profile with +a at the
+    end"""
     x, speed, acc = trapezoid(t, L, v, a)
     return np.array([x, speed, abs(acc)])
 
 
-@row.wrong(
-    "braking-overshoots",
-    "the last piece comes from beyond the end: what is left has to be taken off L",
-    "the profile with a plus in the last piece",
-)
-def _(t, L, v, a):
+@row.wrong
+def braking_overshoots(t, L, v, a):
+    """the last piece comes from beyond the end: what is left has to be taken off L =>
+    the profile with a plus in the last piece"""
     _, ramp, T = timing(L, v, a)
     if T - ramp <= t < T:
         return np.array([L + a * (T - t) ** 2 / 2, a * (T - t), -a])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "half-forgotten",
-    "the way of a ramp is a t^2 / 2, not a t^2",
-    "the profile with a t^2",
-)
-def _(t, L, v, a):
+@row.wrong
+def half_forgotten(t, L, v, a):
+    """the way of a ramp is a t^2 / 2, not a t^2 => the profile with a t^2"""
     _, ramp, T = timing(L, v, a)
     if 0 < t < ramp:
         return np.array([a * t**2, a * t, a])
@@ -163,70 +137,56 @@ def _(t, L, v, a):
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "half-forgotten",
-    "in the first piece, the way of a ramp is a t^2 / 2, not a t^2",
-    "the profile with a t^2",
-)
-def _(t, L, v, a):
+@row.wrong
+def half_forgotten(t, L, v, a):
+    """in the first piece, the way of a ramp is a t^2 / 2, not a t^2 => the profile with
+    a t^2"""
     if 0 < t < timing(L, v, a)[1]:
         return np.array([a * t**2, a * t, a])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "ramps-way-forgotten",
-    "the cruise starts at 0; it has to start where the ramp ended",
-    "the cruise from 0",
-)
-def _(t, L, v, a):
+@row.wrong
+def ramps_way_forgotten(t, L, v, a):
+    """the cruise starts at 0; it has to start where the ramp ended => the cruise from
+    0"""
     top, ramp, T = timing(L, v, a)
     if ramp <= t < T - ramp:
         return np.array([top * (t - ramp), top, 0.0])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "ramp-at-full-speed",
-    "the cruise counts the ramp as if it had been at full speed all the time",
-    "the cruise with v t",
-)
-def _(t, L, v, a):
+@row.wrong
+def ramp_at_full_speed(t, L, v, a):
+    """the cruise counts the ramp as if it had been at full speed all the time => the
+    cruise with v t"""
     top, ramp, T = timing(L, v, a)
     if ramp <= t < T - ramp:
         return np.array([top * t, top, 0.0])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "does-not-stop",
-    "after the end it goes on with -a, backwards",
-    "the profile without its end",
-)
-def _(t, L, v, a):
+@row.wrong
+def does_not_stop(t, L, v, a):
+    """after the end it goes on with -a, backwards => the profile without its end"""
     left = timing(L, v, a)[2] - t
     if left <= 0:
         return np.array([L - a * left**2 / 2, a * left, -a])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "does-not-wait",
-    "before the start it is on the ramp already",
-    "the profile without its start",
-)
-def _(t, L, v, a):
+@row.wrong
+def does_not_wait(t, L, v, a):
+    """before the start it is on the ramp already => the profile without its start"""
     if t <= 0:
         return np.array([a * t**2 / 2, a * t, a])
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "does-not-wait-or-stop",
-    "before the start and after the end the ramps go on",
-    "the profile without its ends",
-)
-def _(t, L, v, a):
+@row.wrong
+def does_not_wait_or_stop(t, L, v, a):
+    """before the start and after the end the ramps go on => the profile without its
+    ends"""
     left = timing(L, v, a)[2] - t
     if t <= 0:
         return np.array([a * t**2 / 2, a * t, a])
@@ -235,12 +195,10 @@ def _(t, L, v, a):
     return trapezoid(t, L, v, a)
 
 
-@row.wrong(
-    "order",
-    "the order is position, speed, acceleration; here it runs backwards",
-    "the order acceleration, speed, position",
-)
-def _(t, L, v, a):
+@row.wrong
+def order(t, L, v, a):
+    """the order is position, speed, acceleration; here it runs backwards => the order
+    acceleration, speed, position"""
     return trapezoid(t, L, v, a)[::-1]
 
 
