@@ -121,6 +121,8 @@ class _Check:
         in their place: its fault is inherited, or its own.
         """
         result, added = results[task.id], self.added
+        if self._has_its_own_name(task, result.verdict):
+            return replace(result, verdict=replace(result.verdict, follows=""))
         if result.verdict.follows:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]
@@ -136,14 +138,23 @@ class _Check:
             return result
         return replace(result, verdict=self._with_experiments(task, result, added))
 
+    def _has_its_own_name(self, task: Task, verdict: Verdict) -> bool:
+        """Return whether a mistake in this very function gives its numbers."""
+        if not verdict.follows or verdict.status != "wrong":
+            return False
+        (asked,) = self._asked_of(task, verdict)
+        named = {m.slug: m.reached for m in asked.ask.named}
+        return named.get(verdict.mistake) is False
+
+    def _asked_of(self, task: Task, verdict: Verdict) -> list[Asked]:
+        """Return the questions to the function that a verdict is about."""
+        rounds = rounds_of(self.day, [task], self.seed)[task.id]
+        return [one for one in rounds if one.function == verdict.function]
+
     def _with_experiments(self, task: Task, result: TaskResult, added: str) -> Verdict:
         """Return a verdict with the arguments that, neutral, make the answer right."""
         verdict = result.verdict
-        (asked,) = [
-            one
-            for one in rounds_of(self.day, [task], self.seed)[task.id]
-            if one.function == verdict.function
-        ]
+        (asked,) = self._asked_of(task, verdict)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(self.script, robots, library_of(self.day), added)
         with contextlib.closing(session):

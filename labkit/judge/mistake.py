@@ -58,12 +58,14 @@ class Mistake:
             stacked, one array (n, ...) per argument (a `Robot` as its model), and
             returns (n, ...), or a tuple of such where the function returns several.
         redone: what to call that answer, as in "0 from its transpose".
+        reached: whether it is one of a smaller function, which this one calls.
     """
 
     slug: str
     says: str
     redo: Callable[..., Any]
     redone: str = "the answer with this mistake"
+    reached: bool = False
 
 
 def capitalised(clause: str) -> str:
@@ -86,12 +88,13 @@ class InTurn:
         """Return the answers to all questions, (n, ...), or a tuple of such.
 
         Args:
-            columns: one per argument: (n, ...), or what all questions share.
+            columns: one per argument: (n, ...), or what all questions share. Without
+            any (n, ...) there is one question.
 
         Raises:
             ValueError: the function has no answer to one of them.
         """
-        n = next(len(c) for c in columns if isinstance(c, np.ndarray))
+        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
         answers = [self.nth(i, columns) for i in range(n)]
         if isinstance(answers[0], tuple):
             return tuple(map(np.array, zip(*answers, strict=True)))

@@ -54,6 +54,7 @@ class Way:
         code: the function, as a student writes it.
         redone: as in a `Mistake`.
         hidden: why the lab cannot show it; "" where the lab, run with it, fails.
+        reached: whether it is a mistake of a smaller function that this one calls.
     """
 
     status: str
@@ -62,6 +63,7 @@ class Way:
     code: Code
     redone: str = REDONE
     hidden: str = ""
+    reached: bool = False
 
     @property
     def named(self) -> bool:
@@ -206,7 +208,7 @@ class Row:
                     for there, here in called.items():
                         says = says.replace(there, here)
                     why = hidden.get(way.slug, way.hidden)
-                    yield replace(way, says=says, code=code, hidden=why)
+                    yield replace(way, says=says, code=code, hidden=why, reached=True)
 
         self._entries.append(ways)
 
@@ -252,7 +254,7 @@ class Row:
             more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
         truth = None if "accept" in more else InTurn(self.truth)
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
-            Mistake(way.slug, way.says, InTurn(way.code), way.redone)
+            Mistake(way.slug, way.says, InTurn(way.code), way.redone, way.reached)
             for way in self.named
         ]
         return Ask(

@@ -1,0 +1,24 @@
+"""46.7 `seen_from(T_world_hand, p_world)`: a pose and a point."""
+
+import numpy as np
+
+from labkit.judge import Vector, draw
+from labkit.judge.row import Row
+from robo47 import se3
+
+row = Row(
+    Vector((3,), "m"),
+    truth=lambda T, p: (se3.inverse(T) @ np.append(p, 1.0))[:3],
+    near=1e-4,
+)
+
+
+@row.inputs
+def _(rng):
+    yield from ((T, draw.numbers(rng, -1, 1, 3)) for T in draw.poses(rng, 6))
+
+
+@row.wrong
+def not_undone(T_world_hand, p_world):
+    """T is used as it is; it maps the hand to the world, and you want back => T p"""
+    return (T_world_hand @ np.append(p_world, 1.0))[:3]
