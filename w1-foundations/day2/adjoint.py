@@ -164,3 +164,14 @@ def _(T):
 
 
 row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
+
+
+@row.right  # [Ad(T) V] = T [V] T^-1, column by column.
+def _(T):
+    columns = []
+    for V in np.eye(6):
+        A = np.zeros((4, 4))
+        A[:3, :3], A[:3, 3] = skew(V[:3]), V[3:]
+        B = T @ A @ np.linalg.inv(T)
+        columns.append([B[2, 1], B[0, 2], B[1, 0], *B[:3, 3]])
+    return np.array(columns).T

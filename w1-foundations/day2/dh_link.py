@@ -180,3 +180,15 @@ row.of_argument(
     ),
 )
 row.of_answer(of_a_pose("maps the link before to this one"))
+
+
+@row.close("rounded-somewhere")  # Angles through degrees, with a typed pi.
+def _(alpha, a, d, theta):
+    alpha, theta = alpha * 180 / np.pi, theta * 180 / np.pi
+    alpha, theta = alpha * 3.1415926 / 180, theta * 3.1415926 / 180
+    return dh_link(alpha, a, d, theta)
+
+
+@row.right  # Four elementary poses; those along and about one axis may be swapped.
+def _(alpha, a, d, theta):
+    return in_order("XxZz", alpha, a, d, theta)

@@ -265,3 +265,23 @@ for small in (1e-3, 1e-2):  # any bound between two angles that are asked does i
 
 # Of an axis of length 1 "made-unit" changes nothing; "p-cross-w" is the angle's sign.
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
+
+
+@row.right  # By a quaternion and Day 1's library.
+def _(axis, theta):
+    return se3.quat_to_R(np.hstack([np.cos(theta / 2), np.sin(theta / 2) * axis]))
+
+
+@row.right  # cos I + sin [a] + (1 - cos) a a^T.
+def _(axis, theta):
+    c, s = np.cos(theta), np.sin(theta)
+    return c * I + s * skew(axis) + (1 - c) * np.outer(axis, axis)
+
+
+@row.close("rounded-somewhere")  # The series to the sixteenth term.
+def _(axis, theta):
+    out, term = np.eye(3), np.eye(3)
+    for k in range(1, 17):
+        term = term @ skew(axis) * theta / k
+        out = out + term
+    return out

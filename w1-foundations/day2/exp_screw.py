@@ -355,3 +355,42 @@ row.of_argument(
 row.reached_by("skew", "in [omega], ", but=["made-unit"])
 row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
+
+
+@row.right  # Two moves and a turn about a line through the origin.
+def _(S, theta):
+    omega, v = S[:3], S[3:]
+    if not np.any(omega):
+        return moved(S, theta, theta * v)
+    there, back = np.eye(4), np.eye(4)
+    there[:3, 3], back[:3, 3] = np.cross(omega, v), -np.cross(omega, v)
+    return there @ moved(S, theta, omega @ v * theta * omega) @ back
+
+
+@row.right  # The series itself, by squaring.
+def _(S, theta):
+    A = np.zeros((4, 4))
+    A[:3, :3], A[:3, 3] = skew(S[:3]), S[3:]
+    out, term = np.eye(4), np.eye(4)
+    for k in range(1, 30):
+        term = term @ A * theta / (64 * k)
+        out = out + term
+    return np.linalg.matrix_power(out, 64)
+
+
+@row.close("float32")  # float32 throughout.
+def _(S, theta):
+    S, theta = S.astype(np.float32), np.float32(theta)
+    K = skew(S[:3]).astype(np.float32)
+    c, s, one = np.cos(theta), np.sin(theta), np.eye(3, dtype=np.float32)
+    T = np.eye(4, dtype=np.float32)
+    T[:3, :3] = one + s * K + (1 - c) * K @ K
+    T[:3, 3] = (theta * one + (1 - c) * K + (theta - s) * K @ K) @ S[3:]
+    return T
+
+
+@row.close("rounded-somewhere")  # The velocity summed up in small steps.
+def _(S, theta):
+    n = 2000
+    steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
+    return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)

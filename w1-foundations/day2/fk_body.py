@@ -129,3 +129,18 @@ for one in IN_M:
 
 
 row.reached_by("exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN)
+
+
+@row.right  # M e^B = e^(M B M^-1) M: the world's form of each factor.
+def _(body_screws, M, q):
+    T = np.eye(4)
+    for B, theta in zip(body_screws, q, strict=True):
+        T = T @ M @ motion(B, theta) @ np.linalg.inv(M)
+    return T @ M
+
+
+@row.right  # By recursion.
+def _recursive(body_screws, M, q):
+    if len(q) == 0:
+        return M.copy()
+    return _recursive(body_screws[:-1], M, q[:-1]) @ motion(body_screws[-1], q[-1])

@@ -149,3 +149,19 @@ for one in IN_M:
 
 
 row.reached_by("exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN)
+
+
+@row.right  # From the hand inwards: each joint carries what is outside it.
+def _(screws, M, q):
+    T = M
+    for S, theta in zip(screws[::-1], q[::-1], strict=True):
+        T = motion(S, theta) @ T
+    return T
+
+
+@row.right  # Every screw carried to where it is now, from the tip of the product.
+def _(screws, M, q):
+    T = np.eye(4)
+    for S, theta in zip(screws, q, strict=True):
+        T = motion(adjoint(T) @ S, theta) @ T
+    return T @ M

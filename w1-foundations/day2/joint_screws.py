@@ -159,3 +159,9 @@ def _(T_zero):
 
 
 row.reached_by("screw_axis", "in every screw, ")
+
+
+@row.right  # All joints at once.
+def _(T_zero):
+    z, p = T_zero[:, :3, 2], T_zero[:, :3, 3]
+    return np.hstack([z, np.cross(p, z)])

@@ -116,3 +116,8 @@ def _(axis, point):
 )
 def _(axis, point):
     return np.append(-axis, np.cross(point, axis))
+
+
+@row.close("rounded")  # Rounded for reading.
+def _(axis, point):
+    return np.round(np.hstack([axis, -np.cross(axis, point)]), 6)

@@ -123,3 +123,8 @@ def _(w):
 )
 def _(w):
     return skew(w / np.linalg.norm(w))
+
+
+@row.right  # Column by column.
+def _(w):
+    return np.array([np.cross(w, e) for e in np.eye(3)]).T
