@@ -199,8 +199,8 @@ def _(S, theta):
 
 @row.wrong(
     "pitch-forgotten",
-    "right for plain hinges and slides; a screw that turns and moves along its axis"
-    " loses the part along it",
+    "right for plain hinges and slides; a screw that turns and moves along its "
+    "axis loses the part along it",
     "the right one without that part",
 )
 def _(S, theta):
@@ -264,8 +264,8 @@ def _(S, theta):
 
 @row.wrong(
     "sign-of-the-point",
-    "R is right, but the point on the axis has the wrong sign: it is omega x v, and"
-    " (I - R) stands before it",
+    "R is right, but the point on the axis has the wrong sign: it is omega x v, "
+    "and (I - R) stands before it",
     "the right one with that sign",
 )
 def _(S, theta):
@@ -297,7 +297,7 @@ def _(S, theta):
     return motion(S, (theta + np.pi) % (2 * np.pi) - np.pi)
 
 
-for small in (1e-3, 1e-2):
+for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
 
     @row.wrong(
         "small-angle-ignored",
@@ -351,8 +351,7 @@ row.of_argument(
         redone="the motion by 180 / pi times the angle",
     ),
 )
-# Of an axis of length 1 this changes nothing.
-row.reached_by("skew", "in [omega], ", but=["made-unit"])
+row.reached_by("skew", "in [omega], ", but=["made-unit"])  # its length is 1
 row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 
