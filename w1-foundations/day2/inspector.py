@@ -16,7 +16,7 @@ from labkit.inspector.tab import Tab
 from robo47 import kinematics, panda, screws, se3
 from robo47.checks import Array
 
-from .questions import FRANKA
+from .arms import FRANKA
 from .roulette import READINGS, distances
 
 JOINTS = 7

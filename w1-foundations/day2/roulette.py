@@ -6,7 +6,7 @@ import numpy as np
 
 from robo47.checks import Array
 
-from .mistakes.links import link
+from .dh_link import in_order
 
 OTHER = "zZXx"  # the other convention's order: turn and move along z, then along x
 
@@ -15,8 +15,7 @@ def _arm(table: Array, q: Array, order: str = "xXzZ") -> Array:
     """Return the frames from the world to the last row's, (rows + 1, 4, 4)."""
     poses = [np.eye(4)]
     for (alpha, a, d), theta in zip(table, [*q, 0.0], strict=False):
-        step = link(*(np.asarray(x) for x in (alpha, a, d, theta)), order)
-        poses.append(poses[-1] @ step)
+        poses.append(poses[-1] @ in_order(order, alpha, a, d, theta))
     return np.array(poses)
 
 

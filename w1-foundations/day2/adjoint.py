@@ -1,0 +1,177 @@
+"""2.7 `adjoint(T)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, draw
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.screws import adjoint, skew
+
+row = Row(Matrix((6, 6)))
+
+O, I = np.zeros((3, 3)), np.eye(3)  # noqa: E741
+
+
+@row.inputs
+def _(rng):
+    yield (se3.make_T(np.eye(3), [1.0, 0.0, 0.0]),)
+    yield from ((T,) for T in draw.poses(rng, 8))
+
+
+def parts(T):
+    """Return R and [p]."""
+    return T[:3, :3], skew(T[:3, 3])
+
+
+@row.wrong(
+    "of-the-inverse",
+    "this is the adjoint of the inverse pose: it takes twists the other way",
+    "Ad of the inverse",
+)
+def _(T):
+    return adjoint(se3.inverse(T))
+
+
+@row.wrong(
+    "block-top-right",
+    "[p] R stands top right; that is for twists (v; omega), and for wrenches. Here v "
+    "is the lower half, and it is v that the distance changes",
+    "the right one with that block moved",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, P @ R], [O, R]])
+
+
+@row.wrong(
+    "factors-swapped",
+    "the lower left block is R [p]; the lever arm is told in the outer frame, so it "
+    "acts after R",
+    "the right one with R [p]",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [R @ P, R]])
+
+
+@row.wrong(
+    "no-lever-arm",
+    "the lower left block is 0: v is only turned, but a spin moves a far origin",
+    "the right one without that block",
+)
+def _(T):
+    R, _ = parts(T)
+    return np.block([[R, O], [O, R]])
+
+
+@row.wrong(
+    "lever-arm-not-turned",
+    "the lower left block is [p] alone; omega has to be turned before",
+    "the right one with [p]",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [P, R]])
+
+
+@row.wrong(
+    "lever-arm-sign",
+    "the lower left block has the wrong sign",
+    "the right one with -[p] R",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [-P @ R, R]])
+
+
+@row.wrong(
+    "on-both-sides",
+    "[p] R stands in both corners; omega does not depend on where the origin is",
+    "the right one with it top right too",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, P @ R], [P @ R, R]])
+
+
+@row.wrong(
+    "block-by-entries",
+    "the lower left block is [p] * R, entry by entry; it is a product of matrices",
+    "the right one with [p] * R",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [P * R, R]])
+
+
+@row.wrong(
+    "last-block-identity",
+    "the lower right block is the identity; v has to be turned by R too",
+    "the right one with I there",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [P @ R, I]])
+
+
+@row.wrong(
+    "last-block-zero",
+    "the blocks are R, [p] and 0: the lower right one has to be R, and the lower left "
+    "one [p] R",
+    "the right one with those blocks",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [P, O]])
+
+
+@row.wrong(
+    "lever-arm-turned-twice",
+    "the lower left block is R [p] R; p is told in the outer frame already, so [p] R "
+    "is all",
+    "the right one with R [p] R",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R, O], [R @ P @ R, R]])
+
+
+@row.wrong(
+    "point-turned-back",
+    "in [p], p is turned back by R^T; it is told in the outer frame, and [p] R is too",
+    "the right one with [R^T p] R",
+)
+def _(T):
+    R, p = T[:3, :3], T[:3, 3]
+    return np.block([[R, O], [skew(R.T @ p) @ R, R]])
+
+
+@row.wrong(
+    "R-turned-back",
+    "R is transposed in every block: twists come out turned the other way",
+    "the right one with R^T",
+)
+def _(T):
+    R, P = parts(T)
+    return np.block([[R.T, O], [P @ R.T, R.T]])
+
+
+@row.wrong(
+    "transposed", "the matrix is transposed: that one is for wrenches", "its transpose"
+)
+def _(T):
+    return adjoint(T).T
+
+
+row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
+
+
+@row.right  # [Ad(T) V] = T [V] T^-1, column by column.
+def _(T):
+    columns = []
+    for V in np.eye(6):
+        A = np.zeros((4, 4))
+        A[:3, :3], A[:3, 3] = skew(V[:3]), V[3:]
+        B = T @ A @ np.linalg.inv(T)
+        columns.append([B[2, 1], B[0, 2], B[1, 0], *B[:3, 3]])
+    return np.array(columns).T

@@ -1,0 +1,185 @@
+"""2.9 `dh_fk(table, q)`: its questions and its mistakes."""
+
+from itertools import zip_longest
+
+import numpy as np
+
+from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import Row
+from robo47.screws import dh_link
+
+from . import places
+from .arms import FAR, FRANKA
+from .dh_link import in_order
+
+row = Row(
+    Pose(wrong_way="maps the world to the flange"),
+    unnamed=places.unnamed_row,
+    measured=places.measured,
+)
+
+
+@row.inputs
+def _(rng):
+    """Return Franka's table at q = 0 and elsewhere, then other robots' tables."""
+    own = [(FRANKA, q) for q in (draw.ZERO, FAR, *draw.configurations(rng, 5))]
+    others = draw.numbers(rng, -1.5, 1.5, 4, 8, 3)
+    return own + list(zip(others, draw.numbers(rng, -2, 2, 4, 7), strict=True))
+
+
+def links(table, theta):
+    """Return the links of as many rows as there are angles, (n, 4, 4)."""
+    return [dh_link(*one, x) for one, x in zip(table, theta, strict=False)]
+
+
+def product(Ts):
+    """Return the poses multiplied from left to right."""
+    T = np.eye(4)
+    for step in Ts:
+        T = T @ step
+    return T
+
+
+@row.wrong(
+    "flange-missing",
+    "the eighth row is missing: your pose is that of link7, not the flange's",
+    "the product of seven rows",
+)
+def _(table, q):
+    return product(links(table, q))
+
+
+@row.wrong(
+    "flange-turned",
+    "the eighth row is turned by the last joint's angle again; the flange does not "
+    "turn",
+    "the product with q[6] twice",
+)
+def _(table, q):
+    return product(links(table, [*q, q[-1]]))
+
+
+@row.wrong(
+    "flange-typed-in",
+    "the eighth row is typed in as Franka's; with another table it is another one",
+    "the product with Franka's eighth row",
+    hidden="the lab has one table",
+)
+def _(table, q):
+    return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
+
+
+@row.wrong(
+    "theta-one-row-late",
+    "theta is one row late: the first row is joint1's, and gets q[0]",
+    "the product with 0 first",
+)
+def _(table, q):
+    return product(links(table, [0.0, *q]))
+
+
+@row.wrong(
+    "theta-one-row-early",
+    "theta is one row early: the first row is joint1's, and gets q[0]",
+    "the product with q[1] first",
+)
+def _(table, q):
+    return product(links(table, [*q[1:], 0.0, q[0]]))
+
+
+@row.wrong(
+    "product-reversed",
+    "the links stand in the reverse order: the one nearest to the base belongs on the "
+    "left",
+    "the product in reverse",
+)
+def _(table, q):
+    return product(links(table, [*q, 0.0])[::-1])
+
+
+@row.wrong(
+    "multiplied-by-entries",
+    "the links are multiplied entry by entry, not as matrices",
+    "the product by entries",
+)
+def _(table, q):
+    return np.prod(links(table, [*q, 0.0]), axis=0)
+
+
+@row.wrong(
+    "last-link-only",
+    "only the last row counts: what the others do is overwritten",
+    "the eighth link alone",
+)
+def _(table, q):
+    return dh_link(*table[-1], 0.0)
+
+
+row.of_argument(
+    "q",
+    Change(
+        "joints-left-out",
+        "no joint turns: whatever q is, your pose is the one at q = 0",
+        np.zeros_like,
+        "the pose at q = 0",
+    ),
+)
+row.of_argument(
+    "table",
+    Change(
+        "table-not-used",
+        "with Franka's table it is right, with another one it is wrong: the argument "
+        "table is not used",
+        lambda table: FRANKA,
+        "the product of Franka's own rows",
+        hidden="the lab has one table",
+    ),
+    *(
+        Change(
+            "alpha-of-the-neighbour",
+            "each row's alpha is its neighbour's: tables for the other convention have "
+            "alpha one row earlier, this one does not",
+            lambda table, by=by: np.column_stack(
+                [np.roll(table[:, 0], by), table[:, 1:]]
+            ),
+            "the product with that column shifted",
+        )
+        for by in (1, -1)
+    ),
+    *(
+        Change(
+            "columns-mixed-up",
+            f"the columns are read as ({names}); they are (alpha, a, d)",
+            lambda table, order=order: table[:, order],
+            "the product with the columns read so",
+        )
+        for names, order in (
+            ("a, alpha, d", [1, 0, 2]),
+            ("d, a, alpha", [2, 1, 0]),
+            ("alpha, d, a", [0, 2, 1]),
+            ("a, d, alpha", [2, 0, 1]),
+            ("d, alpha, a", [1, 2, 0]),
+        )
+    ),
+)
+row.reached_by("dh_link", "in every row, ", but=["a-and-d-swapped", "theta-forgotten"])
+
+
+@row.right  # theta by zip_longest.
+def _(table, q):
+    T = np.eye(4)
+    for one, theta in zip_longest(table, q, fillvalue=0.0):
+        T = T @ dh_link(*one, theta)
+    return T
+
+
+@row.right  # The other convention, with its own rows: alpha and a one row earlier.
+def _(table, q):
+    T = dh_link(table[0, 0], table[0, 1], 0.0, 0.0)
+    rows = zip(
+        [*table[1:, 0], 0.0], [*table[1:, 1], 0.0], table[:, 2], [*q, 0.0], strict=True
+    )
+    for alpha, a, d, theta in rows:
+        T = T @ in_order("zZXx", alpha, a, d, theta)
+    return T

@@ -1,0 +1,194 @@
+"""2.9 `dh_link(alpha, a, d, theta)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.finished import of_a_pose
+from labkit.judge.row import Row
+from robo47 import se3
+from robo47.screws import dh_link
+
+from .arms import FRANKA
+
+row = Row(Pose())
+
+
+@row.inputs
+def _(rng):
+    yield np.pi / 2, 0.0, 0.316, 0.0
+    yield (*map(float, FRANKA[3]), 0.4)
+    yield (*map(float, FRANKA[4]), -1.3)
+    yield from (tuple(map(float, one)) for one in draw.numbers(rng, -1.5, 1.5, 7, 4))
+
+
+def in_order(order, alpha, a, d, theta):
+    """Return the four moves in an order: x, z turn; X, Z move along.
+
+    Craig's order is "xXzZ", the other convention's "zZXx".
+    """
+    I, still = np.eye(3), np.zeros(3)  # noqa: E741
+    moves = {
+        "x": se3.make_T(se3.Rx(alpha), still),
+        "X": se3.make_T(I, [a, 0.0, 0.0]),
+        "z": se3.make_T(se3.Rz(theta), still),
+        "Z": se3.make_T(I, [0.0, 0.0, d]),
+    }
+    T = np.eye(4)
+    for move in order:
+        T = T @ moves[move]
+    return T
+
+
+@row.wrong(
+    "standard-formula",
+    "this is the other convention, Rz Tz Tx Rx; Craig's turns about x first, and "
+    "Franka's table is written for his",
+    "the other convention's matrix",
+)
+def _(alpha, a, d, theta):
+    return in_order("zZXx", alpha, a, d, theta)
+
+
+@row.wrong(
+    "a-after-theta",
+    "the rotation is right, but a is moved along the x axis after the turn about z; it "
+    "comes before it",
+    "the right one with that order",
+)
+def _(alpha, a, d, theta):
+    return in_order("xzXZ", alpha, a, d, theta)
+
+
+@row.wrong(
+    "d-along-the-old-z",
+    "the rotation is right, but d is moved along the z axis before the turn about x",
+    "the right one with that order",
+)
+def _(alpha, a, d, theta):
+    return in_order("ZxXz", alpha, a, d, theta)
+
+
+for order in ("zxXZ", "XzxZ", "XzZx"):
+
+    @row.wrong(
+        "order-of-moves",
+        "the turn about z stands before the turn about x; the link's twist comes first",
+        "the product in that order",
+    )
+    def _(alpha, a, d, theta, order=order):
+        return in_order(order, alpha, a, d, theta)
+
+
+@row.wrong(
+    "order-of-moves",
+    "the four moves are right, but not their order",
+    "the product in that order",
+)
+def _(alpha, a, d, theta):
+    return in_order("ZxzX", alpha, a, d, theta)
+
+
+@row.wrong(
+    "a-and-d-swapped",
+    "the two lengths a and d have changed places: a is along x, d along z",
+    "the right one with the two swapped",
+)
+def _(alpha, a, d, theta):
+    return dh_link(alpha, d, a, theta)
+
+
+@row.wrong(
+    "alpha-and-theta-swapped",
+    "alpha and theta have changed places: alpha turns about x, theta about z",
+    "the right one with the two swapped",
+)
+def _(alpha, a, d, theta):
+    return dh_link(theta, a, d, alpha)
+
+
+@row.wrong(
+    "both-turns-backwards",
+    "both turns go the wrong way",
+    "the right one with -alpha and -theta",
+)
+def _(alpha, a, d, theta):
+    return dh_link(-alpha, a, d, -theta)
+
+
+@row.wrong(
+    "radians-taken-for-degrees",
+    "the angles are in radians already, and are converted from degrees once more",
+    "the right one with smaller angles",
+)
+def _(alpha, a, d, theta):
+    return dh_link(np.deg2rad(alpha), a, d, np.deg2rad(theta))
+
+
+row.of_argument(
+    "alpha",
+    Change(
+        "alpha-sign",
+        "alpha turns the wrong way",
+        np.negative,
+        "the right one with -alpha",
+    ),
+    Change(
+        "alpha-forgotten",
+        "alpha has no effect",
+        np.zeros_like,
+        "the right one with alpha = 0",
+    ),
+    Change(
+        "radians-taken-for-degrees",
+        "alpha is in radians already, and is converted from degrees once more",
+        np.deg2rad,
+        "the right one with a smaller alpha",
+    ),
+)
+row.of_argument(
+    "theta",
+    Change(
+        "theta-sign",
+        "theta turns the wrong way",
+        np.negative,
+        "the right one with -theta",
+    ),
+    Change(
+        "theta-forgotten",
+        "theta has no effect",
+        np.zeros_like,
+        "the right one with theta = 0",
+    ),
+)
+row.of_argument(
+    "a",
+    Change(
+        "a-sign",
+        "the length a is taken the wrong way along x",
+        np.negative,
+        "the right one with -a",
+    ),
+)
+row.of_argument(
+    "d",
+    Change(
+        "d-sign",
+        "the length d is taken the wrong way along z",
+        np.negative,
+        "the right one with -d",
+    ),
+)
+row.of_answer(of_a_pose("maps the link before to this one"))
+
+
+@row.close("rounded-somewhere")  # Angles through degrees, with a typed pi.
+def _(alpha, a, d, theta):
+    alpha, theta = alpha * 180 / np.pi, theta * 180 / np.pi
+    alpha, theta = alpha * 3.1415926 / 180, theta * 3.1415926 / 180
+    return dh_link(alpha, a, d, theta)
+
+
+@row.right  # Four elementary poses; those along and about one axis may be swapped.
+def _(alpha, a, d, theta):
+    return in_order("XxZz", alpha, a, d, theta)

@@ -1,0 +1,395 @@
+"""2.4 `exp_screw(S, theta)`: its questions and its mistakes."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import DEGREES, NEGATED, RADIANS_TWICE
+from labkit.judge.finished import of_a_pose
+from labkit.judge.row import Row
+from robo47.screws import skew
+
+from .exp_rotation import rodrigues
+
+row = Row(Pose())
+
+I = np.eye(3)  # noqa: E741
+MOTIONS = (
+    ((0, 0, 1, 0, -1, 0), np.pi / 2),
+    ((0, 0, 1, 0, 0, 0), 1.1),
+    ((0, 1, 0, -0.333, 0, 0), -0.8),
+    ((1, 0, 0, 0, 0, 0.2), 2.3),
+    ((0, 0, 0, 0.6, 0, 0.8), 4.0),
+    ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 4.0),
+    ((0, 0.6, -0.8, 0.1, 0.5, 0.4), 1e-4),
+    ((0.6, 0, 0.8, -0.2, 0.4, 0.7), -5e-3),
+)
+# What does not show in an arm of plain hinges, or is a mistake in its angles there.
+NOT_OF_AN_ARM = (
+    "pitch-forgotten",
+    "pitch-without-theta",
+    "slide-forgotten",
+    "slide-without-theta",
+    "sign-of-the-point",
+    "hinge-at-the-origin-forgotten",
+    "theta-wrapped",
+    "small-angle-ignored",
+)
+
+
+@row.inputs
+def _(rng):
+    """Return hinges, slides, and screws that turn and move along, with angles.
+
+    Hinges through the origin and about x, y and z; angles beyond pi, and small ones.
+    """
+    drawn = np.hstack([draw.units(rng, 8), draw.numbers(rng, -1, 1, 8, 3)])
+    drawn[[0, 3], :3] = 0.0
+    angles = draw.numbers(rng, -3, 3, 8)
+    yield from ((np.array(S, dtype=float), theta) for S, theta in MOTIONS)
+    yield from ((S, float(theta)) for S, theta in zip(drawn, angles, strict=True))
+
+
+def motion(S, theta):
+    """Return the right pose, whatever S is: the lab tries (v; omega) on purpose."""
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+
+
+def moved(S, theta, t):
+    """Return the pose of the right rotation, whatever S is, and another translation."""
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = rodrigues(S[:3], theta), t
+    return T
+
+
+def terms(S, theta):
+    """Return K, the cosine and the sine."""
+    return skew(S[:3]), np.cos(theta), np.sin(theta)
+
+
+@row.wrong(
+    "twist-order",
+    "the halves are read as (v; omega); omega comes first",
+    "the motion with the halves swapped",
+)
+def _(S, theta):
+    return motion(np.roll(S, 3), theta)
+
+
+@row.wrong(
+    "identity-for-theta",
+    "R is right, but the translation starts with I v, not with theta: at theta = 0 "
+    "it moves already",
+    "the right one with I in place of theta I",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "exp-coefficients-swapped",
+    "R is right, but in the translation the two factors have changed places",
+    "the right one with the two swapped",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I + (theta - s) * K + (1 - c) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "as-in-the-rotation",
+    "R is right, but the translation uses R's own factors, sin and 1 - cos; it "
+    "needs their integrals",
+    "the right one with those factors",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I + s * K + (1 - c) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "R-times-v",
+    "R is right, but the translation is R v: a velocity has to be summed up on the way",
+    "the right one with R v",
+)
+def _(S, theta):
+    return moved(S, theta, rodrigues(S[:3], theta) @ S[3:])
+
+
+@row.wrong(
+    "R-times-theta-v",
+    "R is right, but the translation is theta R v: the direction of v turns on the "
+    "way, it is not turned all the way from the start",
+    "the right one with theta R v",
+)
+def _(S, theta):
+    return moved(S, theta, rodrigues(S[:3], theta) @ S[3:] * theta)
+
+
+@row.wrong(
+    "travel-sign-of-K",
+    "R is right, but in the translation the term with K has the wrong sign",
+    "the right one with that sign",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I - (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "travel-sign-of-KK",
+    "R is right, but in the translation the term with K K has the wrong sign",
+    "the right one with that sign",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I + (1 - c) * K - (theta - s) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "travel-without-K",
+    "R is right, but in the translation the term with K is missing",
+    "the right one without it",
+)
+def _(S, theta):
+    K, s = skew(S[:3]), np.sin(theta)
+    return moved(S, theta, (theta * I + (theta - s) * K @ K) @ S[3:])
+
+
+@row.wrong(
+    "travel-without-KK",
+    "R is right, but in the translation the term with K K is missing",
+    "the right one without it",
+)
+def _(S, theta):
+    K, c = skew(S[:3]), np.cos(theta)
+    return moved(S, theta, (theta * I + (1 - c) * K) @ S[3:])
+
+
+@row.wrong(
+    "travel-on-a-line",
+    "R is right, but the translation is theta v, a straight line; a screw's path bends",
+    "the right one with theta v",
+)
+def _(S, theta):
+    return moved(S, theta, theta * S[3:])
+
+
+@row.wrong(
+    "travel-is-v",
+    "R is right, but the translation is v itself, whatever theta is",
+    "the right one with v",
+)
+def _(S, theta):
+    return moved(S, theta, S[3:])
+
+
+@row.wrong(
+    "travel-turned",
+    "R is right, but the translation is turned by R once more",
+    "the right one with R t",
+)
+def _(S, theta):
+    T = motion(S, theta)
+    return moved(S, theta, T[:3, :3] @ T[:3, 3])
+
+
+@row.wrong(
+    "pitch-forgotten",
+    "right for plain hinges and slides; a screw that turns and moves along its "
+    "axis loses the part along it",
+    "the right one without that part",
+)
+def _(S, theta):
+    if not S[:3].any():
+        return motion(S, theta)
+    R = rodrigues(S[:3], theta)
+    return moved(S, theta, (I - R) @ np.cross(S[:3], S[3:]))
+
+
+@row.wrong(
+    "pitch-without-theta",
+    "right for plain hinges and slides; what moves along the axis has to grow with "
+    "theta",
+    "the right one with that part constant",
+)
+def _(S, theta):
+    omega, v = S[:3], S[3:]
+    if not omega.any():
+        return motion(S, theta)
+    R = rodrigues(omega, theta)
+    return moved(S, theta, (I - R) @ np.cross(omega, v) + omega @ v * omega)
+
+
+@row.wrong(
+    "slide-forgotten",
+    "right where it turns; with omega = 0 it does not move at all, but it slides",
+    "the right one with I for slides",
+)
+def _(S, theta):
+    return motion(S, theta) if S[:3].any() else np.eye(4)
+
+
+@row.wrong(
+    "slide-without-theta",
+    "right where it turns; with omega = 0 it slides by v, not by theta v",
+    "the right one with v for slides",
+)
+def _(S, theta):
+    return motion(S, theta) if S[:3].any() else moved(S, theta, S[3:])
+
+
+@row.wrong(
+    "travel-over-theta",
+    "R is right, but in the translation theta is missing: the whole of it is "
+    "divided by theta",
+    "the right one with t / theta",
+)
+def _(S, theta):
+    return moved(S, theta, motion(S, theta)[:3, 3] / (theta or 1.0))
+
+
+@row.wrong(
+    "travel-K-for-KK",
+    "R is right, but in the last term of the translation stands K, not K K",
+    "the right one with K there",
+)
+def _(S, theta):
+    K, c, s = terms(S, theta)
+    return moved(S, theta, (theta * I + (1 - c) * K + (theta - s) * K) @ S[3:])
+
+
+@row.wrong(
+    "sign-of-the-point",
+    "R is right, but the point on the axis has the wrong sign: it is omega x v, "
+    "and (I - R) stands before it",
+    "the right one with that sign",
+)
+def _(S, theta):
+    omega, v = S[:3], S[3:]
+    if not omega.any():
+        return motion(S, theta)
+    R = rodrigues(omega, theta)
+    return moved(S, theta, (R - I) @ np.cross(omega, v) + theta * omega @ v * omega)
+
+
+@row.wrong(
+    "hinge-at-the-origin-forgotten",
+    "right unless v is 0; with v = 0 it does not move at all, but such a screw "
+    "turns about a line through the origin",
+    "the right one with I where v is 0",
+)
+def _(S, theta):
+    return motion(S, theta) if S[3:].any() else np.eye(4)
+
+
+@row.wrong(
+    "theta-wrapped",
+    "right for theta from -pi to pi; theta is brought into that range, but what "
+    "moves along the axis has no such period",
+    "the motion by that angle",
+    hidden="the lab's angles are between -pi and pi",
+)
+def _(S, theta):
+    return motion(S, (theta + np.pi) % (2 * np.pi) - np.pi)
+
+
+for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
+
+    @row.wrong(
+        "small-angle-ignored",
+        "a small theta is taken for 0; the formula is exact for small ones too, and "
+        "needs no case of its own",
+        "the right one with 0 for small theta",
+        hidden="the lab draws hardly any angle so small",
+    )
+    def _(S, theta, small=small):
+        return np.eye(4) if abs(theta) < small else motion(S, theta)
+
+
+@row.wrong(
+    "moment-used-as-point",
+    "v is taken for a point on the axis; it is the velocity of the origin",
+    "the turn about the line through v",
+)
+def _(S, theta):
+    return moved(S, theta, S[3:] - rodrigues(S[:3], theta) @ S[3:])
+
+
+@row.wrong(
+    "exp-by-entries",
+    "np.exp works on each entry; the exponential of a matrix is a series of products",
+    "np.exp of [S] theta",
+)
+def _(S, theta):
+    bracket = np.zeros((4, 4))
+    bracket[:3, :3], bracket[:3, 3] = skew(S[:3]), S[3:]
+    return np.exp(bracket * theta)
+
+
+row.of_argument(
+    "theta",
+    replace(
+        NEGATED,
+        slug="turns-backwards",
+        says="it moves the other way, by -theta",
+        redone="the motion by -theta",
+    ),
+    replace(
+        DEGREES,
+        slug="radians-taken-for-degrees",
+        says="the angle is in radians already, and is converted from degrees once more",
+        redone="the motion by pi / 180 times the angle",
+    ),
+    replace(
+        RADIANS_TWICE,
+        slug="degrees-into-cos",
+        says="the angle comes in radians, and is used as degrees",
+        redone="the motion by 180 / pi times the angle",
+    ),
+)
+row.reached_by("skew", "in [omega], ", but=["made-unit"])  # its length is 1
+row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
+row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
+
+
+@row.right  # Two moves and a turn about a line through the origin.
+def _(S, theta):
+    omega, v = S[:3], S[3:]
+    if not np.any(omega):
+        return moved(S, theta, theta * v)
+    there, back = np.eye(4), np.eye(4)
+    there[:3, 3], back[:3, 3] = np.cross(omega, v), -np.cross(omega, v)
+    return there @ moved(S, theta, omega @ v * theta * omega) @ back
+
+
+@row.right  # The series itself, by squaring.
+def _(S, theta):
+    A = np.zeros((4, 4))
+    A[:3, :3], A[:3, 3] = skew(S[:3]), S[3:]
+    out, term = np.eye(4), np.eye(4)
+    for k in range(1, 30):
+        term = term @ A * theta / (64 * k)
+        out = out + term
+    return np.linalg.matrix_power(out, 64)
+
+
+@row.close("float32")  # float32 throughout.
+def _(S, theta):
+    S, theta = S.astype(np.float32), np.float32(theta)
+    K = skew(S[:3]).astype(np.float32)
+    c, s, one = np.cos(theta), np.sin(theta), np.eye(3, dtype=np.float32)
+    T = np.eye(4, dtype=np.float32)
+    T[:3, :3] = one + s * K + (1 - c) * K @ K
+    T[:3, 3] = (theta * one + (1 - c) * K + (theta - s) * K @ K) @ S[3:]
+    return T
+
+
+@row.close("rounded-somewhere")  # The velocity summed up in small steps.
+def _(S, theta):
+    n = 2000
+    steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
+    return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)

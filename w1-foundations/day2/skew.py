@@ -1,0 +1,130 @@
+"""2.1 `skew(w)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, draw
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import Row
+from robo47.screws import skew
+
+row = Row(Matrix((3, 3)))
+
+FLIPPED = {"x": [-1, 1, 1], "y": [1, -1, 1], "z": [1, 1, -1]}
+SWAPPED = {"x and z": [2, 1, 0], "x and y": [1, 0, 2], "y and z": [0, 2, 1]}
+
+
+@row.inputs
+def _(rng):
+    yield (np.array([0.0, 0.0, 1.0]),)
+    yield from ((w,) for w in draw.numbers(rng, -2, 2, 8, 3))
+
+
+@row.wrong(
+    "p-cross-w",
+    "this does p x w: every sign is the other way round (the matrix is transposed)",
+    "the right one with its signs reversed",
+)
+def _(w):
+    x, y, z = w
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+
+
+@row.wrong(
+    "no-minus",
+    "there is no minus: [w] is its own negative transposed, not its own transpose",
+    "the right one with every sign a plus",
+)
+def _(w):
+    x, y, z = w
+    return np.array([[0.0, z, y], [z, 0.0, x], [y, x, 0.0]])
+
+
+row.of_argument(
+    "w",
+    *(
+        Change(
+            "pair-of-signs",
+            f"the two entries with {letter} have each other's sign",
+            lambda w, signs=signs: w * signs,
+            f"the right one with {letter} negated",
+        )
+        for letter, signs in FLIPPED.items()
+    ),
+    *(
+        Change(
+            "letters-swapped",
+            f"{letters} have changed places",
+            lambda w, order=order: w[order],
+            "the right one with the two swapped",
+        )
+        for letters, order in SWAPPED.items()
+    ),
+    *(
+        Change(
+            "letters-swapped",
+            f"{letters} have changed places, and all signs are reversed",
+            lambda w, order=order: -w[order],
+            "the right one with both",
+        )
+        for letters, order in SWAPPED.items()
+    ),
+)
+
+
+@row.wrong(
+    "half-empty",
+    "only the upper right half is filled; the lower left one is its negative",
+    "the right one without its lower half",
+)
+def _(w):
+    return np.triu(skew(w))
+
+
+@row.wrong(
+    "half-empty",
+    "only the lower left half is filled; the upper right one is its negative",
+    "the right one without its upper half",
+)
+def _(w):
+    return np.tril(skew(w))
+
+
+@row.wrong(
+    "outer-product",
+    "this is w times w transposed, which does a projection, not a cross product",
+    "that product",
+)
+def _(w):
+    return np.outer(w, w)
+
+
+@row.wrong(
+    "on-the-diagonal",
+    "w stands on the diagonal; w x p has no part of w along w",
+    "the diagonal matrix",
+)
+def _(w):
+    return np.diag(w)
+
+
+@row.wrong(
+    "ones-on-diagonal",
+    "the diagonal is 1; it has to be 0, since w x w is 0",
+    "the right one plus the identity",
+)
+def _(w):
+    return skew(w) + np.eye(3)
+
+
+@row.wrong(
+    "made-unit",
+    "w is divided by its length first; the cross product is as long as w says",
+    "the right one of w / |w|",
+)
+def _(w):
+    return skew(w / np.linalg.norm(w))
+
+
+@row.right  # Column by column.
+def _(w):
+    return np.array([np.cross(w, e) for e in np.eye(3)]).T
