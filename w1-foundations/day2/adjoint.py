@@ -23,143 +23,112 @@ def parts(T):
     return T[:3, :3], skew(T[:3, 3])
 
 
-@row.wrong(
-    "of-the-inverse",
-    "this is the adjoint of the inverse pose: it takes twists the other way",
-    "Ad of the inverse",
-)
-def _(T):
+@row.wrong
+def of_the_inverse(T):
+    """this is the adjoint of the inverse pose: it takes twists the other way => Ad of
+    the inverse"""
     return adjoint(se3.inverse(T))
 
 
-@row.wrong(
-    "block-top-right",
-    "[p] R stands top right; that is for twists (v; omega), and for wrenches. Here v "
-    "is the lower half, and it is v that the distance changes",
-    "the right one with that block moved",
-)
-def _(T):
+@row.wrong
+def block_top_right(T):
+    """[p] R stands top right; that is for twists (v; omega), and for wrenches. Here v
+    is the lower half, and it is v that the distance changes => the right one with that
+    block moved"""
     R, P = parts(T)
     return np.block([[R, P @ R], [O, R]])
 
 
-@row.wrong(
-    "factors-swapped",
-    "the lower left block is R [p]; the lever arm is told in the outer frame, so it "
-    "acts after R",
-    "the right one with R [p]",
-)
-def _(T):
+@row.wrong
+def factors_swapped(T):
+    """the lower left block is R [p]; the lever arm is told in the outer frame, so it
+    acts after R => the right one with R [p]"""
     R, P = parts(T)
     return np.block([[R, O], [R @ P, R]])
 
 
-@row.wrong(
-    "no-lever-arm",
-    "the lower left block is 0: v is only turned, but a spin moves a far origin",
-    "the right one without that block",
-)
-def _(T):
+@row.wrong
+def no_lever_arm(T):
+    """the lower left block is 0: v is only turned, but a spin moves a far origin => the
+    right one without that block"""
     R, _ = parts(T)
     return np.block([[R, O], [O, R]])
 
 
-@row.wrong(
-    "lever-arm-not-turned",
-    "the lower left block is [p] alone; omega has to be turned before",
-    "the right one with [p]",
-)
-def _(T):
+@row.wrong
+def lever_arm_not_turned(T):
+    """the lower left block is [p] alone; omega has to be turned before => the right one
+    with [p]"""
     R, P = parts(T)
     return np.block([[R, O], [P, R]])
 
 
-@row.wrong(
-    "lever-arm-sign",
-    "the lower left block has the wrong sign",
-    "the right one with -[p] R",
-)
-def _(T):
+@row.wrong
+def lever_arm_sign(T):
+    """the lower left block has the wrong sign => the right one with -[p] R"""
     R, P = parts(T)
     return np.block([[R, O], [-P @ R, R]])
 
 
-@row.wrong(
-    "on-both-sides",
-    "[p] R stands in both corners; omega does not depend on where the origin is",
-    "the right one with it top right too",
-)
-def _(T):
+@row.wrong
+def on_both_sides(T):
+    """[p] R stands in both corners; omega does not depend on where the origin is => the
+    right one with it top right too"""
     R, P = parts(T)
     return np.block([[R, P @ R], [P @ R, R]])
 
 
-@row.wrong(
-    "block-by-entries",
-    "the lower left block is [p] * R, entry by entry; it is a product of matrices",
-    "the right one with [p] * R",
-)
-def _(T):
+@row.wrong
+def block_by_entries(T):
+    """the lower left block is [p] * R, entry by entry; it is a product of matrices =>
+    the right one with [p] * R"""
     R, P = parts(T)
     return np.block([[R, O], [P * R, R]])
 
 
-@row.wrong(
-    "last-block-identity",
-    "the lower right block is the identity; v has to be turned by R too",
-    "the right one with I there",
-)
-def _(T):
+@row.wrong
+def last_block_identity(T):
+    """the lower right block is the identity; v has to be turned by R too => the right
+    one with I there"""
     R, P = parts(T)
     return np.block([[R, O], [P @ R, I]])
 
 
-@row.wrong(
-    "last-block-zero",
-    "the blocks are R, [p] and 0: the lower right one has to be R, and the lower left "
-    "one [p] R",
-    "the right one with those blocks",
-)
-def _(T):
+@row.wrong
+def last_block_zero(T):
+    """the blocks are R, [p] and 0: the lower right one has to be R, and the lower left
+    one [p] R => the right one with those blocks"""
     R, P = parts(T)
     return np.block([[R, O], [P, O]])
 
 
-@row.wrong(
-    "lever-arm-turned-twice",
-    "the lower left block is R [p] R; p is told in the outer frame already, so [p] R "
-    "is all",
-    "the right one with R [p] R",
-)
-def _(T):
+@row.wrong
+def lever_arm_turned_twice(T):
+    """the lower left block is R [p] R; p is told in the outer frame already, so [p] R
+    is all => the right one with R [p] R"""
     R, P = parts(T)
     return np.block([[R, O], [R @ P @ R, R]])
 
 
-@row.wrong(
-    "point-turned-back",
-    "in [p], p is turned back by R^T; it is told in the outer frame, and [p] R is too",
-    "the right one with [R^T p] R",
-)
-def _(T):
+@row.wrong
+def point_turned_back(T):
+    """in [p], p is turned back by R^T; it is told in the outer frame, and [p] R is too
+    => the right one with [R^T p] R"""
     R, p = T[:3, :3], T[:3, 3]
     return np.block([[R, O], [skew(R.T @ p) @ R, R]])
 
 
-@row.wrong(
-    "R-turned-back",
-    "R is transposed in every block: twists come out turned the other way",
-    "the right one with R^T",
-)
-def _(T):
+@row.wrong
+def R_turned_back(T):
+    """R is transposed in every block: twists come out turned the other way => the right
+    one with R^T"""
     R, P = parts(T)
     return np.block([[R.T, O], [P @ R.T, R.T]])
 
 
-@row.wrong(
-    "transposed", "the matrix is transposed: that one is for wrenches", "its transpose"
-)
-def _(T):
+@row.wrong
+def transposed(T):
+    """the matrix is transposed: that one is for wrenches => its transpose"""
     return adjoint(T).T
 
 

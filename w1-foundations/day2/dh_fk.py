@@ -41,78 +41,59 @@ def product(Ts):
     return T
 
 
-@row.wrong(
-    "flange-missing",
-    "the eighth row is missing: your pose is that of link7, not the flange's",
-    "the product of seven rows",
-)
-def _(table, q):
+@row.wrong
+def flange_missing(table, q):
+    """the eighth row is missing: your pose is that of link7, not the flange's => the
+    product of seven rows"""
     return product(links(table, q))
 
 
-@row.wrong(
-    "flange-turned",
-    "the eighth row is turned by the last joint's angle again; the flange does not "
-    "turn",
-    "the product with q[6] twice",
-)
-def _(table, q):
+@row.wrong
+def flange_turned(table, q):
+    """the eighth row is turned by the last joint's angle again; the flange does not
+    turn => the product with q[6] twice"""
     return product(links(table, [*q, q[-1]]))
 
 
-@row.wrong(
-    "flange-typed-in",
-    "the eighth row is typed in as Franka's; with another table it is another one",
-    "the product with Franka's eighth row",
-    hidden="the lab has one table",
-)
-def _(table, q):
+@row.wrong(hidden="the lab has one table")
+def flange_typed_in(table, q):
+    """the eighth row is typed in as Franka's; with another table it is another one =>
+    the product with Franka's eighth row"""
     return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
 
 
-@row.wrong(
-    "theta-one-row-late",
-    "theta is one row late: the first row is joint1's, and gets q[0]",
-    "the product with 0 first",
-)
-def _(table, q):
+@row.wrong
+def theta_one_row_late(table, q):
+    """theta is one row late: the first row is joint1's, and gets q[0] => the product
+    with 0 first"""
     return product(links(table, [0.0, *q]))
 
 
-@row.wrong(
-    "theta-one-row-early",
-    "theta is one row early: the first row is joint1's, and gets q[0]",
-    "the product with q[1] first",
-)
-def _(table, q):
+@row.wrong
+def theta_one_row_early(table, q):
+    """theta is one row early: the first row is joint1's, and gets q[0] => the product
+    with q[1] first"""
     return product(links(table, [*q[1:], 0.0, q[0]]))
 
 
-@row.wrong(
-    "product-reversed",
-    "the links stand in the reverse order: the one nearest to the base belongs on the "
-    "left",
-    "the product in reverse",
-)
-def _(table, q):
+@row.wrong
+def product_reversed(table, q):
+    """the links stand in the reverse order: the one nearest to the base belongs on the
+    left => the product in reverse"""
     return product(links(table, [*q, 0.0])[::-1])
 
 
-@row.wrong(
-    "multiplied-by-entries",
-    "the links are multiplied entry by entry, not as matrices",
-    "the product by entries",
-)
-def _(table, q):
+@row.wrong
+def multiplied_by_entries(table, q):
+    """the links are multiplied entry by entry, not as matrices => the product by
+    entries"""
     return np.prod(links(table, [*q, 0.0]), axis=0)
 
 
-@row.wrong(
-    "last-link-only",
-    "only the last row counts: what the others do is overwritten",
-    "the eighth link alone",
-)
-def _(table, q):
+@row.wrong
+def last_link_only(table, q):
+    """only the last row counts: what the others do is overwritten => the eighth link
+    alone"""
     return dh_link(*table[-1], 0.0)
 
 

@@ -40,32 +40,24 @@ def in_order(order, alpha, a, d, theta):
     return T
 
 
-@row.wrong(
-    "standard-formula",
-    "this is the other convention, Rz Tz Tx Rx; Craig's turns about x first, and "
-    "Franka's table is written for his",
-    "the other convention's matrix",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def standard_formula(alpha, a, d, theta):
+    """this is the other convention, Rz Tz Tx Rx; Craig's turns about x first, and
+    Franka's table is written for his => the other convention's matrix"""
     return in_order("zZXx", alpha, a, d, theta)
 
 
-@row.wrong(
-    "a-after-theta",
-    "the rotation is right, but a is moved along the x axis after the turn about z; it "
-    "comes before it",
-    "the right one with that order",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def a_after_theta(alpha, a, d, theta):
+    """the rotation is right, but a is moved along the x axis after the turn about z; it
+    comes before it => the right one with that order"""
     return in_order("xzXZ", alpha, a, d, theta)
 
 
-@row.wrong(
-    "d-along-the-old-z",
-    "the rotation is right, but d is moved along the z axis before the turn about x",
-    "the right one with that order",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def d_along_the_old_z(alpha, a, d, theta):
+    """the rotation is right, but d is moved along the z axis before the turn about x =>
+    the right one with that order"""
     return in_order("ZxXz", alpha, a, d, theta)
 
 
@@ -80,48 +72,36 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
         return in_order(order, alpha, a, d, theta)
 
 
-@row.wrong(
-    "order-of-moves",
-    "the four moves are right, but not their order",
-    "the product in that order",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def order_of_moves(alpha, a, d, theta):
+    """the four moves are right, but not their order => the product in that order"""
     return in_order("ZxzX", alpha, a, d, theta)
 
 
-@row.wrong(
-    "a-and-d-swapped",
-    "the two lengths a and d have changed places: a is along x, d along z",
-    "the right one with the two swapped",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def a_and_d_swapped(alpha, a, d, theta):
+    """the two lengths a and d have changed places: a is along x, d along z => the right
+    one with the two swapped"""
     return dh_link(alpha, d, a, theta)
 
 
-@row.wrong(
-    "alpha-and-theta-swapped",
-    "alpha and theta have changed places: alpha turns about x, theta about z",
-    "the right one with the two swapped",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def alpha_and_theta_swapped(alpha, a, d, theta):
+    """alpha and theta have changed places: alpha turns about x, theta about z => the
+    right one with the two swapped"""
     return dh_link(theta, a, d, alpha)
 
 
-@row.wrong(
-    "both-turns-backwards",
-    "both turns go the wrong way",
-    "the right one with -alpha and -theta",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def both_turns_backwards(alpha, a, d, theta):
+    """both turns go the wrong way => the right one with -alpha and -theta"""
     return dh_link(-alpha, a, d, -theta)
 
 
-@row.wrong(
-    "radians-taken-for-degrees",
-    "the angles are in radians already, and are converted from degrees once more",
-    "the right one with smaller angles",
-)
-def _(alpha, a, d, theta):
+@row.wrong
+def radians_taken_for_degrees(alpha, a, d, theta):
+    """the angles are in radians already, and are converted from degrees once more =>
+    the right one with smaller angles"""
     return dh_link(np.deg2rad(alpha), a, d, np.deg2rad(theta))
 
 

@@ -32,221 +32,176 @@ def rodrigues(axis, theta):
     return I + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "turns-backwards",
-    "it turns the other way: the sine's term has the wrong sign",
-    "the rotation by -theta",
-)
-def _(axis, theta):
+@row.wrong
+def turns_backwards(axis, theta):
+    """it turns the other way: the sine's term has the wrong sign => the rotation by
+    -theta"""
     K = skew(axis)
     return I - np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "minus-square",
-    "the last term is subtracted: lengths grow (det R is far from 1)",
-    "the formula with that minus",
-)
-def _(axis, theta):
+@row.wrong
+def minus_square(axis, theta):
+    """the last term is subtracted: lengths grow (det R is far from 1) => the formula
+    with that minus"""
     K = skew(axis)
     return I + np.sin(theta) * K - (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "square-missing",
-    "the term with K K is missing: I + sin K holds for tiny angles only",
-    "the formula without it",
-)
-def _(axis, theta):
+@row.wrong
+def square_missing(axis, theta):
+    """the term with K K is missing: I + sin K holds for tiny angles only => the formula
+    without it"""
     return I + np.sin(theta) * skew(axis)
 
 
-@row.wrong(
-    "sine-term-missing",
-    "the term with K itself is missing, so turning by theta and -theta is the same",
-    "the formula without it",
-)
-def _(axis, theta):
+@row.wrong
+def sine_term_missing(axis, theta):
+    """the term with K itself is missing, so turning by theta and -theta is the same =>
+    the formula without it"""
     K = skew(axis)
     return I + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "identity-missing",
-    "the identity is missing: at theta = 0 a rotation leaves everything as it is",
-    "the formula without it",
-)
-def _(axis, theta):
+@row.wrong
+def identity_missing(axis, theta):
+    """the identity is missing: at theta = 0 a rotation leaves everything as it is =>
+    the formula without it"""
     K = skew(axis)
     return np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "cosine-for-one-minus-cosine",
-    "before K K stands the cosine; at theta = 0 that factor has to vanish",
-    "the formula with cos",
-)
-def _(axis, theta):
+@row.wrong
+def cosine_for_one_minus_cosine(axis, theta):
+    """before K K stands the cosine; at theta = 0 that factor has to vanish => the
+    formula with cos"""
     K = skew(axis)
     return I + np.sin(theta) * K + np.cos(theta) * K @ K
 
 
-@row.wrong(
-    "one-minus-sine",
-    "before K K stands 1 minus the sine; at theta = 0 that factor has to vanish",
-    "the formula with 1 - sin",
-)
-def _(axis, theta):
+@row.wrong
+def one_minus_sine(axis, theta):
+    """before K K stands 1 minus the sine; at theta = 0 that factor has to vanish => the
+    formula with 1 - sin"""
     K = skew(axis)
     return I + np.sin(theta) * K + (1 - np.sin(theta)) * K @ K
 
 
-@row.wrong(
-    "sin-and-cos-swapped",
-    "sine and cosine have changed places: at theta = 0 it already turns",
-    "the formula with the two swapped",
-)
-def _(axis, theta):
+@row.wrong
+def sin_and_cos_swapped(axis, theta):
+    """sine and cosine have changed places: at theta = 0 it already turns => the formula
+    with the two swapped"""
     K = skew(axis)
     return I + np.cos(theta) * K + (1 - np.sin(theta)) * K @ K
 
 
-@row.wrong(
-    "coefficients-swapped",
-    "the two factors have changed places: the sine belongs to K, 1 - cos to K K",
-    "the formula with the two swapped",
-)
-def _(axis, theta):
+@row.wrong
+def coefficients_swapped(axis, theta):
+    """the two factors have changed places: the sine belongs to K, 1 - cos to K K => the
+    formula with the two swapped"""
     K = skew(axis)
     return I + (1 - np.cos(theta)) * K + np.sin(theta) * K @ K
 
 
-@row.wrong(
-    "squared-by-entries",
-    "K * K squares each entry; K K is a product of matrices",
-    "the formula with K * K",
-)
-def _(axis, theta):
+@row.wrong
+def squared_by_entries(axis, theta):
+    """K * K squares each entry; K K is a product of matrices => the formula with K *
+    K"""
     K = skew(axis)
     return I + np.sin(theta) * K + (1 - np.cos(theta)) * K**2
 
 
-@row.wrong(
-    "exp-by-entries",
-    "np.exp works on each entry; the exponential of a matrix is a series of products",
-    "np.exp of [axis] theta",
-)
-def _(axis, theta):
+@row.wrong
+def exp_by_entries(axis, theta):
+    """np.exp works on each entry; the exponential of a matrix is a series of products
+    => np.exp of [axis] theta"""
     return np.exp(skew(axis) * theta)
 
 
-@row.wrong(
-    "first-order-only",
-    "this is I + theta K, the first two terms of the series: right for tiny angles",
-    "I + theta K",
-)
-def _(axis, theta):
+@row.wrong
+def first_order_only(axis, theta):
+    """this is I + theta K, the first two terms of the series: right for tiny angles =>
+    I + theta K"""
     return I + theta * skew(axis)
 
 
-@row.wrong(
-    "second-order-only",
-    "the series stops after the term with theta squared; it goes on for ever",
-    "the series cut there",
-)
-def _(axis, theta):
+@row.wrong
+def second_order_only(axis, theta):
+    """the series stops after the term with theta squared; it goes on for ever => the
+    series cut there"""
     K = skew(axis)
     return I + theta * K + theta**2 / 2 * K @ K
 
 
-@row.wrong(
-    "bracket-of-a-dyad",
-    "the last term is (1 - cos) times axis axis^T; that goes with cos I, not with I",
-    "the formula with that term",
-)
-def _(axis, theta):
+@row.wrong
+def bracket_of_a_dyad(axis, theta):
+    """the last term is (1 - cos) times axis axis^T; that goes with cos I, not with I =>
+    the formula with that term"""
     dyad = np.outer(axis, axis)
     return I + np.sin(theta) * skew(axis) + (1 - np.cos(theta)) * dyad
 
 
-@row.wrong(
-    "dyad-without-factor",
-    "before axis axis^T the factor 1 - cos is missing: at theta = 0 it turns already",
-    "cos I + sin K + axis axis^T",
-)
-def _(axis, theta):
+@row.wrong
+def dyad_without_factor(axis, theta):
+    """before axis axis^T the factor 1 - cos is missing: at theta = 0 it turns already
+    => cos I + sin K + axis axis^T"""
     dyad = np.outer(axis, axis)
     return np.cos(theta) * I + np.sin(theta) * skew(axis) + dyad
 
 
-@row.wrong(
-    "cosine-before-identity",
-    "before the identity stands the cosine; that goes with axis axis^T, and I itself "
-    "with K K",
-    "the formula with cos I",
-)
-def _(axis, theta):
+@row.wrong
+def cosine_before_identity(axis, theta):
+    """before the identity stands the cosine; that goes with axis axis^T, and I itself
+    with K K => the formula with cos I"""
     K = skew(axis)
     return np.cos(theta) * I + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong(
-    "theta-for-sine",
-    "before K stands theta; it has to be its sine",
-    "the formula with theta K",
-)
-def _(axis, theta):
+@row.wrong
+def theta_for_sine(axis, theta):
+    """before K stands theta; it has to be its sine => the formula with theta K"""
     K = skew(axis)
     return I + theta * K + (1 - np.cos(theta)) * K @ K
 
 
-@row.wrong("always-about-z", "it turns about z, whatever the axis is", "Rz(theta)")
-def _(axis, theta):
+@row.wrong
+def always_about_z(axis, theta):
+    """it turns about z, whatever the axis is => Rz(theta)"""
     return se3.Rz(theta)
 
 
-@row.wrong(
-    "radians-taken-for-degrees",
-    "the angle is in radians already, and is converted from degrees once more",
-    "the rotation by pi / 180 times the angle",
-)
-def _(axis, theta):
+@row.wrong
+def radians_taken_for_degrees(axis, theta):
+    """the angle is in radians already, and is converted from degrees once more => the
+    rotation by pi / 180 times the angle"""
     return rodrigues(axis, np.deg2rad(theta))
 
 
-@row.wrong(
-    "degrees-into-cos",
-    "sine and cosine are given degrees; they expect radians, as the angle comes",
-    "the rotation by 180 / pi times the angle",
-)
-def _(axis, theta):
+@row.wrong
+def degrees_into_cos(axis, theta):
+    """sine and cosine are given degrees; they expect radians, as the angle comes => the
+    rotation by 180 / pi times the angle"""
     return rodrigues(axis, np.rad2deg(theta))
 
 
-@row.wrong(
-    "half-angle",
-    "it turns by half of the angle: that belongs to quaternions",
-    "the rotation by half of it",
-)
-def _(axis, theta):
+@row.wrong
+def half_angle(axis, theta):
+    """it turns by half of the angle: that belongs to quaternions => the rotation by
+    half of it"""
     return rodrigues(axis, theta / 2)
 
 
-@row.wrong(
-    "double-angle",
-    "it turns by twice the angle; in a quaternion stand sine and cosine of half of it",
-    "the rotation by twice the angle",
-)
-def _(axis, theta):
+@row.wrong
+def double_angle(axis, theta):
+    """it turns by twice the angle; in a quaternion stand sine and cosine of half of it
+    => the rotation by twice the angle"""
     return rodrigues(axis, 2 * theta)
 
 
-@row.wrong(
-    "sign-of-theta-lost",
-    "theta and -theta turn the same way: the sign of theta is lost",
-    "the rotation by |theta|",
-)
-def _(axis, theta):
+@row.wrong
+def sign_of_theta_lost(axis, theta):
+    """theta and -theta turn the same way: the sign of theta is lost => the rotation by
+    |theta|"""
     return rodrigues(axis, np.abs(theta))
 
 

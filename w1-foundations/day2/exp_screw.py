@@ -69,154 +69,119 @@ def terms(S, theta):
     return skew(S[:3]), np.cos(theta), np.sin(theta)
 
 
-@row.wrong(
-    "twist-order",
-    "the halves are read as (v; omega); omega comes first",
-    "the motion with the halves swapped",
-)
-def _(S, theta):
+@row.wrong
+def twist_order(S, theta):
+    """the halves are read as (v; omega); omega comes first => the motion with the
+    halves swapped"""
     return motion(np.roll(S, 3), theta)
 
 
-@row.wrong(
-    "identity-for-theta",
-    "R is right, but the translation starts with I v, not with theta: at theta = 0 "
-    "it moves already",
-    "the right one with I in place of theta I",
-)
-def _(S, theta):
+@row.wrong
+def identity_for_theta(S, theta):
+    """R is right, but the translation starts with I v, not with theta: at theta = 0 it
+    moves already => the right one with I in place of theta I"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "exp-coefficients-swapped",
-    "R is right, but in the translation the two factors have changed places",
-    "the right one with the two swapped",
-)
-def _(S, theta):
+@row.wrong
+def exp_coefficients_swapped(S, theta):
+    """R is right, but in the translation the two factors have changed places => the
+    right one with the two swapped"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (theta * I + (theta - s) * K + (1 - c) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "as-in-the-rotation",
-    "R is right, but the translation uses R's own factors, sin and 1 - cos; it "
-    "needs their integrals",
-    "the right one with those factors",
-)
-def _(S, theta):
+@row.wrong
+def as_in_the_rotation(S, theta):
+    """R is right, but the translation uses R's own factors, sin and 1 - cos; it needs
+    their integrals => the right one with those factors"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (theta * I + s * K + (1 - c) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "R-times-v",
-    "R is right, but the translation is R v: a velocity has to be summed up on the way",
-    "the right one with R v",
-)
-def _(S, theta):
+@row.wrong
+def R_times_v(S, theta):
+    """R is right, but the translation is R v: a velocity has to be summed up on the way
+    => the right one with R v"""
     return moved(S, theta, rodrigues(S[:3], theta) @ S[3:])
 
 
-@row.wrong(
-    "R-times-theta-v",
-    "R is right, but the translation is theta R v: the direction of v turns on the "
-    "way, it is not turned all the way from the start",
-    "the right one with theta R v",
-)
-def _(S, theta):
+@row.wrong
+def R_times_theta_v(S, theta):
+    """R is right, but the translation is theta R v: the direction of v turns on the
+    way, it is not turned all the way from the start => the right one with theta R v"""
     return moved(S, theta, rodrigues(S[:3], theta) @ S[3:] * theta)
 
 
-@row.wrong(
-    "travel-sign-of-K",
-    "R is right, but in the translation the term with K has the wrong sign",
-    "the right one with that sign",
-)
-def _(S, theta):
+@row.wrong
+def travel_sign_of_K(S, theta):
+    """R is right, but in the translation the term with K has the wrong sign => the
+    right one with that sign"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (theta * I - (1 - c) * K + (theta - s) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "travel-sign-of-KK",
-    "R is right, but in the translation the term with K K has the wrong sign",
-    "the right one with that sign",
-)
-def _(S, theta):
+@row.wrong
+def travel_sign_of_KK(S, theta):
+    """R is right, but in the translation the term with K K has the wrong sign => the
+    right one with that sign"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (theta * I + (1 - c) * K - (theta - s) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "travel-without-K",
-    "R is right, but in the translation the term with K is missing",
-    "the right one without it",
-)
-def _(S, theta):
+@row.wrong
+def travel_without_K(S, theta):
+    """R is right, but in the translation the term with K is missing => the right one
+    without it"""
     K, s = skew(S[:3]), np.sin(theta)
     return moved(S, theta, (theta * I + (theta - s) * K @ K) @ S[3:])
 
 
-@row.wrong(
-    "travel-without-KK",
-    "R is right, but in the translation the term with K K is missing",
-    "the right one without it",
-)
-def _(S, theta):
+@row.wrong
+def travel_without_KK(S, theta):
+    """R is right, but in the translation the term with K K is missing => the right one
+    without it"""
     K, c = skew(S[:3]), np.cos(theta)
     return moved(S, theta, (theta * I + (1 - c) * K) @ S[3:])
 
 
-@row.wrong(
-    "travel-on-a-line",
-    "R is right, but the translation is theta v, a straight line; a screw's path bends",
-    "the right one with theta v",
-)
-def _(S, theta):
+@row.wrong
+def travel_on_a_line(S, theta):
+    """R is right, but the translation is theta v, a straight line; a screw's path bends
+    => the right one with theta v"""
     return moved(S, theta, theta * S[3:])
 
 
-@row.wrong(
-    "travel-is-v",
-    "R is right, but the translation is v itself, whatever theta is",
-    "the right one with v",
-)
-def _(S, theta):
+@row.wrong
+def travel_is_v(S, theta):
+    """R is right, but the translation is v itself, whatever theta is => the right one
+    with v"""
     return moved(S, theta, S[3:])
 
 
-@row.wrong(
-    "travel-turned",
-    "R is right, but the translation is turned by R once more",
-    "the right one with R t",
-)
-def _(S, theta):
+@row.wrong
+def travel_turned(S, theta):
+    """R is right, but the translation is turned by R once more => the right one with R
+    t"""
     T = motion(S, theta)
     return moved(S, theta, T[:3, :3] @ T[:3, 3])
 
 
-@row.wrong(
-    "pitch-forgotten",
-    "right for plain hinges and slides; a screw that turns and moves along its "
-    "axis loses the part along it",
-    "the right one without that part",
-)
-def _(S, theta):
+@row.wrong
+def pitch_forgotten(S, theta):
+    """right for plain hinges and slides; a screw that turns and moves along its axis
+    loses the part along it => the right one without that part"""
     if not S[:3].any():
         return motion(S, theta)
     R = rodrigues(S[:3], theta)
     return moved(S, theta, (I - R) @ np.cross(S[:3], S[3:]))
 
 
-@row.wrong(
-    "pitch-without-theta",
-    "right for plain hinges and slides; what moves along the axis has to grow with "
-    "theta",
-    "the right one with that part constant",
-)
-def _(S, theta):
+@row.wrong
+def pitch_without_theta(S, theta):
+    """right for plain hinges and slides; what moves along the axis has to grow with
+    theta => the right one with that part constant"""
     omega, v = S[:3], S[3:]
     if not omega.any():
         return motion(S, theta)
@@ -224,51 +189,39 @@ def _(S, theta):
     return moved(S, theta, (I - R) @ np.cross(omega, v) + omega @ v * omega)
 
 
-@row.wrong(
-    "slide-forgotten",
-    "right where it turns; with omega = 0 it does not move at all, but it slides",
-    "the right one with I for slides",
-)
-def _(S, theta):
+@row.wrong
+def slide_forgotten(S, theta):
+    """right where it turns; with omega = 0 it does not move at all, but it slides =>
+    the right one with I for slides"""
     return motion(S, theta) if S[:3].any() else np.eye(4)
 
 
-@row.wrong(
-    "slide-without-theta",
-    "right where it turns; with omega = 0 it slides by v, not by theta v",
-    "the right one with v for slides",
-)
-def _(S, theta):
+@row.wrong
+def slide_without_theta(S, theta):
+    """right where it turns; with omega = 0 it slides by v, not by theta v => the right
+    one with v for slides"""
     return motion(S, theta) if S[:3].any() else moved(S, theta, S[3:])
 
 
-@row.wrong(
-    "travel-over-theta",
-    "R is right, but in the translation theta is missing: the whole of it is "
-    "divided by theta",
-    "the right one with t / theta",
-)
-def _(S, theta):
+@row.wrong
+def travel_over_theta(S, theta):
+    """R is right, but in the translation theta is missing: the whole of it is divided
+    by theta => the right one with t / theta"""
     return moved(S, theta, motion(S, theta)[:3, 3] / (theta or 1.0))
 
 
-@row.wrong(
-    "travel-K-for-KK",
-    "R is right, but in the last term of the translation stands K, not K K",
-    "the right one with K there",
-)
-def _(S, theta):
+@row.wrong
+def travel_K_for_KK(S, theta):
+    """R is right, but in the last term of the translation stands K, not K K => the
+    right one with K there"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (theta * I + (1 - c) * K + (theta - s) * K) @ S[3:])
 
 
-@row.wrong(
-    "sign-of-the-point",
-    "R is right, but the point on the axis has the wrong sign: it is omega x v, "
-    "and (I - R) stands before it",
-    "the right one with that sign",
-)
-def _(S, theta):
+@row.wrong
+def sign_of_the_point(S, theta):
+    """R is right, but the point on the axis has the wrong sign: it is omega x v, and (I
+    - R) stands before it => the right one with that sign"""
     omega, v = S[:3], S[3:]
     if not omega.any():
         return motion(S, theta)
@@ -276,24 +229,17 @@ def _(S, theta):
     return moved(S, theta, (R - I) @ np.cross(omega, v) + theta * omega @ v * omega)
 
 
-@row.wrong(
-    "hinge-at-the-origin-forgotten",
-    "right unless v is 0; with v = 0 it does not move at all, but such a screw "
-    "turns about a line through the origin",
-    "the right one with I where v is 0",
-)
-def _(S, theta):
+@row.wrong
+def hinge_at_the_origin_forgotten(S, theta):
+    """right unless v is 0; with v = 0 it does not move at all, but such a screw turns
+    about a line through the origin => the right one with I where v is 0"""
     return motion(S, theta) if S[3:].any() else np.eye(4)
 
 
-@row.wrong(
-    "theta-wrapped",
-    "right for theta from -pi to pi; theta is brought into that range, but what "
-    "moves along the axis has no such period",
-    "the motion by that angle",
-    hidden="the lab's angles are between -pi and pi",
-)
-def _(S, theta):
+@row.wrong(hidden="the lab's angles are between -pi and pi")
+def theta_wrapped(S, theta):
+    """right for theta from -pi to pi; theta is brought into that range, but what moves
+    along the axis has no such period => the motion by that angle"""
     return motion(S, (theta + np.pi) % (2 * np.pi) - np.pi)
 
 
@@ -310,21 +256,17 @@ for small in (1e-3, 1e-2):  # any bound between two angles that are asked does i
         return np.eye(4) if abs(theta) < small else motion(S, theta)
 
 
-@row.wrong(
-    "moment-used-as-point",
-    "v is taken for a point on the axis; it is the velocity of the origin",
-    "the turn about the line through v",
-)
-def _(S, theta):
+@row.wrong
+def moment_used_as_point(S, theta):
+    """v is taken for a point on the axis; it is the velocity of the origin => the turn
+    about the line through v"""
     return moved(S, theta, S[3:] - rodrigues(S[:3], theta) @ S[3:])
 
 
-@row.wrong(
-    "exp-by-entries",
-    "np.exp works on each entry; the exponential of a matrix is a series of products",
-    "np.exp of [S] theta",
-)
-def _(S, theta):
+@row.wrong
+def exp_by_entries(S, theta):
+    """np.exp works on each entry; the exponential of a matrix is a series of products
+    => np.exp of [S] theta"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3], bracket[:3, 3] = skew(S[:3]), S[3:]
     return np.exp(bracket * theta)

@@ -28,86 +28,67 @@ row = Row(
 row.inputs(seen_by_the_hand)
 
 
-@row.wrong(
-    "M-last",
-    "M stands on the right of the exponentials (or the screws are converted, and they "
-    "are the hand's already); motions told in the hand's frame follow M",
-    "the product with M last",
-)
-def _(body_screws, M, q):
+@row.wrong
+def M_last(body_screws, M, q):
+    """M stands on the right of the exponentials (or the screws are converted, and they
+    are the hand's already); motions told in the hand's frame follow M => the product
+    with M last"""
     return space(body_screws, M, q)
 
 
-@row.wrong(
-    "motions-on-the-left",
-    "each new exponential is put on the left of what is there; these screws are told "
-    "in the hand's frame, so it goes on the right",
-    "the product so put together",
-)
-def _(body_screws, M, q):
+@row.wrong
+def motions_on_the_left(body_screws, M, q):
+    """each new exponential is put on the left of what is there; these screws are told
+    in the hand's frame, so it goes on the right => the product so put together"""
     return space(body_screws[::-1], M, q[::-1])
 
 
-@row.wrong(
-    "product-reversed",
-    "the exponentials stand in the reverse order: the joint nearest to the base "
-    "belongs on the left",
-    "the product in reverse",
-)
-def _(body_screws, M, q):
+@row.wrong
+def product_reversed(body_screws, M, q):
+    """the exponentials stand in the reverse order: the joint nearest to the base
+    belongs on the left => the product in reverse"""
     return body(body_screws[::-1], M, q[::-1])
 
 
-@row.wrong(
-    "M-twice", "M stands on both sides of the exponentials", "the product with M twice"
-)
-def _(body_screws, M, q):
+@row.wrong
+def M_twice(body_screws, M, q):
+    """M stands on both sides of the exponentials => the product with M twice"""
     return M @ space(body_screws, M, q)
 
 
-@row.wrong(
-    "M-in-the-loop",
-    "M is in the loop, beside every exponential: at q = 0 your pose is M seven times, "
-    "not M",
-    "that product",
-)
-def _(body_screws, M, q):
+@row.wrong
+def M_in_the_loop(body_screws, M, q):
+    """M is in the loop, beside every exponential: at q = 0 your pose is M seven times,
+    not M => that product"""
     T = np.eye(4)
     for B, theta in zip(body_screws, q, strict=True):
         T = T @ M @ motion(B, theta)
     return T
 
 
-@row.wrong(
-    "exponentials-summed",
-    "the twists are added up and exponentiated together; e^A e^B is e^(A + B) only "
-    "where the order does not matter",
-    "the exponential of the sum",
-)
-def _(body_screws, M, q):
+@row.wrong
+def exponentials_summed(body_screws, M, q):
+    """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
+    where the order does not matter => the exponential of the sum"""
     V = q @ body_screws
     size = np.linalg.norm(V[:3]) or 1.0
     return M @ motion(V / size, size)
 
 
-@row.wrong(
-    "multiplied-by-entries",
-    "the exponentials are multiplied entry by entry, not as matrices",
-    "the product by entries",
-)
-def _(body_screws, M, q):
+@row.wrong
+def multiplied_by_entries(body_screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries"""
     T = np.ones((4, 4))
     for B, theta in zip(body_screws, q, strict=True):
         T = T * motion(B, theta)
     return M @ T
 
 
-@row.wrong(
-    "multiplied-by-entries",
-    "the exponentials are multiplied entry by entry, not as matrices",
-    "the product by entries, from the identity on",
-)
-def _(body_screws, M, q):
+@row.wrong
+def multiplied_by_entries(body_screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries, from the identity on"""
     T = np.eye(4)
     for B, theta in zip(body_screws, q, strict=True):
         T = T * motion(B, theta)

@@ -23,114 +23,88 @@ row = Row(
 row.inputs(arms)
 
 
-@row.wrong(
-    "M-first",
-    "M stands on the left of the exponentials; the screws are told in the world, so "
-    "their motions act on M from the left",
-    "the product with M first",
-)
-def _(screws, M, q):
+@row.wrong
+def M_first(screws, M, q):
+    """M stands on the left of the exponentials; the screws are told in the world, so
+    their motions act on M from the left => the product with M first"""
     return body(screws, M, q)
 
 
-@row.wrong(
-    "product-reversed",
-    "the exponentials stand in the reverse order: the joint nearest to the base "
-    "belongs on the left",
-    "the product in reverse",
-)
-def _(screws, M, q):
+@row.wrong
+def product_reversed(screws, M, q):
+    """the exponentials stand in the reverse order: the joint nearest to the base
+    belongs on the left => the product in reverse"""
     return space(screws[::-1], M, q[::-1])
 
 
-@row.wrong(
-    "M-twice", "M stands on both sides of the exponentials", "the product with M twice"
-)
-def _(screws, M, q):
+@row.wrong
+def M_twice(screws, M, q):
+    """M stands on both sides of the exponentials => the product with M twice"""
     return M @ space(screws, M, q)
 
 
-@row.wrong(
-    "M-in-the-loop",
-    "M is in the loop, beside every exponential: at q = 0 your pose is M seven times, "
-    "not M",
-    "that product",
-)
-def _(screws, M, q):
+@row.wrong
+def M_in_the_loop(screws, M, q):
+    """M is in the loop, beside every exponential: at q = 0 your pose is M seven times,
+    not M => that product"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(S, theta) @ M
     return T
 
 
-@row.wrong(
-    "exponentials-summed",
-    "the twists are added up and exponentiated together; e^A e^B is e^(A + B) only "
-    "where the order does not matter",
-    "the exponential of the sum",
-)
-def _(screws, M, q):
+@row.wrong
+def exponentials_summed(screws, M, q):
+    """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
+    where the order does not matter => the exponential of the sum"""
     V = q @ screws
     size = np.linalg.norm(V[:3]) or 1.0
     return motion(V / size, size) @ M
 
 
-@row.wrong(
-    "multiplied-by-entries",
-    "the exponentials are multiplied entry by entry, not as matrices",
-    "the product by entries",
-)
-def _(screws, M, q):
+@row.wrong
+def multiplied_by_entries(screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries"""
     T = np.ones((4, 4))
     for S, theta in zip(screws, q, strict=True):
         T = T * motion(S, theta)
     return T @ M
 
 
-@row.wrong(
-    "multiplied-by-entries",
-    "the exponentials are multiplied entry by entry, not as matrices",
-    "the product by entries, from the identity on",
-)
-def _(screws, M, q):
+@row.wrong
+def multiplied_by_entries(screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries, from the identity on"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T * motion(S, theta)
     return T @ M
 
 
-@row.wrong(
-    "M-only-added",
-    "M's translation is added and its rotation is missing; the pose has to be "
-    "multiplied by all of M",
-    "the product with t of M added",
-)
-def _(screws, M, q):
+@row.wrong
+def M_only_added(screws, M, q):
+    """M's translation is added and its rotation is missing; the pose has to be
+    multiplied by all of M => the product with t of M added"""
     T = space(screws, np.eye(4), q)
     T[:3, 3] += M[:3, 3]
     return T
 
 
-@row.wrong(
-    "screws-moved-along",
-    "each screw is carried along by the joints before it; the product does that "
-    "already, so the screws of q = 0 are all it needs",
-    "that product",
-)
-def _(screws, M, q):
+@row.wrong
+def screws_moved_along(screws, M, q):
+    """each screw is carried along by the joints before it; the product does that
+    already, so the screws of q = 0 are all it needs => that product"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)
     return T @ M
 
 
-@row.wrong(
-    "space-screws-in-body-form",
-    "the screws are taken to the hand's frame, but the product is still that of the "
-    "world's",
-    "that product",
-)
-def _(screws, M, q):
+@row.wrong
+def space_screws_in_body_form(screws, M, q):
+    """the screws are taken to the hand's frame, but the product is still that of the
+    world's => that product"""
     return space(screws @ adjoint(se3.inverse(M)).T, M, q)
 
 

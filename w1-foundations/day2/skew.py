@@ -19,22 +19,18 @@ def _(rng):
     yield from ((w,) for w in draw.numbers(rng, -2, 2, 8, 3))
 
 
-@row.wrong(
-    "p-cross-w",
-    "this does p x w: every sign is the other way round (the matrix is transposed)",
-    "the right one with its signs reversed",
-)
-def _(w):
+@row.wrong
+def p_cross_w(w):
+    """this does p x w: every sign is the other way round (the matrix is transposed) =>
+    the right one with its signs reversed"""
     x, y, z = w
     return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
-@row.wrong(
-    "no-minus",
-    "there is no minus: [w] is its own negative transposed, not its own transpose",
-    "the right one with every sign a plus",
-)
-def _(w):
+@row.wrong
+def no_minus(w):
+    """there is no minus: [w] is its own negative transposed, not its own transpose =>
+    the right one with every sign a plus"""
     x, y, z = w
     return np.array([[0.0, z, y], [z, 0.0, x], [y, x, 0.0]])
 
@@ -71,57 +67,45 @@ row.of_argument(
 )
 
 
-@row.wrong(
-    "half-empty",
-    "only the upper right half is filled; the lower left one is its negative",
-    "the right one without its lower half",
-)
-def _(w):
+@row.wrong
+def half_empty(w):
+    """only the upper right half is filled; the lower left one is its negative => the
+    right one without its lower half"""
     return np.triu(skew(w))
 
 
-@row.wrong(
-    "half-empty",
-    "only the lower left half is filled; the upper right one is its negative",
-    "the right one without its upper half",
-)
-def _(w):
+@row.wrong
+def half_empty(w):
+    """only the lower left half is filled; the upper right one is its negative => the
+    right one without its upper half"""
     return np.tril(skew(w))
 
 
-@row.wrong(
-    "outer-product",
-    "this is w times w transposed, which does a projection, not a cross product",
-    "that product",
-)
-def _(w):
+@row.wrong
+def outer_product(w):
+    """this is w times w transposed, which does a projection, not a cross product =>
+    that product"""
     return np.outer(w, w)
 
 
-@row.wrong(
-    "on-the-diagonal",
-    "w stands on the diagonal; w x p has no part of w along w",
-    "the diagonal matrix",
-)
-def _(w):
+@row.wrong
+def on_the_diagonal(w):
+    """w stands on the diagonal; w x p has no part of w along w => the diagonal
+    matrix"""
     return np.diag(w)
 
 
-@row.wrong(
-    "ones-on-diagonal",
-    "the diagonal is 1; it has to be 0, since w x w is 0",
-    "the right one plus the identity",
-)
-def _(w):
+@row.wrong
+def ones_on_diagonal(w):
+    """the diagonal is 1; it has to be 0, since w x w is 0 => the right one plus the
+    identity"""
     return skew(w) + np.eye(3)
 
 
-@row.wrong(
-    "made-unit",
-    "w is divided by its length first; the cross product is as long as w says",
-    "the right one of w / |w|",
-)
-def _(w):
+@row.wrong
+def made_unit(w):
+    """w is divided by its length first; the cross product is as long as w says => the
+    right one of w / |w|"""
     return skew(w / np.linalg.norm(w))
 
 
