@@ -9,7 +9,6 @@ from catalogue import run_as_lab
 from conftest import ROOT, kits_worksheet
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import all_days
 from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.library import library_of
@@ -26,9 +25,7 @@ class TestManifest:
         assert found == {(t.id, name) for t in day.tasks for name in t.functions}
 
     def test_every_function_has_a_row_of_questions(self, day):
-        old = folder.has(day, "questions")
-        rows = folder.load(day, "questions").QUESTIONS if old else rows_of(day)
-        assert set(rows) == {f for task in day.tasks for f in task.functions}
+        assert set(rows_of(day)) == {f for task in day.tasks for f in task.functions}
 
     def test_hints_are_two_or_three_of_a_size_to_read_and_ask(self, day):
         for task in day.tasks:

@@ -10,7 +10,6 @@ from labkit.judge.ask import parts, stacked
 from labkit.judge.compare import matches
 from labkit.judge.judge import off_by
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
@@ -18,10 +17,6 @@ pytestmark = pytest.mark.kit
 
 def rows(day):
     """Return (function, its questions, slugs that are one thing) of a day."""
-    if folder.has(day, "questions"):
-        module = folder.load(day, "questions")
-        alike = getattr(module, "ALIKE", {})
-        return [(k, ask, alike.get(k, [])) for k, ask in module.QUESTIONS.items()]
     return [(name, row.ask, row.alike) for name, row in rows_of(day).items()]
 
 

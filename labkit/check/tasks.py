@@ -10,18 +10,16 @@ from pathlib import Path
 from labkit.base.exchange import Exchange, LoadError, Reply, replies
 from labkit.check.second_look import kits_functions, right_when
 from labkit.check.source_hints import arguments, unfinished
-from labkit.judge.ask import Ask, Asked, make_round
+from labkit.judge.ask import Asked, make_round
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.row import row_of
-from labkit.lesson import folder
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
 from labkit.sandbox.library import library_of
 from labkit.sandbox.messages import robots_of
 from labkit.sandbox.sandbox import Sandbox
-from robo47.errors import Robo47Error
 
 
 @dataclass(frozen=True)
@@ -210,17 +208,12 @@ def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Aske
     """Return the questions to every function of some tasks, by task.
 
     Raises:
-        Robo47Error: the day's questions.py lacks a function of the manifest.
+        Robo47Error: the day has no file of a function of the manifest.
     """
-    names = [name for task in day.tasks for name in task.functions]
-    if folder.has(day, "questions"):
-        rows: dict[str, Ask] = folder.load(day, "questions").QUESTIONS
-    else:
-        rows = {name: row_of(day, name).ask for name in names}
-    if missing := [f for f in names if f not in rows]:
-        raise Robo47Error(f"day {day.number}'s questions.py has no row {missing[0]}")
     return {
-        task.id: [make_round(task.id, f, rows[f], seed) for f in task.functions]
+        task.id: [
+            make_round(task.id, f, row_of(day, f).ask, seed) for f in task.functions
+        ]
         for task in tasks
     }
 

@@ -1,6 +1,6 @@
 """A function's row (inputs, truth, kind, mistakes) and the questions made of it.
 
-A day's `questions.py` holds `QUESTIONS = {"exp_screw": Ask(...), ...}`, one row per
+A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest.
 """
 

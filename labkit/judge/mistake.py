@@ -1,12 +1,10 @@
 """A mistake that has a name: what to say, and the same mistake made on purpose."""
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-
-from robo47.checks import Array
 
 # Words that are symbols of a formula; those of one letter but "a" are, too.
 SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
@@ -107,37 +105,3 @@ class InTurn:
             return self.function(*args)
         except Exception as error:  # a mistake may stop, as a student's may
             raise ValueError(str(error)) from error
-
-
-def each(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of one question's arguments as one of all, stacked."""
-    return InTurn(function)
-
-
-def lifted(
-    mistakes: Iterable[Mistake],
-    where: str,
-    into: Callable[[Callable[..., Array]], Callable[..., Array]],
-) -> list[Mistake]:
-    """Return the mistakes of a small function as mistakes of one that uses it.
-
-    Args:
-        mistakes: of the small function.
-        where: what to say first, such as "in the links' factors, ".
-        into: takes the mistaken small function, returns the larger one made with it.
-    """
-    return [replace(m, says=f"{where}{m.says}", redo=into(m.redo)) for m in mistakes]
-
-
-def applied(mistakes: Iterable[Mistake], right: Callable[..., Array]) -> list[Mistake]:
-    """Return mistakes made with a finished answer as those of the function itself.
-
-    Args:
-        mistakes: whose `redo` takes the right answer.
-        right: the function, from its arguments to the right answer.
-    """
-
-    def after(redo: Callable[..., Array]) -> Callable[..., Any]:
-        return lambda *args: redo(right(*args))
-
-    return [replace(m, redo=after(m.redo)) for m in mistakes]

@@ -3,7 +3,7 @@
     day        its manifest, day.toml: tasks, hints, deliverables, limits
     table      a dataclass filled from a TOML table
     marks      which file wrote a row of the log
-    folder     its Python files (questions.py and others), imported by path
+    folder     its Python files (one per function, and others), imported by path
     starter    the student's copy of its lab script, with the tasks taken out
     lab        what every lab script does the same way: say, check, record
 

@@ -1,6 +1,6 @@
 """A day's Python files, imported by path: the machine names no day.
 
-`w1-foundations/dayN/questions.py` becomes the module `lesson_dayN.questions`; files of
+`w1-foundations/dayN/gains.py` becomes the module `lesson_dayN.gains`; files of
 one day import each other as `from .mistakes import ...`.
 """
 
@@ -26,7 +26,7 @@ def load(day: Day, name: str) -> ModuleType:
 
     Args:
         day: from its manifest.
-        name: without the ending: "questions".
+        name: without the ending: "gains".
 
     Raises:
         Robo47Error: the day has no such file.
