@@ -57,7 +57,7 @@ class Rehearsal(Lab):
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):
-            where = f'at "{self.title}": ' if self.title else ": "
+            where = f'at "{self.title}", ' if self.title else ""
             raise FirstFailure(
                 f"{where}{name} is {number_of(value)}; it must be {wanted.limit}"
             )
@@ -71,7 +71,7 @@ def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
     """
     if not (failed := failing_step(day, script, sandbox)):
         return []
-    says = f"All tasks pass, but the lab fails with your functions, {failed}."
+    says = f"All tasks pass, but the lab fails with your functions: {failed}."
     return [Item("lab", "wrong", f"{says}\nSee it: make run DAY={day.number}")]
 
 
@@ -107,7 +107,7 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
     except EnoughAsked:
         return ""
     except Exception as error:  # what a wrong number leads to, in the kit's own code
-        return f"which stops with {type(error).__name__}: {error}"
+        return f"it stops with {type(error).__name__}: {error}"
     finally:
         session.close()
     return ""
@@ -143,8 +143,8 @@ def _asked(
         question = Question(task, right.__name__, tuple(map(_sent, bound.args)))
         (reply,) = session.ask([question])
         if reply.kind:
-            says = stops_with(reply).rstrip(".")
-            raise FirstFailure(f"in {right.__name__}: {says}")
+            says = stops_with(reply).rstrip(".").removeprefix("It ")
+            raise FirstFailure(f"{right.__name__} {says}")
         value = reply.value
         plain = isinstance(value, np.ndarray) and value.ndim == 0
         return value[()] if plain else value

@@ -1,0 +1,147 @@
+"""Second looks: whose fault it is, when it is right, what a lab finds, borrowing."""
+
+import inprocess
+import numpy as np
+import pytest
+
+from labkit.check.lab_run import failing_step
+from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
+from labkit.lesson.day import find_day
+from labkit.sandbox.sandbox import Sandbox
+from robo47 import screws
+
+pytestmark = pytest.mark.kit
+
+DAY = find_day(1)
+REFERENCE = DAY.source.read_text("utf-8")
+XYZW = REFERENCE.replace("w, x, y, z = quat", "x, y, z, w = quat", 1)
+
+
+@pytest.fixture
+def check(tmp_path):
+    def run(code, day=DAY, task=None):
+        script = tmp_path / day.script
+        script.write_text(code, "utf-8")
+        return inprocess.verdicts(day, script, task)
+
+    return run
+
+
+def test_what_only_inherits_a_fault_is_right_as_soon_as_that_is_mended(check):
+    assert XYZW != REFERENCE
+    verdicts = check(XYZW)
+    assert verdicts["1.4"].mistake == "wxyz-read-as-xyzw"
+    for task in ("1.5", "1.6", "1.8"):
+        assert (verdicts[task].status, verdicts[task].mistake) == ("todo", "inherited")
+        assert verdicts[task].message == "Right as soon as 1.4 is."
+
+
+def test_a_fault_of_ones_own_shows_beside_an_inherited_one(check):
+    own = XYZW.replace("return T_world_body", "return T_world_body[::-1, :]", 1)
+    assert own != XYZW
+    verdict = check(own, task="1.6")["1.6"]
+    assert verdict.status == "wrong"
+    assert "Right as soon" not in verdict.message
+    assert verdict.follows == ""
+
+
+def test_a_task_above_an_unwritten_one_is_asked_with_the_kits(check):
+    gap = REFERENCE.replace(
+        "w, x, y, z = quat", 'raise NotImplementedError("task 1.4")\n    #', 1
+    )
+    verdicts = check(gap)
+    assert verdicts["1.4"].status == "todo"
+    assert verdicts["1.6"].message == "Right as soon as 1.4 is."
+
+
+def test_a_wrong_term_is_told_by_when_it_is_right(check):
+    day = find_day(5)
+    text = day.source.read_text("utf-8")
+    line = next(ln for ln in text.splitlines() if "return M @ (" in ln)
+    outside = text.replace(line, line.replace("+ kd * ed", "") + " + kd * ed", 1)
+    assert outside != text
+    verdict = check(outside, day, "5.6")["5.6"]
+    assert "It is right whenever " in verdict.message
+    assert "ed is 0" in verdict.message or "kd is 0" in verdict.message
+
+
+def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
+    code = REFERENCE.replace(
+        "R, t = T[:3, :3], T[:3, 3]",
+        "R, t = T[:3, :3], -T[:3, 3]\n    if t[0] == -1: raise ValueError(t)",
+        1,
+    )
+    assert code != REFERENCE
+    message = check(code, task="1.3")["1.3"].message
+    assert message.startswith("It stops with ValueError")
+    assert "The other answers are wrong, too." in message
+
+
+@pytest.fixture(scope="module")
+def sandbox():
+    with Sandbox() as sandbox:
+        yield sandbox
+
+
+class TestTheLabWithAFilesFunctions:
+    def test_passes_with_the_kits_own(self, sandbox):
+        assert failing_step(DAY, DAY.source, sandbox) == ""
+
+    def test_names_the_step_and_the_number(self, sandbox, tmp_path):
+        day = find_day(3)
+        text = day.source.read_text("utf-8")
+        line = "    # endregion 3.6"
+        head, tail = text.split(line, 1)
+        start = head.rindex("    # region 3.6")
+        body = head[start:].replace("return best", "return best + 1e-3")
+        assert body != head[start:]
+        script = tmp_path / day.script
+        script.write_text(head[:start] + body + line + tail, "utf-8")
+        says = failing_step(day, script, sandbox)
+        assert says.startswith('at "')
+        assert "it must be" in says
+
+    def test_says_that_a_function_stops(self, sandbox, tmp_path):
+        code = REFERENCE.replace("    c, s =", "    1 / 0\n    c, s =", 1)
+        script = tmp_path / DAY.script
+        script.write_text(code, "utf-8")
+        says = failing_step(DAY, script, sandbox)
+        assert says.startswith("compose_fk stops with ZeroDivisionError")
+
+
+class TestBorrowing:
+    def test_is_marked_counts_as_not_passed_and_lets_one_go_on(self, check):
+        code = with_borrowed(XYZW, REFERENCE, ["quat_to_R"])
+        assert MARK in code
+        verdicts = check(code)
+        assert verdicts["1.4"].mistake == "borrowed"
+        assert "make start RESET=1.4" in verdicts["1.4"].message
+        assert verdicts["1.6"].status == "passed"
+
+    def test_ends_with_the_function_written_again(self):
+        code = with_borrowed(REFERENCE, REFERENCE, ["quat_to_R"])
+        assert [task.id for task in borrowed_tasks(DAY, code)] == ["1.4"]
+        assert borrowed_tasks(DAY, REFERENCE) == []
+
+    def test_calls_the_kits_function_when_the_lab_runs(self, run_in, clone):
+        day = find_day(1, clone)
+        assert run_in("scripts/start_day.py", 1).returncode == 0
+        before = day.work.read_text("utf-8")
+        done = run_in("scripts/borrow.py", "1.4")
+        assert done.returncode == 0, done.stderr
+        assert "task 1.4 borrows quat_to_R" in done.stdout
+        (kept,) = day.work.parent.glob("*.before-1.4-*.txt")
+        assert kept.read_text("utf-8") == before
+        lab = {"__file__": str(day.work), "__name__": "day"}
+        text = day.work.read_text("utf-8").replace("\nimport kit ", "\n# ")
+        exec(compile(text, str(day.work), "exec"), lab)
+        turned = lab["quat_to_R"](np.array([1.0, 1.0, 0.0, 0.0]))
+        right = screws.exp_rotation(np.array([1.0, 0.0, 0.0]), np.pi / 2)
+        np.testing.assert_allclose(turned, right, atol=1e-15)
+
+    def test_of_a_task_that_is_not_there_is_refused_in_one_line(self, run_in, clone):
+        run_in("scripts/start_day.py", 1)
+        done = run_in("scripts/borrow.py", "1.99")
+        assert done.returncode == 2
+        assert "no task 1.99" in done.stderr
+        assert "Traceback" not in done.stderr
