@@ -56,6 +56,11 @@ def test_a_right_answer_of_zeros_says_nothing():
     assert "e is 0" not in says
 
 
+def test_a_right_answer_that_is_the_same_for_all_says_nothing():
+    calls = [(float(x),) for x in (0.3, 0.7, 1.1, 2.0)]
+    assert told(lambda x: np.cos(2 * x), np.cos, calls, ["x"]) == ""
+
+
 def test_three_questions_must_agree():
     assert experiments(states(2), NAMES) == []
     assert told(lambda *a: None, computed_torque, states(), NAMES) == ""

@@ -142,8 +142,12 @@ def _argument(says: str) -> str:
 def _right(
     calls: Sequence[Call], given: Sequence[Any], truth: Callable[..., Any], near: float
 ) -> bool:
-    """Return whether all answers are right and enough of them say something."""
-    agree = 0
+    """Return whether all answers are right and enough of them say something.
+
+    Zeros say nothing, and neither do right answers that are all the same.
+    """
+    agree, different = 0, False
+    first: Array | None = None
     for call, answer in zip(calls, given, strict=True):
         right = _flat(_or_none(truth, call))
         if right is None or not np.isfinite(right).all():
@@ -155,7 +159,9 @@ def _right(
         if not np.abs(mine - right).max(initial=0.0) <= near * scale:
             return False
         agree += bool(np.abs(right).max(initial=0.0) > NOTHING)
-    return agree >= AGREE
+        first = right if first is None else first
+        different = different or not np.allclose(right, first)
+    return agree >= AGREE and different
 
 
 def _or_none(function: Callable[..., Any], call: Call) -> Any:

@@ -82,6 +82,13 @@ def diagonal_of_K(e, V_err, K, D):
     return np.diag(K) * e + D @ V_err
 
 
+@row.wrong("diagonal-of-D")
+def both_diagonals(e, V_err, K, D):
+    """only the diagonals of K and D are used; the six directions are coupled => the
+    right one with their diagonals"""
+    return np.diag(K) * e + np.diag(D) * V_err
+
+
 @row.right  # From the left: K is symmetric.
 def _(e, V_err, K, D):
     return e @ K + D @ V_err
