@@ -96,7 +96,7 @@ def ways(day: Day, *statuses: str) -> list[Entry]:
             way.status,
             (tasks[function],),
             way.slug or "passed",
-            not way.hidden,
+            not (way.hidden or way.reached),  # the small function's own way is run
             code={function: way.code},
             also=frozenset().union(*(one for one in row.alike if way.slug in one)),
         )
