@@ -44,12 +44,12 @@ class Fake:
 class Desk:
     """A student's file, and what the page is told of it."""
 
-    def __init__(self, path) -> None:
+    def __init__(self, path, ghost=GHOST) -> None:
         self.path, self.opened, self.told = path, [], []
         self.news = threading.Condition()
         source = Source(path, self.open, lambda p, r: f"{p.name}: {r.error}", describe)
         self.student = Student(
-            source, GHOST, panda.load(), self.hear, lambda: self.opened.append("saved")
+            source, ghost, panda.load(), self.hear, lambda: self.opened.append("saved")
         )
 
     def open(self, path):
@@ -197,3 +197,29 @@ def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp
         source = checker_calls.source_of(find_day(1), model, sandbox)
         (reply,) = source.open(script).ask([question], SECONDS)
     assert reply.value == 14, reply.error
+
+
+def test_a_day_without_a_ghost_is_watched_and_asked_all_the_same(tmp_path):
+    script = tmp_path / "day.py"
+    script.write_text("2")
+    desk = Desk(script, ghost=None)
+    desk.student.start()
+    try:
+        desk.student.want(panda.READY_Q)
+        desk.until(lambda seen: seen is not None and not seen.problem)
+        assert desk.fake.asked == []  # for no pose
+        replies = []
+        answered = threading.Event()
+
+        def done(reply):
+            replies.append(reply)
+            answered.set()
+
+        desk.student.request(Question("view", "space_jacobian", ()), done)
+        assert answered.wait(SECONDS)
+        assert replies[0].value[0, 0] == 2.0
+        desk.save("broken")
+        desk.until(lambda seen: "invalid syntax" in seen.problem)
+        assert desk.opened.count("saved") >= 2
+    finally:
+        desk.student.close()

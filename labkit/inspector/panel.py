@@ -74,14 +74,14 @@ class Panel:
             standing: how the tasks stand.
             wide: leave the two matrices out; the tab needs the room.
         """
-        if apart is None:
-            self.yours.content = (
-                words.said(self.no_file, "yours", "quiet") if self.no_file else ""
-            )
-        else:
+        if apart is not None:
             kind = "good" if apart.good else "bad"
             text = f"{'✓' if apart.good else '✗'} {apart.sentence}"
-            self.yours.content = words.said(text, "yours", kind)
+        elif seen is None:
+            kind, text = "quiet", self.no_file
+        else:  # a day without a ghost: only what keeps the file from being asked
+            kind, text = "bad", f"✗ {seen.problem}" if seen.problem else ""
+        self.yours.content = words.said(text, "yours", kind) if text else ""
         head = standing.headline
         self.tasks.content = words.line(head, "standing", standing.kind) if head else ""
         view = None if seen is None or frame not in seen.poses else seen

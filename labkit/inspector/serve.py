@@ -87,9 +87,7 @@ def serve(show: Show, port: int) -> int:
             )
             server.door.receive = page.receive
             print("\n".join(where_to_look(port, server)), flush=True)
-            if page.day.ghost is not None:
-                student = watch(page, show, ends)
-                ends.callback(student.close)
+            ends.callback(watch(page, show, ends).close)
             dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
             dresser.start()
             # Python must not end while MuJoCo is at work in another thread: it crashes.
@@ -118,7 +116,6 @@ def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
         show: the day and the arm.
         ends: what is to be closed in the end.
     """
-    assert page.day.ghost is not None
     sandbox = ends.enter_context(Sandbox())
     checks = Checks(partial(checker_calls.verdicts, show.day), page.on_loop(page.judge))
     ends.callback(checks.close)

@@ -61,7 +61,7 @@ class Student(threading.Thread):
     def __init__(
         self,
         source: Source,
-        ghost: Ghost,
+        ghost: Ghost | None,
         model: mujoco.MjModel,
         deliver: Callable[[Seen | None], None],
         saved: Callable[[], None],
@@ -70,7 +70,8 @@ class Student(threading.Thread):
 
         Args:
             source: the file.
-            ghost: which function to ask, and what.
+            ghost: which function to ask for the arm's poses, and what; None where a
+                day has none: then only its tabs ask.
             model: the robot.
             deliver: is given what the function said; None where there is no file.
             saved: called when the file was opened anew.
@@ -162,7 +163,7 @@ class Student(threading.Thread):
         """Return the student's poses at a configuration."""
         if self._stamp is None:
             return None
-        if self._asker is None:
+        if self._asker is None or self.ghost is None:
             return Seen(q, problem=self._problem)
         start, asker = time.perf_counter(), self._asker
         try:
