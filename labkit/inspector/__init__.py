@@ -29,9 +29,9 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
 
 Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
 frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
-GHOST, no ghost arm is drawn.
+GHOST, no ghost arm is drawn; the file is watched and asked all the same.
 
-What a tab has in `page` (`robo47/inspector/page.py` says the arguments):
+What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 
     model, arm, q, pose(name)   the robot, its numbers, the configuration, MuJoCo's pose
     move(q)                     moves the arm, in every browser
@@ -58,7 +58,7 @@ The modules, from the numbers to the page:
     checks    the verdicts of `make check`, in the background
     words     numbers as HTML;  typed  numbers as people type them
     shapes    what MuJoCo's model looks like, as triangle meshes
-    triad, skin, scene, draw, hover    what is in the picture
+    triad, meshes, scene, draw, hover    what is in the picture
     history   the wanted configuration, and the way back;  address  it, in the URL
     controls, client            sliders, buttons and tabs as HTML, and their script
     page, tab, animate          what a tab gets, what it is, and its loops

@@ -1,6 +1,6 @@
-"""Which mistake is it? From a student's answers to the one that was made.
+"""The judge: from a student's answers to the mistake that was made.
 
-    exchange    a question and its reply
+    row         a day's file on one function: inputs, right answer, mistakes
     ask         a function's row: inputs, truth, kind of answer, mistakes; its questions
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians and others; rigid_kinds: rotations, poses)
@@ -8,8 +8,10 @@
     problems    did an answer come back, of the right shape and type? If not, the words
     mistake     a mistake that has a name, and the same mistake made on purpose
     finished    mistakes made with a finished rotation or pose
+    argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits
     judge       from questions with their replies to a verdict and its name
+    right_when  with which argument neutral a wrong function is right
     chain       where along a serial chain a product goes wrong
 
 The student's code is never run here, and nothing it computed is used as the truth.

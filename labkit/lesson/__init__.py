@@ -1,11 +1,12 @@
-"""What a day is: one folder, `w*/dayN/`, that the machine reads by path.
+"""Days: each is one folder, `w*/dayN/`, that the machine reads by path.
 
     day        its manifest, day.toml: tasks, hints, deliverables, limits
     table      a dataclass filled from a TOML table
     marks      which file wrote a row of the log
     folder     its Python files (one per function, and others), imported by path
     starter    the student's copy of its lab script, with the tasks taken out
+    borrowed   the kit's own functions in a student's file, so that they can go on
     lab        what every lab script does the same way: say, check, record
 
-Nothing here, and nothing else in `robo47`, names a day or imports one.
+Nothing here, and nothing else in `labkit`, names a day or imports one.
 """
