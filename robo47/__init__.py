@@ -3,6 +3,8 @@
 import importlib
 from types import ModuleType
 
+__version__ = "0.2.0"
+
 # What labs of before December 2026 have typed.
 _WAS = {
     "dynamics_batch": "robo47.fast.dynamics",

@@ -57,7 +57,8 @@ def right_when(
         [None if (reply := next(replies)).kind else reply.value for _ in one.calls]
         for one in tried
     ]
-    return conclude(tried, answers, _truth(asked.ask), asked.ask.near)
+    ask = asked.ask
+    return conclude(tried, answers, _truth(ask), ask.near, _mistaken(ask))
 
 
 def _truth(ask: Ask) -> Callable[..., Any]:
@@ -65,6 +66,12 @@ def _truth(ask: Ask) -> Callable[..., Any]:
     assert isinstance(ask.truth, InTurn)
     one = ask.truth.function
     return lambda *args: one(*map(_plain, args))
+
+
+def _mistaken(ask: Ask) -> list[Callable[..., Any]]:
+    """Return the row's own mistakes, of one question each."""
+    codes = [m.redo.function for m in ask.named if isinstance(m.redo, InTurn)]
+    return [lambda *args, code=code: code(*map(_plain, args)) for code in codes]
 
 
 def _plain(arg: Any) -> Any:

@@ -21,6 +21,8 @@ from labkit.sandbox.library import library_of
 from labkit.sandbox.messages import robots_of
 from labkit.sandbox.sandbox import Sandbox
 
+FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
+
 
 @dataclass(frozen=True)
 class TaskResult:
@@ -119,8 +121,6 @@ class _Check:
         in their place: its fault is inherited, or its own.
         """
         result, added = results[task.id], self.added
-        if self._has_its_own_name(task, result.verdict):
-            return replace(result, verdict=replace(result.verdict, follows=""))
         if result.verdict.follows:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]
@@ -132,17 +132,13 @@ class _Check:
                     ]
                     return replace(result, verdict=_inherited(roots or broken))
                 result = again
+        if result.verdict.mistake in FRESH_ONLY:
+            says = f"{result.verdict.message} The same again: make check "
+            says += f'TASK={task.id} ARGS="--seed {self.seed}"'
+            return replace(result, verdict=replace(result.verdict, message=says))
         if len(result.verdict.wrong_calls) < 3:
             return result
         return replace(result, verdict=self._with_experiments(task, result, added))
-
-    def _has_its_own_name(self, task: Task, verdict: Verdict) -> bool:
-        """Return whether a mistake in this very function gives its numbers."""
-        if not verdict.follows or verdict.status != "wrong":
-            return False
-        (asked,) = self._asked_of(task, verdict)
-        named = {m.slug: m.reached for m in asked.ask.named}
-        return named.get(verdict.mistake) is False
 
     def _asked_of(self, task: Task, verdict: Verdict) -> list[Asked]:
         """Return the questions to the function that a verdict is about."""

@@ -15,14 +15,17 @@ import atexit
 import gc
 import json
 import os
+import secrets
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from labkit.base import cli
+from labkit.base.git import short_sha
 from labkit.lesson.day import Day, find_day, find_task, started_day
 from labkit.sandbox.process import Process
+from robo47 import __version__
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
 
@@ -41,6 +44,9 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--watch", action="store_true", help="check again at each save")
     parser.add_argument("--explain", action="store_true", help="show measurements")
     parser.add_argument("--json", action="store_true", help="print JSON")
+    parser.add_argument(
+        "--seed", type=int, metavar="N", help="of the inputs drawn anew; default: any"
+    )
     return parser.parse_args()
 
 
@@ -50,6 +56,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if not script.is_file():
         remedy = "" if options.file else f"; first: make start DAY={day.number}"
         raise Robo47Error(f"{shown(script)} is not there{remedy}")
+    seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import journal, report, states
@@ -59,7 +66,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
 
         with Sandbox(warm) as sandbox:
             key = states.key_of(day)
-            results = check_tasks(day, script, sandbox, options.task)
+            results = check_tasks(day, script, sandbox, options.task, seed)
             done = all(result.passed for result in results)
             lab = check_lab(day, script, sandbox) if done and not options.task else []
     if script == day.work:
@@ -68,7 +75,8 @@ def check(day: Day, options: argparse.Namespace) -> int:
     items = [] if options.task else [*lab, *handed_in(day, done)]
     found = report.Report(day, results, items)
     if options.json:
-        print(json.dumps(report.as_json(found), indent=1))
+        made = {"kit": __version__, "commit": short_sha(ROOT), "seed": seed}
+        print(json.dumps(report.as_json(found) | made, indent=1))
     else:
         colour = cli.wants_colour(sys.stdout)
         print(report.as_text(found, explain=options.explain, colour=colour))

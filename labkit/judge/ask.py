@@ -21,6 +21,8 @@ from robo47.checks import Array
 
 Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
+# How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
+FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -209,15 +211,20 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
         seed: of the fresh inputs; nobody should know it beforehand.
     """
 
-    def make(inputs: Inputs, seed: int = SEED) -> list[Exchange]:
+    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
         calls = inputs(np.random.default_rng(seed))
         return [Exchange(Question(task, function, tuple(args))) for args in calls]
 
+    main = make(ask.inputs)
+    size = sum(np.size(arg) for arg in main[-1].question.args)
+    draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
+    draws = (draws if ask.truth else 1) if ask.fresh else 0
+    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(draws))
     return Asked(
         function,
         ask,
-        make(ask.inputs),
-        make(ask.inputs, seed)[-ask.fresh :] if ask.fresh else [],
+        main,
+        list(chain.from_iterable(drawn)),
         [make(held.inputs) for held in ask.held_out],
         make(ask.probe.inputs) if ask.probe else [],
     )
@@ -263,7 +270,10 @@ def parts(answers: Any) -> tuple[Array, ...]:
 
 
 def in_words(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a question's input as a student can type it: numbers and short vectors.
+    """Return a question's input as a student can type it, or "" where it is too long.
+
+    Numbers and vectors can be typed; where a matrix is among them, the rest would
+    mislead.
 
     Args:
         question: whose arguments.
@@ -276,7 +286,9 @@ def in_words(question: Question, names: Sequence[str] = ()) -> str:
             says = number(float(arg))
         elif isinstance(arg, np.ndarray) and arg.ndim == 1:
             says = "(" + ", ".join(number(float(x)) for x in arg) + ")"
-        else:
+        elif isinstance(arg, np.ndarray):
+            return ""
+        else:  # the robot, or a path along it
             continue
         words.append(f"{names[i]} = {says}" if named else says)
     return (", " if named else " and ").join(words)

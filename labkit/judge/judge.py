@@ -62,7 +62,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
-    return _second_look(asked, measured)
+    return _second_look(asked, measured, names)
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -103,7 +103,32 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
     return found or near_miss.explain(S[i], T[i])
 
 
-def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
+def _for_fresh(asked: Asked, S: Parts | Finding, names: Sequence[str]) -> Finding:
+    """Return what is wrong with answers to inputs that are not always asked."""
+    right = "Right for the inputs that are always asked, but not for fresh ones"
+    if isinstance(S, Finding):
+        return Finding("some-inputs", f"{right}. {S.message}")
+    T = right_answers(asked.ask, asked.fresh)
+    gap = gaps(asked.ask, S, T)
+    i, part = int(np.argmax(gap)), worst_part(asked.ask, S, T)
+    wrong = gap > asked.ask.near
+    mine, its = S[part][i], T[part][i]
+    at = np.unravel_index(int(np.argmax(np.abs(mine - its))), mine.shape)
+    where = f"entry {list(map(int, at))} is" if at else "it is"
+    given = in_words(asked.fresh[i].question, names)
+    says = f"{right}, {int(wrong.sum())} of {len(wrong)}"
+    says += f": for {given}" if 0 < len(given) <= 90 else ": for one of them"
+    says += f" {where} {mine[at]:.6g}, and {its[at]:.6g} is right."
+    if not wrong.all():
+        return Finding(
+            "some-inputs", f"{says} Some inputs take another way through your function."
+        )
+    return Finding("looked-up", f"{says} The answers do not come from the inputs.")
+
+
+def _second_look(
+    asked: Asked, measured: tuple[str, ...], names: Sequence[str]
+) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask, note = asked.ask, ""
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
@@ -114,12 +139,7 @@ def _second_look(asked: Asked, measured: tuple[str, ...]) -> Verdict:
         if not isinstance(S, Finding):
             off = off_by(ask, S, right_answers(ask, asked.fresh))
         if off > ask.near:
-            says = (
-                "Right for the inputs that are always asked, but off by "
-                f"{off:.3g} for fresh ones: some inputs take another way through your "
-                "function, or the answers are not computed from them."
-            )
-            return Verdict("wrong", "looked-up", says, measured)
+            return Verdict("wrong", *_for_fresh(asked, S, names), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         if _found(held, ask, exchanges):
             if held.status != "passed":
@@ -154,7 +174,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((question, found))
     if not wrong:
-        return _second_look(asked, ())
+        return _second_look(asked, (), names)
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     question, found = wrong[0]
@@ -228,7 +248,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = _where(kind, S[i], T[i], case.given, ask.near)
+        where = _where(kind, S[i], T[i], case.given, ask.tolerance)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 

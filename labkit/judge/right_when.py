@@ -15,6 +15,8 @@ from robo47.checks import Array
 QUESTIONS = 4  # per experiment; three of them at least must agree
 AGREE = 3
 NOTHING = 1e-12  # a right answer as small as this says nothing
+COMMON = 0.5  # the share of other wrong functions that may be right there as well
+OTHERS = 12  # of them are asked
 Call = tuple[Any, ...]
 
 
@@ -109,6 +111,7 @@ def conclude(
     answers: Sequence[Sequence[Any]],
     truth: Callable[..., Any],
     near: float,
+    others: Sequence[Callable[..., Any]] = (),
 ) -> str:
     """Return the sentence that the experiments allow, or "".
 
@@ -117,15 +120,17 @@ def conclude(
         answers: per experiment the function's answers, None where there was none.
         truth: the right answer to one call.
         near: how far off a right answer may be, relative to its largest entry.
+        others: other wrong functions. What is true of most of them says nothing.
     """
-    telling = sorted(
-        (one.changed, i)
-        for i, (one, given) in enumerate(zip(asked, answers, strict=True))
-        if _right(one.calls, given, truth, near)
-    )
+    telling = []
+    for i, (one, given) in enumerate(zip(asked, answers, strict=True)):
+        if _right(one.calls, given, truth, near):
+            share = _share_right(one.calls, others, truth, near)
+            if share <= COMMON:
+                telling.append((share, one.changed, i))
     says: list[str] = []
     seen: set[str] = set()
-    for _, i in telling:
+    for *_, i in sorted(telling):
         argument = _argument(asked[i].says)
         if argument not in seen and len(says) < 2:
             seen.add(argument)
@@ -162,6 +167,21 @@ def _right(
         first = right if first is None else first
         different = different or not np.allclose(right, first)
     return agree >= AGREE and different
+
+
+def _share_right(
+    calls: Sequence[Call],
+    others: Sequence[Callable[..., Any]],
+    truth: Callable[..., Any],
+    near: float,
+) -> float:
+    """Return which share of other wrong functions is right at the same calls."""
+    some = list(others)[:OTHERS]
+    right = [
+        _right(calls, [_or_none(one, call) for call in calls], truth, near)
+        for one in some
+    ]
+    return sum(right) / len(right) if right else 0.0
 
 
 def _or_none(function: Callable[..., Any], call: Call) -> Any:
