@@ -81,7 +81,8 @@ def press() -> Image.Image:
         t = np.arange(1, len(felt) + 1) * STEP
         axes.plot(t, felt, color=colour, linewidth=3)
         words = f"{name}: {felt[-1]:.0f} N, peak {felt.max():.0f} N"
-        axes.text(1.1, felt[-1] + 12, words, color=colour, fontsize=20)
+        above = felt[round(1.1 / STEP)] + 12
+        axes.text(1.1, above, words, color=colour, fontsize=20)
     axes.axhline(PRESS, color=INK, linestyle="--", linewidth=1.5)
     words = {"s": "20 N: wanted and predicted", "ha": "right", "fontsize": 18}
     axes.text(3.0, PRESS - 30, color=INK, **words)
