@@ -366,7 +366,7 @@ def side_quest(lab: Lab, model, arm) -> None:
         (n, library.fastest(h, n), f"the library's, at the day's {RATE:g} Hz"),
     ):
         measured = breaking(model, arm, 1 / (every * h))
-        what = f"a torque every {1e3 * every * h:g} ms: breaks at"
+        what = f"torque every {1e3 * every * h:g} ms, loop breaks at"
         say(what, predicted, measured, "rad/s")
         lab.check(f"{whose}, rad/s", predicted - measured, limit=2.0)
     servos = panda.load("panda_nohand")
