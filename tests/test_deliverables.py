@@ -246,7 +246,9 @@ def test_an_answer_may_stand_anywhere_after_its_question(items, day, blank):
     ],
 )
 def test_a_prediction_that_nobody_made_is_asked_for(items, day, cells, blank):
-    table = f"| number | predicted | measured | why apart |\n|---|---|\n| sag | {cells} |"
+    table = (
+        f"| number | predicted | measured | why apart |\n|---|---|\n| sag | {cells} |"
+    )
     text = f"{worksheet(day.terms)}\n## Predictions\n\n{table}\n"
     (day.folder / day.worksheet).write_text(text, "utf-8")
     item = items()["definitions"]
