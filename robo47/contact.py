@@ -93,7 +93,7 @@ def press(
     controller: Callable[[Arm, Array], simulate.Controller],
     *,
     drive: str = "torque",
-    limited: bool = True,
+    change: Callable[[mujoco.MjModel], None] | None = None,
     seconds: float = 2.0,
     rate: float = simulate.RATE,
 ) -> Array:
@@ -102,7 +102,7 @@ def press(
     Args:
         controller: from the arm and the configuration it starts at to a controller.
         drive: "torque", or "servo" for the stiff position drives.
-        limited: False takes the motors' limits away, of 87 and 12 N m.
+        change: is given the model first, to write other gains or limits into it.
         seconds: how long.
         rate: of the controller in Hz.
 
@@ -111,7 +111,8 @@ def press(
         period is.
     """
     model = scenes.press_table(drive=drive)
-    model.actuator_forcelimited[:] = limited
+    if change is not None:
+        change(model)
     q = above_table(model, 0.01)
     law = controller(panda.arm(model), q)
 

@@ -8,6 +8,7 @@ press   the force on the table over time: the soft arm, and the stiff one with a
 import io
 
 import matplotlib
+import mujoco
 import numpy as np
 from day6_task_space import (
     PRESS,
@@ -53,8 +54,12 @@ def presses() -> tuple[np.ndarray, ...]:
         rate=RATE,
     )
     servos = {"drive": "servo", "seconds": 3.0}
-    strong = contact.press(stiff_arm, limited=False, **servos)
-    return soft, contact.press(stiff_arm, **servos), strong
+    stiff = contact.press(stiff_arm, **servos)
+    return soft, stiff, contact.press(stiff_arm, change=_no_limits, **servos)
+
+
+def _no_limits(model: mujoco.MjModel) -> None:
+    model.actuator_forcelimited[:] = 0
 
 
 def push() -> Image.Image:

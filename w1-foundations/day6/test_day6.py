@@ -71,22 +71,21 @@ def told(words):
     return pytest.approx([float(number) for number in found.groups()], rel=0.02)
 
 
-def press_soft(rate=lab.RATE, speed=lab.SINK):
+def press_soft(rate=lab.RATE, speed=lab.SINK, **more):
     depth = lab.set_point_for_force(20.0, 400.0, scenes.TOUCH)
     sink = lambda t: max(depth, scenes.TOUCH + 0.01 - speed * t)  # noqa: E731
-    return contact.press(lambda arm, q: lab.soft_hand(arm, q, sink), rate=rate)
+    law = lambda arm, q: lab.soft_hand(arm, q, sink)  # noqa: E731
+    return contact.press(law, rate=rate, **more)
 
 
-def press_stiff(edit=None, deep=0.05):
-    """Return what the servos end with: N, and the simulation, on an edited model."""
-    model = scenes.press_table(drive="servo")
-    if edit is not None:
-        edit(model)
-    q, goal = (contact.above_table(model, gap) for gap in (0.01, -deep))
-    law = lambda t, *_: q + (goal - q) * min(t * lab.SINK / 0.06, 1.0)  # noqa: E731
-    data = simulate.start(model, q)
-    simulate.run(model, data, law, 3.0)
-    return scenes.contact_force(model, data, "tip", "table_top"), data
+def press_stiff(change=None, deep=0.05):
+    """Return the force that the servos press with, N, each step."""
+    goal = contact.above_table(scenes.press_table(), -deep)
+
+    def servos(arm, q):
+        return lambda t, *_: q + (goal - q) * min(t * lab.SINK / 0.06, 1.0)
+
+    return contact.press(servos, drive="servo", seconds=3.0, change=change)
 
 
 def test_the_soft_arm_presses_with_20_n_and_the_stiff_one_with_217():
@@ -121,10 +120,9 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     assert f"{1e3 * sag:.0f} mm, so they press with {k * (0.05 + sag):.0f} N" in (
         SENTENCES
     )
-    free = contact.press(lab.stiff_arm, drive="servo", limited=False, seconds=3.0)[-1]
-    assert [free] == told("With no limits # N")
     unlimited = lambda model: model.actuator_forcelimited.fill(0)  # noqa: E731
-    shallow, _ = press_stiff(unlimited, 0.005)
+    free, shallow = (press_stiff(unlimited, deep)[-1] for deep in (0.05, 0.005))
+    assert [free] == told("With no limits # N")
     assert abs(1 - shallow / (k * (0.005 + sag))) < 0.0105
     assert 1 - free / (k * (0.05 + sag)) == pytest.approx(0.03, abs=0.008)
     assert "At 5 mm the same sum is within 1 percent, at 50 mm it is 3 off" in SENTENCES
@@ -146,18 +144,27 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     ],
 )
 def test_217_n_follows_the_limits_and_neither_gains_nor_depth(edit, deep, words):
-    assert [press_stiff(edit, deep)[0]] == told(words)
+    assert [press_stiff(edit, deep)[-1]] == told(words)
+
+
+def test_it_creeps_on_its_friction_and_rests_at_once_without():
+    felt = press_stiff(lambda model: model.geom_condim.fill(1))
+    assert abs(felt[999] - felt[1499]) < 1e-3
+    assert [felt[-1]] == told("it slides until it rests, at # N")
 
 
 def test_two_motors_at_their_limits_predict_217_n():
-    force, data = press_stiff()
     model = scenes.press_table(drive="servo")
+    arm, q = panda.arm(model), contact.above_table(model, 0.01)
+    data = simulate.start(model, q)
+    simulate.run(model, data, lab.stiff_arm(arm, q), 3.0)
+    force = scenes.contact_force(model, data, "tip", "table_top")
     share = data.actuator_force / simulate.limits(model)[1]
     assert_same(share[[1, 5]], [1.0, -1.0], 1e-6)
     assert np.abs(np.delete(share, [1, 5])).max() < 0.8
 
     def predicted(q):
-        now = panda.arm(model).at(q)
+        now = arm.at(q)
         lowest = now.T_world_ee[:3, 3] - [0.0, 0.0, scenes.TIP_RADIUS]
         J = now.J_space[3:] - screws.skew(lowest) @ now.J_space[:3]
         left = (now.gravity_torque - [0, 87.0, 0, 0, 0, -12.0, 0])[[1, 5]]
@@ -179,32 +186,24 @@ def test_a_peak_is_seen_only_by_who_looks_at_every_step():
     assert seen == told("at 250 Hz, you see # N of the #, at 50 Hz # N of the #")
 
 
-@pytest.fixture
-def harder(monkeypatch):
-    """Return a function that gives tip and table another time constant, in seconds."""
-    table = scenes.press_table
+def time_constant(solref):
+    """Return a change that makes the contact harder or softer."""
 
-    def soften(solref):
-        def made(**options):
-            model = table(**options)
-            for geom in ("tip", "table_top"):
-                model.geom(geom).solref[0] = solref
-            return model
+    def change(model):
+        model.geom_solref[:, 0] = solref
 
-        monkeypatch.setattr(scenes, "press_table", made)
-
-    return soften
+    return change
 
 
-def test_the_peak_grows_with_the_speed_and_with_a_harder_contact(harder):
+def test_the_peak_grows_with_the_speed_and_with_a_harder_contact():
     peaks = [press_soft(speed=speed).max() for speed in (0.05, 0.1, 0.2)]
     assert peaks == told("speed: #, # and # N at 0.05")
     for solref, words in ((0.01, "the peak is # N"), (0.005, "with 0.005 s it is # N")):
-        harder(solref)
-        assert [press_soft().max()] == told(words)
+        felt = press_soft(change=time_constant(solref))
+        assert [felt.max()] == told(words)
 
 
-def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness(harder):
+def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness():
     model = scenes.press_table()
     arm, q = panda.arm(model), contact.above_table(model, 0.01)
     law = lab.soft_hand(arm, q, lambda t: max(0.37, 0.43 - lab.SINK * t))
@@ -212,8 +211,7 @@ def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness(harder):
     simulate.run(model, data, law, 2.0, rate=lab.RATE)
     sinks, missing = -data.contact[0].dist, 20.0 - press_soft()[-1]
     assert missing == pytest.approx(400 * sinks, rel=0.1)
-    harder(0.005)
-    less = 20.0 - press_soft()[-1]
+    less = 20.0 - press_soft(change=time_constant(0.005))[-1]
     assert less < 0.1 * missing
     if mujoco.__version__ < "4":
         assert f"it is {1e6 * sinks:.0f} µm and {5 * missing:.2f} percent" in SENTENCES

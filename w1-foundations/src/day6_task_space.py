@@ -315,7 +315,7 @@ def main() -> int:
     sink = lambda t: max(depth, start - SINK * t)  # noqa: E731
     soft = contact.press(lambda arm, q: soft_hand(arm, q, sink), rate=RATE)
     # The file's own servos, told to go 50 mm into the table, know of no force. Two of
-    # their motors end at their limits; limited=False takes these away.
+    # their motors end at their limits; give press a `change` that takes these away.
     stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
     for name, felt in (("soft", soft), ("stiff", stiff)):
         print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
