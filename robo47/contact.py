@@ -93,6 +93,7 @@ def press(
     controller: Callable[[Arm, Array], simulate.Controller],
     *,
     drive: str = "torque",
+    change: Callable[[mujoco.MjModel], None] | None = None,
     seconds: float = 2.0,
     rate: float = simulate.RATE,
 ) -> Array:
@@ -101,23 +102,29 @@ def press(
     Args:
         controller: from the arm and the configuration it starts at to a controller.
         drive: "torque", or "servo" for the stiff position drives.
+        change: is given the model first, to write other gains or limits into it.
         seconds: how long.
         rate: of the controller in Hz.
 
     Returns:
-        Newtons after each control period, (N,).
+        Newtons after each time step, (N,): a peak may be over before a control
+        period is.
     """
     model = scenes.press_table(drive=drive)
+    if change is not None:
+        change(model)
     q = above_table(model, 0.01)
     law = controller(panda.arm(model), q)
 
-    def felt(model: mujoco.MjModel, data: mujoco.MjData) -> float:
-        return scenes.contact_force(model, data, "tip", "table_top")
+    data, felt = simulate.start(model, q), []
 
-    run = simulate.run(
-        model, simulate.start(model, q), law, seconds, rate=rate, watch=felt
-    )
-    return np.array(run.seen)
+    def look(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        felt.append(scenes.contact_force(model, data, "tip", "table_top"))
+
+    # A push is called before every step: it sees the force of the step before.
+    simulate.run(model, data, law, seconds, rate=rate, push=look)
+    look(model, data)
+    return np.array(felt[1:])
 
 
 def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Array:
@@ -149,8 +156,8 @@ def mujoco_push(
         model: the arm without a hand.
         q: configuration in radians, (7,).
         qd: joint velocities in rad/s, one number or (7,).
-        tau: torques on the joints in Nm, on top of motors that do nothing, (7,).
-        wrench: (moment; force) at the site, by mj_applyFT, in Nm and N, (6,).
+        tau: torques on the joints in N m, on top of motors that do nothing, (7,).
+        wrench: (moment; force) at the site, by mj_applyFT, in N m and N, (6,).
 
     Returns:
         Accelerations of the joints, rad/s2, (7,), and of the hand, (6,).

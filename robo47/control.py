@@ -1,7 +1,7 @@
 """Control of the joints: torques from errors, and the error to expect beforehand.
 
 Conventions: e = q_ref - q and ed = qd_ref - qd, so that a positive error asks for a
-positive torque. Radians, rad/s, rad/s2, Nm, seconds. `n` is the number of joints;
+positive torque. Radians, rad/s, rad/s2, N m, seconds. `n` is the number of joints;
 leading dimensions broadcast. A gain is one number for all joints, or (n,).
 Every function raises ValueError where a shape is wrong, a number is not finite or
 out of the range that its docstring states.
@@ -24,10 +24,10 @@ def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Arra
 
     Args:
         e, ed: errors in radians and rad/s, (..., n).
-        kp, kd: gains in Nm/rad and Nm s/rad, one number or (..., n).
+        kp, kd: gains in N m/rad and N m s/rad, one number or (..., n).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     e, ed = checks.same_size(e=e, ed=ed)
     return checks.per_joint(kp, "kp", e) * e + checks.per_joint(kd, "kd", e) * ed
@@ -92,8 +92,8 @@ def sag_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
 
     Args:
         q_goal: commanded configuration in radians, (..., n).
-        g_at_q: gravity torque at the last q in Nm, (..., n).
-        kp: stiffness in Nm/rad, above 0, one number or (..., n).
+        g_at_q: gravity torque at the last q in N m, (..., n).
+        kp: stiffness in N m/rad, above 0, one number or (..., n).
 
     Returns:
         The next q in radians, (..., n).
@@ -112,10 +112,10 @@ def gravity_pd(
 
     Args:
         e, ed, kp, kd: as in `pd_torque`.
-        g_at_q: gravity torque at the measured q in Nm, (..., n).
+        g_at_q: gravity torque at the measured q in N m, (..., n).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     e, g_at_q = checks.same_size(e=e, g_at_q=g_at_q)
     return pd_torque(e, ed, kp, kd) + g_at_q
@@ -141,15 +141,15 @@ def computed_torque(
 
     Args:
         M: mass matrix with armature in kg m2, (..., n, n).
-        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
-        damping: of the joints in Nm s/rad, one number or (..., n).
+        bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
+        damping: of the joints in N m s/rad, one number or (..., n).
         qd: measured velocity in rad/s, (..., n).
         e, ed: errors in radians and rad/s, (..., n).
         qdd_ref: reference acceleration in rad/s2, (..., n).
         kp, kd: gains in 1/s2 and 1/s, one number or (..., n).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     bias, qd, qdd_ref, e, ed = checks.same_size(
         bias=bias, qd=qd, qdd_ref=qdd_ref, e=e, ed=ed
@@ -196,30 +196,35 @@ def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
     """Return the torque that the motors can give: clipped joint by joint.
 
     Args:
-        tau: wanted torques in Nm, (..., n).
-        limits: largest torques in Nm, at least 0, one number or (..., n).
+        tau: wanted torques in N m, (..., n).
+        limits: largest torques in N m, at least 0, one number or (..., n).
 
     Returns:
-        Torques within +-limits in Nm, (..., n).
+        Torques within +-limits in N m, (..., n).
     """
     tau = checks.array(tau, "tau", ("n",))
     limits = checks.not_negative(checks.per_joint(limits, "limits", tau), "limits")
     return np.clip(tau, -limits, limits)
 
 
-def fastest(h: ArrayLike) -> Array:
-    """Return the largest omega of critical damping that a time step allows.
+def fastest(h: ArrayLike, steps: ArrayLike = 1) -> Array:
+    """Return the largest omega of critical damping that a held torque allows.
 
-    Semi-implicit Euler takes edd = -omega^2 e - 2 omega ed over a step h to a linear
-    map whose eigenvalue reaches -1 at omega h = 2 (sqrt(2) - 1) (our derivation).
+    edd = -omega^2 e - 2 omega ed is computed once and held for n semi-implicit steps
+    of h seconds, T = n h: ed changes by T edd, e by T ed + (1 + 1/n) T^2 edd / 2. This
+    map of (e, ed) has the eigenvalue -1 where 4 - 4 omega T - (omega T)^2 / n = 0, so
+    at omega h = 2 (sqrt(1 + 1/n) - 1). omega T is 0.828 for one step per period and
+    nears 1 for many (our derivation).
 
     Args:
         h: time step in seconds, above 0, (...).
+        steps: how many of them a torque is held, above 0, (...).
 
     Returns:
         Natural frequency in rad/s, (...).
     """
-    return 2.0 * (np.sqrt(2.0) - 1.0) / checks.positive(h, "h")
+    h, steps = checks.positive(h, "h"), checks.positive(steps, "steps")
+    return 2.0 * (np.sqrt(1.0 + 1.0 / steps) - 1.0) / h
 
 
 def servo_ctrl(
@@ -230,9 +235,9 @@ def servo_ctrl(
     The servo gives kp (ctrl - q) - kd qd, so ctrl = q + (tau + kd qd) / kp.
 
     Args:
-        tau: wanted torques in Nm, (..., n).
+        tau: wanted torques in N m, (..., n).
         q, qd: measured, in radians and rad/s, (..., n).
-        kp, kd: the servo's gains in Nm/rad (above 0) and Nm s/rad, one number or
+        kp, kd: the servo's gains in N m/rad (above 0) and N m s/rad, one number or
             (..., n).
 
     Returns:

@@ -85,12 +85,12 @@ def osc_torque(
     Args:
         J: site Jacobian, (..., m, n).
         Lambda: task inertia, (..., m, m).
-        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
+        bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         site_bias: Jdot qd, as `site_bias` returns it, (..., m).
         acc: wanted (angular; linear) acceleration in rad/s2 and m/s2, (..., m).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     J = checks.array(J, "J", ("m", "n"))
     m, n = J.shape[-2:]
@@ -108,10 +108,10 @@ def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -
         J: site Jacobian, (..., m, n).
         M: mass matrix with armature in kg m2, (..., n, n).
         Lambda: task inertia, (..., m, m).
-        tau: wanted torques, of a posture for example, in Nm, (..., n).
+        tau: wanted torques, of a posture for example, in N m, (..., n).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     J, M = _model(J, M)
     m, n = J.shape[-2:]
@@ -127,11 +127,11 @@ def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) ->
     Args:
         e: (rotation vector; position) from the hand to its target, (..., m).
         V_err: the target's twist minus the hand's, (..., m).
-        K: stiffness in Nm/rad and N/m, (..., m, m).
-        D: damping in Nm s/rad and N s/m, (..., m, m).
+        K: stiffness in N m/rad and N/m, (..., m, m).
+        D: damping in N m s/rad and N s/m, (..., m, m).
 
     Returns:
-        Wrench (moment; force) in Nm and N, (..., m).
+        Wrench (moment; force) in N m and N, (..., m).
     """
     e, V_err = checks.same_size(e=e, V_err=V_err)
     square = (e.shape[-1], e.shape[-1])
@@ -147,11 +147,11 @@ def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
     redundant robots", ICRA 2003, "factorization design").
 
     Args:
-        K: stiffness along each axis in Nm/rad and N/m, at least 0, (..., m).
+        K: stiffness along each axis in N m/rad and N/m, at least 0, (..., m).
         Lambda: task inertia, positive definite, (..., m, m).
 
     Returns:
-        D, symmetric, (..., m, m), in Nm s/rad and N s/m.
+        D, symmetric, (..., m, m), in N m s/rad and N s/m.
     """
     K = checks.not_negative(checks.array(K, "K", ("m",)), "K")
     Lambda = checks.array(Lambda, "Lambda", (K.shape[-1], K.shape[-1]))
@@ -177,14 +177,14 @@ def impedance_torque(
 
     Args:
         J: site Jacobian, (..., m, n).
-        wrench: (moment; force) in Nm and N, (..., m).
-        bias: Coriolis, centrifugal and gravity torque in Nm, (..., n).
-        damping: of the joints in Nm s/rad, one number or (..., n).
+        wrench: (moment; force) in N m and N, (..., m).
+        bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
+        damping: of the joints in N m s/rad, one number or (..., n).
         qd: measured velocity in rad/s, (..., n).
         tau_null: torque that the hand does not feel, from `null_torque`, (..., n).
 
     Returns:
-        Joint torques in Nm, (..., n).
+        Joint torques in N m, (..., n).
     """
     J = checks.array(J, "J", ("m", "n"))
     m, n = J.shape[-2:]
@@ -222,7 +222,7 @@ def hybrid_wrench(
         force: wanted push along -z in newtons, (...).
 
     Returns:
-        Wrench (moment; force) in Nm and N, (..., 6).
+        Wrench (moment; force) in N m and N, (..., 6).
     """
     V_err, D = checks.array(V_err, "V_err", (6,)), checks.array(D, "D", (6, 6))
     wrench = spring_wrench(checks.array(e, "e", (6,)), V_err, K, D)

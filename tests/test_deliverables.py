@@ -237,6 +237,25 @@ def test_an_answer_may_stand_anywhere_after_its_question(items, day, blank):
     assert "Can you explain? 3, 4, 5: answer below each question" in message
 
 
+@pytest.mark.parametrize(
+    ("cells", "blank"),
+    [
+        ("*(your prediction)* | *(your number)* | *(your reason)*", "3 cells"),
+        ("19 mm | | TODO", "2 cells"),
+        ("19 mm | 20.1 | it also bends", None),
+    ],
+)
+def test_a_prediction_that_nobody_made_is_asked_for(items, day, cells, blank):
+    table = (
+        f"| number | predicted | measured | why apart |\n|---|---|\n| sag | {cells} |"
+    )
+    text = f"{worksheet(day.terms)}\n## Predictions\n\n{table}\n"
+    (day.folder / day.worksheet).write_text(text, "utf-8")
+    item = items()["definitions"]
+    assert item.passed == (blank is None)
+    assert f"Predictions: {blank} still to fill in" in item.message or item.passed
+
+
 def test_the_kits_own_pictures_are_nobodys_drawing(items, day):
     path = day.folder / day.worksheet
     for name in day.kit_figures:

@@ -162,11 +162,12 @@ class TestWhatIsMissing:
         with (day.folder / day.worksheet).open("a") as file:
             file.write("*(your words)*\n\n   *(your answer)*\nnot *(this)* one\n")
             file.write("*(see the photo above)*\n")
+            file.write("| sag | 19 | *(your number)* | *(your reason)* |\n")
         (day.folder / "docs" / "RETRO_w1.md").write_text(DIARY.format("| 1 |") + TWO)
         commit(student)
         assert lacks() == [
             f"{WEEK}/docs/RETRO_w1.md: 1 place still to fill in",
-            f"{WEEK}/docs/day1.md: 2 places still to fill in",
+            f"{WEEK}/docs/day1.md: 4 places still to fill in",
             f"{WEEK}/{day.figure}: not there; day 1 hands it in",
         ]
 

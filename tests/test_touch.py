@@ -77,6 +77,6 @@ def test_the_tip_stands_over_the_table_at_the_wanted_height(gap):
 
 def test_a_held_arm_above_the_table_feels_nothing_and_a_falling_one_does():
     hold = lambda arm, q: lambda t, x, qd: arm.at(x).gravity_torque  # noqa: E731
-    assert_same(contact.press(hold, seconds=0.2, rate=100.0), np.zeros(20))
+    assert_same(contact.press(hold, seconds=0.2, rate=100.0), np.zeros(100))
     fall = lambda arm, q: lambda t, x, qd: np.zeros(7)  # noqa: E731
     assert contact.press(fall, seconds=0.5, rate=100.0).max() > 10.0

@@ -14,9 +14,11 @@ from robo47.paths import ROOT
 # Two parts at least: "/" alone, or "/s" in a unit, is no path.
 _ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
 _LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
-# A line of a template that nobody has replaced.
+# A line of a template that nobody has replaced, or a cell of a table.
 _BLANK = re.compile(
-    r"^\s*(?:\d+\.\s+)?\*\(your (?:words|drawing|answer)\)\*\s*$", re.MULTILINE
+    r"(?:^\s*(?:\d+\.\s+)?|\|\s*)"
+    r"\*\(your (?:words|drawing|answer|prediction|number|reason)\)\*\s*(?:$|(?=\|))",
+    re.MULTILINE,
 )
 
 

@@ -3,6 +3,7 @@
 import re
 
 from labkit.base.text import visible
+from labkit.base.words import count
 from labkit.handin.handin import Handin, image_names, picture_path
 from labkit.handin.item import Item
 from labkit.lesson.day import Day
@@ -93,14 +94,26 @@ def split_sections(text: str) -> dict[str, str]:
 
 
 def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
-    """Check what is written: the definitions, and then the answers."""
+    """Check what is written: the definitions, the answers, and then the predictions."""
     item = _definitions(sections, day.terms, guide, where)
     open_ones = _unanswered(sections.get("can you explain?", ""), day.questions)
-    if not (open_ones and item.passed):
+    blank = _blank_cells(sections.get("predictions", ""))
+    if not item.passed or not (open_ones or blank):
         return item
-    numbers = ", ".join(map(str, open_ones))
-    says = f"All {len(day.terms)} are there. Can you explain? {numbers}: "
-    return Item("definitions", "todo", f"{says}answer below each question, in {where}.")
+    says = f"All {len(day.terms)} are there. "
+    if open_ones:
+        numbers = ", ".join(map(str, open_ones))
+        says += f"Can you explain? {numbers}: answer below each question, in {where}."
+    else:
+        says += f"Predictions: {count(blank, 'cell')} still to fill in, in {where}."
+    return Item("definitions", "todo", says)
+
+
+def _blank_cells(section: str) -> int:
+    """Return how many cells of a table nobody has filled in."""
+    rows = (line.strip() for line in section.splitlines())
+    cells = (c for row in rows if row[:1] == "|" for c in row.strip("|").split("|"))
+    return sum(bool(_PROMPT.fullmatch(cell.strip())) for cell in cells)
 
 
 def _unanswered(section: str, number: int) -> list[int]:

@@ -68,7 +68,7 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     assert_same(M, np.swapaxes(M, 1, 2), 1e-13)
     least = np.linalg.eigvalsh(M).min()
     off = np.abs(M - truth).max()
-    assert f"wrong by {off:.3f} kg m2" in SENTENCES
+    assert f"wrong by {off:.3f} kg m²" in SENTENCES
     assert f"its least eigenvalue is {least:.3f}" in SENTENCES
     assert f"entry of all 100 M ({truth.max():.3f})" in SENTENCES
     assert 5.0 < off / truth.max() < 6.0  # "over five times"
@@ -78,12 +78,17 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     assert f"{least[caught[0]]:.3f} is no mass" in SENTENCES
 
 
-def test_the_mirrored_inertia_is_that_of_turned_over_v():
-    # Why a wrong sign cannot be seen: F G F is congruent to G.
-    G = lab.spatial_inertia(2.0, np.array([0.1, 0.2, 0.3]), np.eye(3))
-    flip = np.diag([1.0, 1, 1, -1, -1, -1])
-    other = lab.spatial_inertia(2.0, -np.array([0.1, 0.2, 0.3]), np.eye(3))
-    assert_same(flip @ G @ flip, other, 1e-15)
+def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
+    now, flip = arm.at(panda.READY_Q), np.diag([1.0, 1, 1, -1, -1, -1])
+    body, R = (arm.masses, arm.coms, arm.inertias), now.T_links[:, :3, :3]
+    wrong = lab.on_purpose(now.T_links, *body)["m [c] with the wrong sign"]
+    own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
+    across = map(lab.spatial_inertia, arm.masses, -now.coms_world, own)
+    assert_same(wrong, list(across), 1e-14)
+    # An arm that is mirrored as a whole, joints and all, has our M.
+    mirrored = lab.mass_matrix(flip @ now.J_space, wrong, arm.armature)
+    assert_same(mirrored, now.M, 1e-14)
+    assert "whose centres of mass sit at $-c$" in SENTENCES
 
 
 def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
@@ -103,7 +108,10 @@ def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
 def test_gravity_at_ready_and_what_the_arm_weighs(arm):
     tau = arm.at(panda.READY_Q).gravity_torque
     assert f"{tau[3]:.3f} N m, of the 87" in SENTENCES
-    assert abs(tau[0]) < 1e-12  # "joint1 holds nothing"
+    assert abs(tau[0]) < 1e-12  # "joint1 holds nothing", since its axis is upright
+    now, tipped = arm.at(panda.READY_Q), 9.81 * np.array([0, np.sin(0.1), -np.cos(0.1)])
+    tau = lab.gravity_torque(now.J_space, arm.masses, now.coms_world, tipped)
+    assert f"0.1 rad to the side, and it holds {abs(tau[0]):.1f} N m" in SENTENCES
     assert f"a {arm.masses.sum():.0f} kg arm" in SENTENCES
 
 
@@ -128,7 +136,40 @@ def test_the_arm_glides_when_it_is_pushed(arm, model):
     pushed = round(0.5 * lab.RATE)
     assert path[pushed, 1] - path[0, 1] > 0.1  # along +y, and on round the base
     assert np.linalg.norm(path[-1] - path[0]) > 0.5
-    assert 0.0 < speed[-1] < 0.1
+    assert f"still does {speed[-1]:.3f} m/s" in SENTENCES
+
+
+def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
+    ends = []
+    for share in (1.0, 0.5, 0.0):
+        model = panda.load("panda_nohand", drive="torque")
+        model.dof_damping[:] *= share
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        ends.append(np.linalg.norm(path[-1] - path[-2]) * lab.RATE)
+    assert ends[1] > 4 * ends[0]
+    assert ends[2] > 3 * ends[1]
+
+
+def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
+    model = panda.load("panda_nohand", drive="torque")
+    q, h = verify.random_q(model, 20, seed=1), model.opt.timestep
+    rng = np.random.default_rng(1)
+    qd, tau = rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape)
+
+    def off(damped):
+        own = []
+        for i, now in enumerate(map(arm.at, q)):
+            M, bias = now.M + damped * np.diag(arm.damping), now.bias(qd[i])
+            qdd = lab.forward_dynamics(M, bias, arm.damping, qd[i], tau[i])
+            own.append(qd[i] + h * qdd)
+        return np.abs(own - verify.mujoco_step(model, q, qd, tau)).max()
+
+    assert off(h) < 1e-12
+    assert f"With $M$ alone the prediction is off by {off(0.0):.3f} rad/s" in SENTENCES
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_EULERDAMP
+    assert off(0.0) < 1e-12  # it brakes with the velocity at the start
+    assert off(h) > 1e-3
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
@@ -163,6 +204,16 @@ def test_mj_rne_leaves_out_armature_and_damping(arm, model):
             now.J_space, now.G, data.qvel, data.qacc, arm.gravity
         )
         assert_same(rne, ours, 1e-11)
+
+
+def test_without_armature_and_damping_the_two_inverses_agree():
+    model = panda.load("panda_nohand", drive="torque")
+    model.dof_armature[:] = model.dof_damping[:] = 0.0
+    data, rne = mujoco.MjData(model), np.zeros(7)
+    data.qpos[:], data.qvel[:], data.qacc[:] = panda.READY_Q, 1.5, 5.0
+    mujoco.mj_inverse(model, data)
+    mujoco.mj_rne(model, data, 1, rne)
+    assert_same(data.qfrc_inverse, rne, 1e-11)
 
 
 def departure(arm, model, torque):

@@ -1,15 +1,18 @@
 """The pictures of Day 6, made with the lab's own functions; drawn by `make figures`.
 
 push    how far a soft hand gives way, for eleven forces, on the predicted line
-press   the force on the table over time: the soft arm, and the stiff one
+press   the force on the table over time: the soft arm, and the stiff one with and
+        without the limits of its motors
 """
 
 import io
 
 import matplotlib
+import mujoco
 import numpy as np
 from day6_task_space import (
     PRESS,
+    RATE,
     READY_Q,
     SINK,
     SITE,
@@ -25,9 +28,9 @@ from PIL import Image
 from robo47 import contact, panda, scenes, simulate
 
 BLUE, RED, INK, RULE = "#1c64f2", "#e03131", "#212529", "#dee2e6"
+STEP = 0.002  # s, of the simulator
 FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
 STIFFNESSES = (400.0, 1000.0)  # N/m
-RATE = 250.0
 
 
 def moved(force: float, k: float) -> float:
@@ -37,20 +40,26 @@ def moved(force: float, k: float) -> float:
     stiffness = np.append(K[:3], np.full(3, k))
     push = simulate.push_at(SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
     law = soft_hand(arm, READY_Q, stiffness=stiffness)
-    run = simulate.run(model, start, law, 3.0, rate=100.0, push=push)
+    run = simulate.run(model, start, law, 3.0, rate=RATE, push=push)
     ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]
     return ends[1] - ends[0]
 
 
-def presses() -> tuple[np.ndarray, np.ndarray]:
-    """Return the force on the table over three seconds, soft and stiff."""
+def presses() -> tuple[np.ndarray, ...]:
+    """Return the force on the table over three seconds: soft, stiff, without limits."""
     depth, start = set_point_for_force(PRESS, K[5], scenes.TOUCH), scenes.TOUCH + 0.01
     soft = contact.press(
         lambda arm, q: soft_hand(arm, q, lambda t: max(depth, start - SINK * t)),
         seconds=3.0,
         rate=RATE,
     )
-    return soft, contact.press(stiff_arm, drive="servo", seconds=3.0, rate=RATE)
+    servos = {"drive": "servo", "seconds": 3.0}
+    stiff = contact.press(stiff_arm, **servos)
+    return soft, stiff, contact.press(stiff_arm, change=_no_limits, **servos)
+
+
+def _no_limits(model: mujoco.MjModel) -> None:
+    model.actuator_forcelimited[:] = 0
 
 
 def push() -> Image.Image:
@@ -70,18 +79,18 @@ def push() -> Image.Image:
 
 
 def press() -> Image.Image:
-    """Return the contact force over time, soft and stiff."""
+    """Return the contact force over time, soft, stiff, and stiff without limits."""
     figure, axes = _axes("Told to go 50 mm into a table", "time (s)")
-    for felt, name, colour in zip(
-        presses(), ("soft, 400 N/m", "stiff servos"), (BLUE, RED), strict=True
-    ):
-        t = np.arange(1, len(felt) + 1) / RATE
+    names = "soft, 400 N/m", "servos, at their limits", "servos without limits"
+    for felt, name, colour in zip(presses(), names, (BLUE, RED, INK), strict=True):
+        t = np.arange(1, len(felt) + 1) * STEP
         axes.plot(t, felt, color=colour, linewidth=3)
         words = f"{name}: {felt[-1]:.0f} N, peak {felt.max():.0f} N"
-        axes.text(1.1, felt[-1] + 8, words, color=colour, fontsize=20)
+        above = felt[round(1.1 / STEP)] + 12
+        axes.text(1.1, above, words, color=colour, fontsize=20)
     axes.axhline(PRESS, color=INK, linestyle="--", linewidth=1.5)
     words = {"s": "20 N: wanted and predicted", "ha": "right", "fontsize": 18}
-    axes.text(3.0, PRESS - 14, color=INK, **words)
+    axes.text(3.0, PRESS - 30, color=INK, **words)
     axes.set_ylabel("force on the table (N)")
     return _to_image(figure)
 

@@ -4,7 +4,7 @@
     python src/day5_control.py     in w1-foundations/, once that is done
 
 e = q_ref - q and ed = qd_ref - qd: a positive error asks for a positive torque.
-Radians, rad/s, Nm, seconds. The model (M, bias) comes from Day 4's library.
+Radians, rad/s, N m, seconds. The model (M, bias) comes from Day 4's library.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -16,11 +16,11 @@ from robo47 import control as library
 from robo47.lesson.lab import Lab
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
-DRIVE = "torque"  # motors, in Nm; "servo" would take the same numbers for angles
+DRIVE = "torque"  # motors, in N m; "servo" would take the same numbers for angles
 INTEGRATOR = "mjINT_IMPLICITFAST"  # the model's; with mjINT_EULER nothing changes here
 RATE = 250.0  # Hz; 500 fits the curve better, 100 misses it, 50: the springs buzz
-OMEGA = 20.0  # rad/s; 5 tracks 7 times worse, above 414 no 2 ms step can follow
-KP, KD = 100.0, 20.0  # Nm/rad, Nm s/rad of the plain springs; kp 1000 sags a tenth
+OMEGA = 20.0  # rad/s; 5 tracks 7 times worse, above 224 RATE is too slow: it breaks
+KP, KD = 100.0, 20.0  # N m/rad, N m s/rad of the plain springs; kp 1000 sags a tenth
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; well above 2 OMEGA^3 the loop swings up
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of the tracking run
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])  # rad, the first error
@@ -30,9 +30,9 @@ Gain = float | np.ndarray  # one number for all joints, or (7,)
 
 
 def pd_torque(e: np.ndarray, ed: np.ndarray, kp: Gain, kd: Gain) -> np.ndarray:
-    """Return the torque of a spring and a damper at every joint, (7,) in Nm.
+    """Return the torque of a spring and a damper at every joint, (7,) in N m.
 
-    An error e of 0.1 rad at kp = 100 gives 10 Nm. A gain is one number or (7,).
+    An error e of 0.1 rad at kp = 100 gives 10 N m. A gain is one number or (7,).
     """
     # region 5.1
     return kp * e + kd * ed
@@ -69,7 +69,7 @@ def error_response(t: np.ndarray, omega: float, zeta: float) -> np.ndarray:
 def sag_step(q_goal: np.ndarray, g_at_q: np.ndarray, kp: Gain) -> np.ndarray:
     """Return where springs alone would rest if gravity's torque stayed g_at_q, (7,).
 
-    With g = 10 Nm and kp = 100 Nm/rad: 0.1 rad below the goal.
+    With g = 10 N m and kp = 100 N m/rad: 0.1 rad below the goal.
     """
     # region 5.4
     return q_goal - g_at_q / kp
@@ -114,16 +114,17 @@ def pid_step(
 
 
 def saturate(tau: np.ndarray, limits: np.ndarray) -> np.ndarray:
-    """Return what the motors can give, (7,). 100 Nm where the limit is 87: 87."""
+    """Return what the motors can give, (7,). 100 N m where the limit is 87: 87."""
     # region 5.8
     return np.clip(tau, -limits, limits)
     # endregion 5.8
 
 
 def fastest(h: float) -> float:
-    """Return the largest omega (zeta = 1) that a time step of h seconds can follow.
+    """Return the largest omega (zeta = 1) for a new torque every h seconds.
 
-    The step is semi-implicit: qd += h qdd, then q += h qd. For 0.002 s: 414.2 rad/s.
+    Between two torques is one semi-implicit step: qd += h qdd, then q += h qd. For
+    0.002 s: 414.2 rad/s.
     """
     # region 5.9
     return 2.0 * (np.sqrt(2.0) - 1.0) / h
@@ -177,12 +178,17 @@ def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     return law
 
 
+def feedforward(arm, q, qd, ref):
+    """Give the model's torque for the reference's acceleration: no springs at all."""
+    now, none = arm.at(q), np.zeros(7)
+    M, bias, damping = now.M, now.bias(qd), arm.damping
+    return computed_torque(M, bias, damping, qd, none, none, ref[2], 0.0, 0.0)
+
+
 def gains_outside(arm, q, qd, ref):
     """Give the public page's torque: the model's, and springs that M does not scale."""
-    now, none, (kp, kd) = arm.at(q), np.zeros(7), gains(OMEGA, 1.0)
-    M, bias, damping = now.M, now.bias(qd), arm.damping
-    model = computed_torque(M, bias, damping, qd, none, none, ref[2], kp, kd)
-    return model + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
+    kp, kd = gains(OMEGA, 1.0)
+    return feedforward(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
 
 
 def with_integral(ki: float = KI, clamp: float = CLAMP, dt: float = 1.0 / RATE):
@@ -250,7 +256,7 @@ def by_value(lab: Lab, model, arm) -> None:
         known = now.M, now.bias(qd[i]), arm.damping, qd[i]
         tau.append(computed_torque(*known, e[i], ed[i], qdd[i], kp, kd))
     truth = verify.mujoco_inverse_dynamics(model, q, qd, qdd + kp * e + kd * ed)
-    lab.check("computed_torque - MuJoCo's mj_inverse, Nm", np.array(tau) - truth)
+    lab.check("computed_torque - MuJoCo's mj_inverse, N m", np.array(tau) - truth)
     print("  the library robo47.control in place of MuJoCo:")
     times, omega = np.tile(np.linspace(0, 0.5, 26), (n, 1)), rng.uniform(2, 30, n)
     zeta, clamp = np.resize([0.3, 0.7, 1.0, 1.5], n), np.resize([0.005, 0.2, 10], n)
@@ -304,6 +310,7 @@ def ladder(lab: Lab, model, arm) -> None:
     for name, law in {
         "springs": springs,
         "springs and gravity": springs_and_gravity,
+        "feedforward, no springs": feedforward,
         "gains outside M": gains_outside,
         "computed torque": equal_springs(),
     }.items():
@@ -337,13 +344,14 @@ def hang(spec) -> None:
     spec.body("attachment").add_body(name="load", **ball)
 
 
-def breaking(model, arm, low: float = 380.0, high: float = 450.0) -> float:
+def breaking(model, arm, rate: float) -> float:
     """Return the omega from which a tiny error grows, found by halving an interval."""
-    step, nudge = model.opt.timestep, READY_Q - 1e-4 * E0
-    while high - low > 0.3:
+    low, high = 0.75 * rate, 1.05 * rate
+    nudge = READY_Q - 1e-8 * E0  # no motor is at its limit before 60 torques
+    while high - low > 0.1:
         omega = (low + high) / 2
         law = equal_springs(omega)
-        log = run(model, arm, law, hold(READY_Q), 60 * step, nudge, 1 / step)
+        log = run(model, arm, law, hold(READY_Q), 60 / rate, nudge, rate)
         e = np.abs(READY_Q - log.q)
         grows = e[-10:].max() > e[20:30].max()
         low, high = (low, omega) if grows else (omega, high)
@@ -352,16 +360,22 @@ def breaking(model, arm, low: float = 380.0, high: float = 450.0) -> float:
 
 def side_quest(lab: Lab, model, arm) -> None:
     """Find the gain at which the loop breaks, and abuse a servo as a motor."""
-    predicted, measured = fastest(model.opt.timestep), breaking(model, arm)
-    say("the loop breaks at omega", predicted, measured, "rad/s")
-    lab.check("largest omega, rad/s", predicted - measured, limit=2.0)
+    h, n = model.opt.timestep, simulate.steps_per_period(model, RATE)
+    for every, predicted, whose in (
+        (1, fastest(h), "largest omega"),
+        (n, library.fastest(h, n), f"the library's, at the day's {RATE:g} Hz"),
+    ):
+        measured = breaking(model, arm, 1 / (every * h))
+        what = f"torque every {1e3 * every * h:g} ms, loop breaks at"
+        say(what, predicted, measured, "rad/s")
+        lab.check(f"{whose}, rad/s", predicted - measured, limit=2.0)
     servos = panda.load("panda_nohand")
     kp, kd = servos.actuator_gainprm[:, 0], -servos.actuator_biasprm[:, 2]
     data = simulate.start(servos, READY_Q, 0.1 * E0)
     tau = np.array([5.0, -20.0, 3.0, 15.0, 1.0, 2.0, -1.0])
     data.ctrl[:] = servo_ctrl(tau, data.qpos, data.qvel, kp, kd)
     mujoco.mj_forward(servos, data)  # the force now; mj_step would move on
-    lab.check("a servo's torque as asked, Nm", data.actuator_force - tau)
+    lab.check("a servo's torque as asked, N m", data.actuator_force - tau)
     law = equal_springs()
 
     def inverted(t, q, qd):
@@ -389,7 +403,7 @@ def main() -> int:
     lab.step("3. Computed torque: seven equal springs, one curve")
     decay(lab, model, arm)  # from 0.1 rad off, at rest, in every joint
 
-    lab.step("4. Five controllers follow a swing of all joints, largest error")
+    lab.step("4. Six controllers follow a swing of all joints, largest error")
     ladder(lab, model, arm)  # the more the model does, the less is left to the springs
 
     lab.step("5. 1 kg nobody told the model about")

@@ -29,12 +29,12 @@ SITE = "attachment_site"
 TRIALS = 50  # random states that your own code is judged on
 SEED = 47
 SIGMA = 0.05  # least singular value of J: at 0, a singularity, Lambda is infinite
-# Nm/rad and N/m. With 40 N/m the 10 N below are 250 mm, with 4,000 they are 2.5.
+# N m/rad and N/m. With 40 N/m the 10 N below are 250 mm, with 4,000 they are 2.5.
 K = np.array([30.0, 30.0, 30.0, 400.0, 400.0, 400.0])
-PUSH = np.array([0.0, 0.0, 1.0, 10.0, 0.0, 0.0])  # Nm about z, N along x
+PUSH = np.array([0.0, 0.0, 1.0, 10.0, 0.0, 0.0])  # N m about z, N along x
 NONE = np.zeros(6)
 PRESS, SINK = 20.0, 0.1  # N, wanted on the table; m/s: the faster, the higher the peak
-ELBOW = (10.0, 4.0)  # Nm/rad and Nm s/rad that hold the elbow back; 0 lets it drift
+ELBOW = (10.0, 4.0)  # N m/rad and N m s/rad that hold the elbow back; 0 lets it drift
 RATE = 100.0  # Hz, of what comes to rest; the circle is drawn at 250
 OMEGA = 20.0  # rad/s, back to the circle: 10 nearly doubles the error, 40 halves it
 RADIUS, TURN = 0.12, 2.0  # m; s for a turn
@@ -303,7 +303,7 @@ def main() -> int:
     run = simulate.run(model, start, law, 3.0, rate=RATE, push=push)
     T = arm.at(run.q[-1]).T_world_ee
     moved, predicted = jacobian.pose_error(ready.T_world_ee, T), PUSH / K
-    lab.show("pushed with 10 N and 1 Nm; predicted, rad and m", predicted)
+    lab.show("pushed with 10 N and 1 N m; predicted, rad and m", predicted)
     lab.show("where the hand came to rest", moved)
     lab.record("push_predicted", moved - predicted, label="largest difference")
 
@@ -314,7 +314,8 @@ def main() -> int:
     lab.show("height to command, m; the tip touches at 0.42", depth, 3)
     sink = lambda t: max(depth, start - SINK * t)  # noqa: E731
     soft = contact.press(lambda arm, q: soft_hand(arm, q, sink), rate=RATE)
-    # The file's own servos, told to go 50 mm into the table, know of no force.
+    # The file's own servos, told to go 50 mm into the table, know of no force. Two of
+    # their motors end at their limits; give press a `change` that takes these away.
     stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
     for name, felt in (("soft", soft), ("stiff", stiff)):
         print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
