@@ -36,6 +36,7 @@ def test_it_has_a_line_on_everything_and_no_traceback(run):
         "MuJoCo",
         "robot",
         "lessons",
+        "wall",
         "pictures",
         "display",
         "disk",

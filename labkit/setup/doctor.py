@@ -25,6 +25,7 @@ from labkit.setup.probes import (
     ROBOT_PROBE,
     ROOT,
     VERSIONS_PROBE,
+    WALL_PROBE,
     probe,
 )
 
@@ -153,6 +154,16 @@ def check_gl(python: str) -> Line:
     return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
 
 
+def check_wall(python: str) -> Line:
+    """What keeps student code from this machine, which counts for who grades."""
+    found, why = probe(python, WALL_PROBE)
+    if found is None:
+        return Line("note", "wall", why.split("Error: ")[-1])
+    name, says = found
+    remedy = "" if name == "bubblewrap" else "docs/teaching.md says what that means."
+    return Line("good" if name != "none" else "note", "wall", says, remedy)
+
+
 def check_display() -> Line:
     """Whether a window can open."""
     if not sys.platform.startswith("linux"):
@@ -204,7 +215,7 @@ def examine() -> list[Line]:
     python = kit_python()
     checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
     if check_python(python).status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_lessons, check_gl)
+        inside = (check_mujoco, check_robot, check_lessons, check_wall, check_gl)
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []
