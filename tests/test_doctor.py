@@ -147,7 +147,7 @@ def test_a_lab_script_that_is_not_the_kits_is_told(answers):
 def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
-    assert len(lines) == 9
+    assert len(lines) == 10
     assert "ZeroDivisionError" in lines[7].found
 
 

@@ -177,7 +177,8 @@ def run(
             processes.limit_files(process, largest)
             process.communicate(say.encode(), timeout=seconds)
         except subprocess.TimeoutExpired:
-            starved = processes.scheduled(process)[1] > seconds / 2
+            ran, waited = processes.scheduled(process)
+            starved = waited > seconds / 2 and ran < (seconds - waited) / 2
             kind = GitError if starved else _SlowError
             raise kind(f"git took more than {seconds:.0f} s") from None
         finally:

@@ -151,7 +151,7 @@ def _finished(
                 f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded "
                 "is kept: start workers and run the same command again"
             )
-    for future in list(under_way) if not done else done:
+    for future in done or list(under_way):
         key, package = under_way.pop(future)
         if not future.done():
             future.cancel()

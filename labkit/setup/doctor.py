@@ -34,6 +34,11 @@ VENV_PYTHON = (
 )
 OLDEST = (3, 11)
 LEAST_FREE_GB = 1
+_STRENGTH = {
+    "bubblewrap": "bubblewrap, strong: student code sees no file of yours",
+    "landlock": "Landlock, good: opens no file of yours, but sees names, sizes",
+    "none": "none: student code runs with your rights",
+}
 
 
 class Line(NamedTuple):
@@ -159,9 +164,7 @@ def check_wall(python: str) -> Line:
     found, why = probe(python, WALL_PROBE)
     if found is None:
         return Line("note", "wall", why.split("Error: ")[-1])
-    name, says = found
-    remedy = "" if name == "bubblewrap" else "docs/teaching.md says what that means."
-    return Line("good" if name != "none" else "note", "wall", says, remedy)
+    return Line("note" if found == "none" else "good", "wall", _STRENGTH[found])
 
 
 def check_display() -> Line:

@@ -58,7 +58,7 @@ print(json.dumps({"days": len(days), "others": others}))
 WALL_PROBE = """
 import json
 from labkit.sandbox.wall import wall
-print(json.dumps([wall().name, wall().says]))
+print(json.dumps(wall().name))
 """
 GL_PROBE = """
 import json
