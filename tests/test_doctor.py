@@ -148,7 +148,7 @@ def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
     assert len(lines) == 10
-    assert "ZeroDivisionError" in lines[7].found
+    assert "ZeroDivisionError" in lines[8].found
 
 
 @pytest.mark.parametrize(
