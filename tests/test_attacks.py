@@ -205,6 +205,16 @@ class TestAnAttack:
         wrong = wrong.replace("READY_Q =", f"{patch}\nREADY_Q =", 1)
         assert check(wrong)["1.1"].status == "wrong"
 
+    def test_that_hides_a_complaint_hides_no_wrong_number(self, check):
+        """What the sandbox says of itself is advice; numbers are judged outside."""
+        hide = "import sys\n    it = sys._getframe()\n"
+        hide += "    while '_differs' not in it.f_globals: it = it.f_back\n"
+        hide += "    it.f_globals['_differs'] = lambda *a: False\n    t += 1"
+        hidden = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = t - 1", 1)
+        assert check(hidden)["1.1"].status == "passed"
+        wrong = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
+        assert check(wrong)["1.1"].status == "wrong"
+
     @pytest.mark.parametrize(
         "line",
         [
