@@ -12,6 +12,7 @@ import time
 import pytest
 
 from labkit.base.exchange import Question
+from labkit.check.tasks import check_tasks
 from labkit.lesson.day import all_days, find_day
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.library import library_of
@@ -204,6 +205,16 @@ class TestAnAttack:
         wrong = wrong.replace("READY_Q =", f"{patch}\nREADY_Q =", 1)
         assert check(wrong)["1.1"].status == "wrong"
 
+    def test_that_hides_a_complaint_hides_no_wrong_number(self, check):
+        """What the sandbox says of itself is advice; numbers are judged outside."""
+        hide = "import sys\n    it = sys._getframe()\n"
+        hide += "    while '_differs' not in it.f_globals: it = it.f_back\n"
+        hide += "    it.f_globals['_differs'] = lambda *a: False\n    t += 1"
+        hidden = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = t - 1", 1)
+        assert check(hidden)["1.1"].status == "passed"
+        wrong = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
+        assert check(wrong)["1.1"].status == "wrong"
+
     @pytest.mark.parametrize(
         "line",
         [
@@ -352,6 +363,33 @@ class TestAnAttack:
         assert not mark.exists()
 
 
+class TestHugeNumbers:
+    """Finite, and no linear algebra survives them."""
+
+    @pytest.mark.parametrize(
+        ("number", "name"),
+        [(4, "mass_matrix"), (6, "task_inertia"), (6, "critical_damping")],
+    )
+    @pytest.mark.parametrize("size", ["1e308", "-1e200", "1e40"])
+    def test_are_named_and_stop_nobody(self, student, number, name, size):
+        day = find_day(number)
+        wraps = f"def {name}(*a, it={name}): return np.full(np.shape(it(*a)), {size})"
+        code = day.source.read_text("utf-8").replace(
+            'if __name__ == "__main__":', f'{wraps}\n\nif __name__ == "__main__":'
+        )
+        (task,) = (t for t in day.tasks if name in t.functions)
+        with sandbox.Sandbox() as box:
+            (found,) = check_tasks(day, student(code, day.script), box, task.id, seed=1)
+        assert found.verdict.mistake == "huge-numbers"
+        says = f"It returns numbers as large as {abs(float(size)):.0e}; nothing here"
+        assert says in found.verdict.message
+
+    @pytest.mark.parametrize("coding", ["rot13", "hex", "undefined", "klingon"])
+    def test_and_codings_that_no_text_has_are_said_in_a_line(self, check, coding):
+        verdicts = check(f"# coding: {coding}\n{REFERENCE}")
+        assert {verdict.mistake for verdict in verdicts.values()} == {"does-not-load"}
+
+
 class TestAForgedMessage:
     """Code that finds the channel and its secret can say anything about itself."""
 
@@ -360,6 +398,7 @@ class TestAForgedMessage:
         import os
         import sys
         import time
+        ONE = '{"dtype": "i1", "shape": [1], "data": "AA=="}'
         def find():
             frame = sys._getframe()
             while "channel" not in frame.f_locals:
@@ -389,6 +428,9 @@ class TestAForgedMessage:
             '"shape": {}, "data": 5}}}\')',
             "send('{\"at\": 0, \"line\": 1' + '0' * 5000 + '}')",
             "find()[0].write(b'x' * 30_000_000); find()[0].flush()",
+            'send(\'{"at": 0, "value": {"tuple": [\' + \', \'.join([ONE] * 200) + '
+            "']}}')",
+            "send('{\"at\": 0, \"x\": [' + '[], ' * 1_000_000 + '0]}')",
             "send('{\"at\": 0}', times=100_000)",
             "send(json.dumps({'loaded': True}), times=100_000)",
             "find()[0].close(); time.sleep(60)",
@@ -403,6 +445,13 @@ class TestAForgedMessage:
         assert odd.value is None
         # Where the first is taken for an answer, the real one is one message too many.
         assert fine.kind == "stopped" or fine.value == fine.again == 47
+
+    def test_of_any_size_is_no_more_than_so_much_for_all_questions(self, ask):
+        """Replies wait unread until there is room, and all together are bounded."""
+        code = "import numpy as np\ndef f(): return np.ones(100_000)"
+        replies = ask(code, *[Question("1.1", "f", ())] * 60)
+        assert replies[-1].error == "its answers are far too large, all together"
+        assert process.MOST_WAITING * process.LONGEST_LINE < 50_000_000
 
     def test_while_the_file_is_loaded_does_not_make_the_checker_wait(self, ask):
         code = (

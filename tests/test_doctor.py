@@ -36,6 +36,7 @@ def test_it_has_a_line_on_everything_and_no_traceback(run):
         "MuJoCo",
         "robot",
         "lessons",
+        "wall",
         "pictures",
         "display",
         "disk",
@@ -146,8 +147,8 @@ def test_a_lab_script_that_is_not_the_kits_is_told(answers):
 def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
-    assert len(lines) == 9
-    assert "ZeroDivisionError" in lines[7].found
+    assert len(lines) == 10
+    assert "ZeroDivisionError" in lines[8].found
 
 
 @pytest.mark.parametrize(

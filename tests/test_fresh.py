@@ -4,11 +4,14 @@ import os
 import re
 import shutil
 import subprocess
+import sys
+import tempfile
 from dataclasses import replace
 
 import pytest
 
 from conftest import ROOT, need
+from labkit.commands import fresh as command
 from labkit.fresh import clone as cloning
 from labkit.fresh.compare import faults, same
 from labkit.fresh.missing import findings
@@ -263,3 +266,17 @@ class TestTheCommand:
         done = run_in(FRESH)
         assert done.returncode == 2
         assert done.stderr.startswith("error: git rev-parse: ")
+
+
+@pytest.mark.kit
+def test_what_a_killed_run_left_behind_the_next_one_removes(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(sys, "argv", ["fresh.py"])
+    monkeypatch.setattr(command, "head_of", lambda: "0" * 40)
+    left, at_work = (tmp_path / f"robo47-fresh-{name}" for name in ("a", "b"))
+    for folder in (left, at_work):
+        (folder / "clone").mkdir(parents=True)
+    os.utime(left, (1_000_000_000, 1_000_000_000))
+    with pytest.raises(Robo47Error):
+        command.main()
+    assert list(tmp_path.iterdir()) == [at_work]

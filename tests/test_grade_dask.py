@@ -1,16 +1,17 @@
-"""A class on a Dask cluster of this machine: a scheduler, two workers, one killed."""
+"""A class on a Dask cluster of this machine, over TLS: two workers, one killed."""
 
 import contextlib
 import importlib.util
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
 
 import pytest
-from make_class import KINDS, make_class
+from make_class import make_class
 from test_grade_class import SCRIPT, grade, journalled, outputs, rows
 
 from conftest import need
@@ -21,7 +22,32 @@ DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
 
 
 @pytest.fixture
-def cluster(tmp_path):
+def certificates(tmp_path, monkeypatch):
+    """Make certificates as docs/cluster.md does, and tell Dask in the environment."""
+    need(shutil.which("openssl") is not None, "openssl")
+    ca, own = "-keyout ca.key -out ca.pem", "-keyout class.key -out class.csr"
+    sign = "-in class.csr -CA ca.pem -CAkey ca.key -CAcreateserial -out class.pem"
+    for command in (
+        f"req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=class-ca {ca}",
+        f"req -newkey rsa:2048 -nodes -subj /CN=class {own}",
+        f"x509 -req -days 2 {sign}",
+    ):
+        done = subprocess.run(
+            ["openssl", *command.split()],
+            cwd=tmp_path,
+            capture_output=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+    prefix = "DASK_DISTRIBUTED__COMM__TLS"
+    monkeypatch.setenv(f"{prefix}__CA_FILE", str(tmp_path / "ca.pem"))
+    for role in ("CLIENT", "SCHEDULER", "WORKER"):
+        monkeypatch.setenv(f"{prefix}__{role}__CERT", str(tmp_path / "class.pem"))
+        monkeypatch.setenv(f"{prefix}__{role}__KEY", str(tmp_path / "class.key"))
+
+
+@pytest.fixture
+def cluster(tmp_path, certificates):
     """Start a scheduler and two workers on loopback; return its address and them."""
     need(importlib.util.find_spec("distributed") is not None, "the extra grade: Dask")
     with contextlib.ExitStack() as ends:
@@ -36,9 +62,11 @@ def cluster(tmp_path):
             return process
 
         found = tmp_path / "scheduler.json"
-        start("scheduler", "--port", "0", "--scheduler-file", str(found))
+        tls = ("--protocol", "tls", "--port", "0", "--scheduler-file", str(found))
+        start("scheduler", *tls)
         wait_for(lambda: found.exists() and found.read_text().rstrip().endswith("}"))
         address = json.loads(found.read_text())["address"]
+        assert address.startswith("tls://")
         workers = []
         for i in range(2):
             own = tmp_path / f"worker{i}"
@@ -77,7 +105,7 @@ def grade_and_kill_one(clones, out, address, worker, number):
 
 @pytest.mark.parametrize(
     ("students", "killed_at"),
-    [(len(KINDS), 3), pytest.param(200, 60, marks=pytest.mark.soak)],
+    [(40, 3), pytest.param(200, 60, marks=pytest.mark.soak)],
 )
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     tmp_path, run, cluster, students, killed_at
@@ -92,6 +120,17 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     assert outputs(there) == outputs(here)
     assert len(rows(there)) == students
     assert max(n for folder, n in journalled(there).items() if folder) == 1
+
+
+def test_who_has_no_certificate_reaches_nobody(tmp_path, run, cluster, monkeypatch):
+    address, _ = cluster
+    make_class(tmp_path / "clones", 1)
+    for name in [n for n in os.environ if n.startswith("DASK_DISTRIBUTED__COMM__TLS")]:
+        monkeypatch.delenv(name)
+    for asked in (address, address.replace("tls:", "tcp:")):
+        done = grade(run, tmp_path / "clones", tmp_path, "--dask", asked)
+        assert done.returncode == 2
+        assert "certificates" in done.stderr or "no Dask scheduler" in done.stderr
 
 
 def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(tmp_path, run):

@@ -26,11 +26,12 @@ from make_class import (
 )
 
 from labkit.base import git
+from labkit.base.processes import sweep
 from labkit.check.tasks import TaskResult
 from labkit.grade import charts, child, classroom, engine, overview, people, similar
 from labkit.grade import grader as graders
 from labkit.grade.child import _tidy
-from labkit.grade.grader import Grader, grade_behind_wall, grade_package, sweep
+from labkit.grade.grader import Grader, grade_behind_wall, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
@@ -232,7 +233,7 @@ class TestTheGrader:
             (folder / "x.py").write_text("")
         for folder in (old, other):
             os.utime(folder, (1_000_000_000, 1_000_000_000))
-        sweep()
+        sweep(graders.FOLDER, graders.LEFT_BEHIND)
         assert [old.exists(), new.exists(), other.exists()] == [False, True, True]
 
     def test_shows_what_was_refused_though_the_code_caught_it(self):
@@ -270,16 +271,25 @@ class TestTheGrader:
         assert not (tmp_path / "own").exists()
 
 
+class Liar:
+    """What a worker may send: it unpickles, and is no result."""
+
+    def to_json(self):
+        return {"tasks": [{"id": "1.1", "status": "splendid"}], "items": []}
+
+
 class Stubborn(Executor):
     """An executor whose work is never done, or always lost."""
 
-    def __init__(self, error: Exception | None = None) -> None:
-        self.error = error
+    def __init__(self, error: Exception | None = None, answer: object = None) -> None:
+        self.error, self.answer = error, answer
 
     def submit(self, *_, **__):
         future = Future()
         if self.error:
             future.set_exception(self.error)
+        if self.answer is not None:
+            future.set_result(self.answer)
         return future
 
 
@@ -298,6 +308,22 @@ class TestTheEngine:
             found = list(engine.grade_all(self.PACKAGES, lossy))
             assert sorted(key for key, _, _ in found) == [(1, "ana"), (1, "béa")]
             assert all(isinstance(result, FaultError) for _, _, result in found)
+
+    @pytest.mark.parametrize("answer", [Liar(), "PASSED", b"", {"tasks": []}, 47])
+    def test_believes_no_worker_that_lies(self, answer):
+        lying = engine.Engine(Stubborn(answer=answer), lambda: 1)
+        found = list(engine.grade_all(self.PACKAGES, lying))
+        assert len(found) == 2
+        for _, _, result in found:
+            assert "is no result of the day" in str(result)
+
+    def test_waits_for_no_worker_for_ever(self, monkeypatch):
+        monkeypatch.setattr(engine, "PATIENCE", 0.01)
+        monkeypatch.setattr(engine, "SILENCE", 0.05)
+        deaf = engine.Engine(Stubborn(), lambda: 1)
+        found = list(engine.grade_all(self.PACKAGES, deaf))
+        assert sorted(key for key, _, _ in found) == [(1, "ana"), (1, "béa")]
+        assert all("no answer for" in str(result) for _, _, result in found)
 
     def test_takes_packages_only_as_there_is_room(self):
         taken = []
@@ -436,6 +462,10 @@ class TestNames:
         (tmp_path / "roster.csv").write_text("folder\na\0b\n")
         (one,) = find_students(tmp_path)
         assert "is no name of a folder" in one.problem
+        (tmp_path / "roster.csv").write_text(f"folder\n{'x' * 300}\nana\n")
+        long, ana = find_students(tmp_path)
+        assert "no name of a folder here" in long.problem
+        assert (ana.problem, collect(long, DAY).problem) == ("", long.problem)
 
 
 class TestPulling:
@@ -458,6 +488,63 @@ class TestPulling:
         subprocess.run(["git", "clone", "-q", class_.url, class_.path], check=True)
         ((_, problem),) = pull_all([class_])
         assert "make grade did not clone it" in problem
+
+    @pytest.mark.parametrize("at", ["_mark", "_write"])
+    def test_goes_on_where_a_run_was_killed(self, class_, at):
+        code = (
+            "import os, sys\n"
+            "from pathlib import Path\n"
+            "from labkit.grade import pull\n"
+            "from labkit.grade.roster import Student\n"
+            f"pull.{at} = lambda *_: os._exit(9)\n"
+            "list(pull.pull_all([Student('A', 'a', Path(sys.argv[1]), sys.argv[2])]))\n"
+        )
+        command = [sys.executable, "-c", code, str(class_.path), class_.url]
+        assert subprocess.run(command, cwd=ROOT, check=False).returncode == 9
+        assert list(pull_all([class_])) == [(class_, "")]
+        assert (class_.path / ".git" / "HEAD").is_file()
+        assert [p.name for p in class_.path.parent.iterdir() if p != class_.path] == [
+            OURS
+        ]
+
+    def test_goes_on_where_a_run_was_killed_amid_an_update(self, class_):
+        list(pull_all([class_]))
+        (Path(class_.url) / "new.txt").write_text("new")
+        (Path(class_.url) / "later.txt").write_text("later")
+        commit(Path(class_.url), 1_788_000_100)
+        (class_.path / "new.txt").write_text("half")
+        (class_.path / ".git" / "index.lock").touch()
+        assert list(pull_all([class_])) == [(class_, "")]
+        assert (class_.path / "new.txt").read_text() == "new"
+        assert (class_.path / "later.txt").read_text() == "later"
+
+    @pytest.mark.parametrize("what", ["one blob 60 times", "a tree of trees"])
+    @pytest.mark.parametrize("first", [True, False])
+    def test_checks_out_no_small_repository_that_grows(self, class_, what, first):
+        origin = Path(class_.url)
+        if not first:
+            list(pull_all([class_]))
+
+        def made(*command, given=b""):
+            command = ["git", "-c", "user.name=A", "-c", "user.email=a@b", *command]
+            done = subprocess.run(
+                command, input=given, capture_output=True, cwd=origin, check=True
+            )
+            return done.stdout.strip().decode()
+
+        blob = made("hash-object", "-w", "--stdin", given=bytes(4_000_000))
+        names = range(60) if first or what == "a tree of trees" else range(51)
+        entries = [f"100644 blob {blob}\t{i}\n" for i in names]
+        tree = made("mktree", given="".join(entries).encode())
+        for _ in range(5 if what == "a tree of trees" else 0):
+            entries = [f"040000 tree {tree}\t{i}\n" for i in range(60)]
+            tree = made("mktree", given="".join(entries).encode())
+        parent = made("rev-parse", "HEAD")
+        made("update-ref", "HEAD", made("commit-tree", "-m", "x", "-p", parent, tree))
+        ((_, problem),) = pull_all([class_])
+        assert "the last commit is too large to check out" in problem
+        assert class_.path.exists() is not first
+        assert not [p for p in class_.path.parent.rglob("*") if p.name == "50"]
 
     @pytest.mark.parametrize("how", ["commondir", "config", "link", "elsewhere"])
     def test_pulls_nothing_whose_configuration_is_anothers(self, class_, how, tmp_path):
@@ -488,11 +575,46 @@ class TestPulling:
 
 class TestHistory:
     @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-    @pytest.mark.parametrize("name", ["HEAD", "config", "packed-refs"])
-    def test_does_not_wait_at_a_pipe(self, tmp_path, name):
+    @pytest.mark.parametrize(
+        "name",
+        [
+            *("HEAD", "config", "packed-refs", "shallow", "info/grafts"),
+            *("refs/heads/main", "config.worktree", "objects/info/alternates"),
+            *("objects/info/commit-graph", "objects/pack/multi-pack-index"),
+            *("objects/pack/pack-1.idx", "any/thing/else"),
+        ],
+    )
+    def test_does_not_wait_at_a_pipe(self, tmp_path, name, monkeypatch):
+        monkeypatch.setattr(git, "run", lambda *_, **__: pytest.fail("git was asked"))
         commit(tmp_path, 1_788_000_000)
-        (tmp_path / ".git" / name).unlink(missing_ok=True)
-        os.mkfifo(tmp_path / ".git" / name)
+        path = tmp_path / ".git" / name
+        path.unlink(missing_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        os.mkfifo(path)
+        assert not git.read_history(tmp_path, [SCRIPT]).readable
+
+    @pytest.mark.parametrize(
+        "name", ["commondir", "objects/info/alternates", "config", "config.worktree"]
+    )
+    def test_follows_nothing_that_leads_out_of_the_repository(self, tmp_path, name):
+        commit(tmp_path, 1_788_000_000)
+        path = tmp_path / ".git" / name
+        path.parent.mkdir(exist_ok=True)
+        out = "[core] [INCLUDE] path = /pipe" if "config" in name else "/elsewhere"
+        with path.open("a") as file:
+            file.write(f"\n{out}\n")
+        assert not git.read_history(tmp_path, [SCRIPT]).readable
+
+    @pytest.mark.parametrize("what", ["a file of a terabyte", "100,000 files"])
+    def test_reads_nothing_of_a_repository_beyond_all_measure(self, tmp_path, what):
+        commit(tmp_path, 1_788_000_000)
+        if what == "100,000 files":
+            (tmp_path / ".git" / "x").mkdir()
+            for i in range(git.MOST_ENTRIES):
+                (tmp_path / ".git" / "x" / str(i)).touch()
+        else:  # which takes no place on the disk
+            with (tmp_path / ".git" / "packed-refs").open("wb") as file:
+                file.truncate(10**12)
         assert not git.read_history(tmp_path, [SCRIPT]).readable
 
     @pytest.mark.parametrize("when", ["99999999999999999999", "-1", "soon"])

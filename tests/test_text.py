@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from labkit.base import html
 from labkit.base.text import visible, visible_lines
 
 
@@ -40,3 +41,11 @@ class TestVisible:
     def test_keeps_lines_apart_where_it_may(self):
         assert visible_lines("one\n\x1b[31mtwo\r\nthree") == "one\n[31mtwo\nthree"
         assert len(visible_lines("x\n" * 10**6, lines=3)) == 5
+
+
+def test_no_page_holds_what_a_reader_would_obey_and_not_see():
+    odd = "\x00\x07\x1b\x7f\x85\u202e\u2066\ud800 \u2028"
+    whole = html.page("title", f"about{odd}", f"<p>a{odd}b</p>\nnext")
+    assert not set(odd) - {" "} & set(whole)
+    assert "<p>a          b</p>\nnext" in whole
+    whole.encode("utf-8")

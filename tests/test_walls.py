@@ -161,6 +161,24 @@ ATTACKS = {
     "watch a folder": """
         fd = libc('inotify_init1', 0)
         libc('inotify_add_watch', fd or 0, {folder!r}.encode(), 4095)""",
+    "make everybody wait at a file": """
+        import fcntl
+        import numpy
+        held = os.open(numpy.__file__, os.O_RDONLY)
+        fcntl.fcntl(held, 1024, 0)  # F_SETLEASE, F_RDLCK: now no one may write
+        fcntl.fcntl(held, 1024, 2)""",
+    "lock a file": """
+        import fcntl
+        import numpy
+        fcntl.flock(os.open(numpy.__file__, os.O_RDONLY), fcntl.LOCK_SH)""",
+    "take the system's slots": """
+        import ctypes, platform
+        number = 206 if platform.machine() == 'x86_64' else 0  # io_setup
+        libc('syscall', number, 60_000, ctypes.byref(ctypes.c_ulong()))""",
+    "take the kernel's timers": """
+        import ctypes, platform
+        number = 222 if platform.machine() == 'x86_64' else 107
+        libc('syscall', number, 1, None, ctypes.byref(ctypes.c_int()))""",
     "outlive the checker": "libc('prctl', 1, 0, 0, 0, 0)",
     "raise its limits": """
         import resource

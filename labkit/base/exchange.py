@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 MOST = 10  # entries of any list in a reply
+CHANNEL = "it wrote into the checker's own channel"
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,15 @@ class LoadError(Exception):
         """Keep the reply."""
         super().__init__(reply.error)
         self.reply = reply
+
+
+class EndedError(Exception):
+    """The sandbox's process came to an end, or had to; `reply` says why."""
+
+    def __init__(self, why: str) -> None:
+        """Keep the reply that says so."""
+        super().__init__(why)
+        self.reply = stopped(why)
 
 
 def twice(first: Reply, second: Reply) -> Reply:

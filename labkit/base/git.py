@@ -3,32 +3,42 @@
 A clone that was handed in as an archive brings its own `.git/config`, which can name
 programs to run. So only commands that read objects are used: no index, no filter, no
 hook, no pager, no fetch. Whether a file is committed as it is follows from its hash.
+
+What a foreign repository may hold is decided here, before git looks at it: files and
+folders alone, so many, so large, none that leads elsewhere; and how much a commit may
+write when it is checked out. Git has its time; what takes longer is the repository's
+fault.
 """
 
 import hashlib
 import os
 import stat
 import subprocess
+import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import IO
 
 from labkit.base import processes
 
 SECONDS = 20.0
 SHA = 7  # letters, as `git rev-parse --short` prints for a repository of this size
 LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can claim more
+MOST_ENTRIES, LARGEST_GIT = 50_000, 1_000_000_000  # of a git folder: files, bytes
+MOST_FILES, LARGEST_TREE = 10_000, 200_000_000  # of a commit; the kit: 1,400, 6 MB
+LARGEST_OUTPUT = 20_000_000  # bytes that git may say
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
 YEAR_2100 = 4_102_444_800
-_READ = ("HEAD", "config", "packed-refs")  # git would wait for ever at a pipe
+_ELSEWHERE = ("commondir", "objects/info/alternates")  # where more objects are
 
 
 class GitError(Exception):
     """Git is not there, or did not answer in time: the machine's fault."""
 
 
-class _BusyError(GitError):
-    """Git worked all the time that it had: the repository's fault."""
+class _SlowError(GitError):
+    """Git had its time and did not wait for a processor: the repository's fault."""
 
 
 @dataclass(frozen=True)
@@ -105,8 +115,35 @@ def short_sha(folder: Path) -> str:
         return ""
 
 
+def too_much(folder: Path, commit: str) -> str:
+    """Return why a commit of our own clone is not to be checked out; "" where it is.
+
+    Args:
+        folder: the clone.
+        commit: its name; one that is not there yet writes nothing.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    where = {"folder": folder, "seconds": SECONDS, "GIT_NO_REPLACE_OBJECTS": "1"}
+    if run("rev-parse", "-q", "--verify", commit, **where).returncode:  # type: ignore
+        return ""
+    listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)  # type: ignore
+    sizes = [entry.split(None, 4)[3] for entry in listed.stdout.split("\0")[:-1]]
+    size = sum(int(one) for one in sizes if one.isdecimal())
+    if listed.returncode or len(sizes) > MOST_FILES or size > LARGEST_TREE:
+        most = f"{MOST_FILES:,} files, {LARGEST_TREE // 1_000_000} MB"
+        return f"the last commit is too large to check out (at most {most})"
+    return ""
+
+
 def run(
-    *arguments: str, folder: Path, seconds: float, say: str = "", **more: str
+    *arguments: str,
+    folder: Path,
+    seconds: float,
+    say: str = "",
+    largest: int = LARGEST_OUTPUT,
+    **more: str,
 ) -> subprocess.CompletedProcess[str]:
     """Run git and return what became of it; all that it started ends with it.
 
@@ -115,39 +152,48 @@ def run(
         folder: where.
         seconds: the limit.
         say: its standard input.
+        largest: bytes of a file that it writes, and of what it says (Linux).
         more: variables of its environment.
 
     Raises:
         GitError: git is not there, or took longer.
     """
     command = ["git", "--no-pager", *arguments]
-    try:
-        process = subprocess.Popen(
-            command,
-            cwd=folder,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env=_environment(**more),
-            **processes.start_options(),  # type: ignore[call-overload]
-        )
-    except OSError as error:
-        raise GitError(f"git cannot be run: {error.strerror}; install git") from None
-    try:
-        out, err = process.communicate(say.encode(), timeout=seconds)
-    except subprocess.TimeoutExpired:
-        ran, waited = processes.scheduled(process)
-        busy = ran > (seconds - waited) / 2
-        kind = _BusyError if busy else GitError
-        raise kind(f"git took more than {seconds:.0f} s") from None
-    finally:
-        processes.end(process)
-        for stream in (process.stdin, process.stdout, process.stderr):
-            stream.close()
-    if processes.was_killed(process):
-        raise GitError("git was killed")
-    texts = (data.decode("utf-8", "replace") for data in (out, err))
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        try:
+            process = subprocess.Popen(
+                command,
+                cwd=folder,
+                stdin=subprocess.PIPE,
+                stdout=out,
+                stderr=err,
+                env=_environment(**more),
+                **processes.start_options(),  # type: ignore[call-overload]
+            )
+        except OSError as error:
+            says = f"git cannot be run: {error.strerror}; install git"
+            raise GitError(says) from None
+        try:
+            processes.limit_files(process, largest)
+            process.communicate(say.encode(), timeout=seconds)
+        except subprocess.TimeoutExpired:
+            ran, waited = processes.scheduled(process)
+            starved = waited > seconds / 2 and ran < (seconds - waited) / 2
+            kind = GitError if starved else _SlowError
+            raise kind(f"git took more than {seconds:.0f} s") from None
+        finally:
+            processes.end(process)
+            process.stdin.close()
+        if processes.was_killed(process):
+            raise GitError("git was killed")
+        texts = [_read(file) for file in (out, err)]
     return subprocess.CompletedProcess(command, process.returncode, *texts)
+
+
+def _read(file: IO[bytes]) -> str:
+    """Return what git wrote into a file, up to a point."""
+    file.seek(0)
+    return file.read(LARGEST_OUTPUT).decode("utf-8", "replace")
 
 
 def _repository(clone: Path, own: bool) -> Path | None:
@@ -156,12 +202,34 @@ def _repository(clone: Path, own: bool) -> Path | None:
     try:
         if own:
             return git.absolute() if git.exists() else None
-        if not stat.S_ISDIR(git.lstat().st_mode) or (git / "commondir").exists():
-            return None
-        modes = [(git / n).lstat().st_mode for n in _READ if os.path.lexists(git / n)]
-        return git.absolute() if all(map(stat.S_ISREG, modes)) else None
+        plain = stat.S_ISDIR(git.lstat().st_mode) and _is_plain(git)
+        return git.absolute() if plain else None
     except OSError:  # none, or not for us to look at
         return None
+
+
+def _is_plain(git: Path) -> bool:
+    """Return whether a git folder is files and folders alone, and of a sane size.
+
+    At a pipe git would wait for ever, whatever it is the name of.
+    """
+    waiting, entries, size = [str(git)], 0, 0
+    while waiting:
+        with os.scandir(waiting.pop()) as found:
+            for entry in found:
+                entries += 1
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(entry.path)
+                elif entry.is_file(follow_symlinks=False):
+                    size += entry.stat(follow_symlinks=False).st_size
+                else:
+                    return False
+                if entries > MOST_ENTRIES or size > LARGEST_GIT:
+                    return False
+    if any(os.path.lexists(git / name) for name in _ELSEWHERE):
+        return False
+    configs = (git / name for name in ("config", "config.worktree"))
+    return not any(b"[include" in c.read_bytes().lower() for c in configs if c.exists())
 
 
 def _environment(**more: str) -> dict[str, str]:
@@ -189,7 +257,7 @@ def _git(git: Path, *arguments: str, say: str = "") -> str | None:
             GIT_ALLOW_PROTOCOL="none",
             GIT_NO_REPLACE_OBJECTS="1",
         )
-    except _BusyError:
+    except _SlowError:
         return None
     return done.stdout if done.returncode == 0 else None
 

@@ -3,6 +3,7 @@
 Every argument is HTML already: text of a log or of a student is escaped by then.
 """
 
+import re
 from collections.abc import Iterable
 
 # Colours for light and dark, cards, tables, phones.
@@ -55,6 +56,11 @@ _HEAD = """<!doctype html>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; \
 style-src 'unsafe-inline'">
 <meta name="viewport" content="width=device-width, initial-scale=1">"""
+# Controls but for the line break, what turns the reading direction, half letters: no
+# text that was quoted may bring them into a page.
+_OBEYED = re.compile(
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+)
 
 
 def page(title: str, about: str, *parts: str, style: str = "") -> str:
@@ -66,15 +72,14 @@ def page(title: str, about: str, *parts: str, style: str = "") -> str:
         parts: the rest.
         style: CSS of this page besides what all have.
     """
-    return "\n".join(
-        [
-            _HEAD,
-            f"<title>{title}</title><style>{STYLE}{style}</style></head><body>",
-            f'<h1>{title}</h1><p class="muted">{about}</p>',
-            *parts,
-            "</body></html>\n",
-        ]
-    )
+    whole = [
+        _HEAD,
+        f"<title>{title}</title><style>{STYLE}{style}</style></head><body>",
+        f'<h1>{title}</h1><p class="muted">{about}</p>',
+        *parts,
+        "</body></html>\n",
+    ]
+    return _OBEYED.sub(" ", "\n".join(whole))
 
 
 def section(heading: str, *parts: str) -> str:

@@ -6,11 +6,13 @@ The standard library alone: a student installs no process tool for this.
 import contextlib
 import ctypes
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -125,6 +127,36 @@ def end(process: subprocess.Popen[bytes]) -> None:
         process.kill()
     with contextlib.suppress(subprocess.TimeoutExpired):
         process.wait(END_SECONDS)
+
+
+def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
+    """Bound every file that a child and what it starts write, on Linux.
+
+    Args:
+        process: just started.
+        largest: bytes; who writes more is ended by the kernel.
+    """
+    if sys.platform.startswith("linux"):
+        import resource
+
+        with contextlib.suppress(OSError, ValueError):  # gone, or bounded already
+            limits = (largest, largest)
+            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, limits)
+
+
+def sweep(prefix: str, seconds: float) -> None:
+    """Remove the temporary folders that a killed run of ours left behind.
+
+    Args:
+        prefix: of their names.
+        seconds: how long ago they were made, at least: nobody works there any more.
+    """
+    for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+        with contextlib.suppress(OSError):
+            facts = folder.lstat()
+            own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
+            if own and time.time() - facts.st_mtime > seconds:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 def resident_bytes(process: subprocess.Popen[bytes]) -> int:

@@ -261,7 +261,7 @@ def _not_utf8(script: Path) -> str:
     try:
         with tokenize.open(script) as file:
             file.read()
-    except (SyntaxError, UnicodeDecodeError):
+    except (SyntaxError, LookupError, UnicodeError):  # of "coding: rot13"
         return f"{script.name} is not in UTF-8. Save it as UTF-8 in your editor."
     return ""
 

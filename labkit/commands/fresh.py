@@ -16,12 +16,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from labkit.base import cli
+from labkit.base.processes import sweep
 from labkit.base.words import count
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
 from labkit.lesson.day import Day, find_day, started_day
 from labkit.report.week_labs import Ran, days_of, run_labs, week_of
+
+FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
 
 class Clock:
@@ -75,8 +78,9 @@ def main() -> int:
     options = parser.parse_args()
     week = options.week or week_of(find_day(started_day()))
     sha, clock = head_of(), Clock()
+    sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
-        prefix="robo47-fresh-", ignore_cleanup_errors=True
+        prefix=FOLDER, ignore_cleanup_errors=True
     ) as folder:
         root = Path(folder).resolve() / "clone"
         clone_commit(sha, root)

@@ -11,9 +11,11 @@ import json
 import os
 import pickle
 import re
+import select
 import shutil
 import sys
 import tempfile
+import threading
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -43,6 +45,7 @@ def main() -> None:
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)  # libraries may print
     _limit_memory()
+    threading.Thread(target=_end_with_parent, args=(folder,), daemon=True).start()
     while True:
         try:
             package = pickle.load(sys.stdin.buffer)  # from our own parent
@@ -138,6 +141,16 @@ def _tidy(text: str) -> str:
         plain = _ADDRESS.sub("0x...", _FOLDERS.sub("", line))
         clean.append((indent + visible(plain, LINE)).rstrip())
     return "\n".join(clean)
+
+
+def _end_with_parent(folder: str) -> None:
+    """End as soon as nobody can send another package, also amid one."""
+    if hasattr(select, "poll"):
+        gone = select.poll()
+        gone.register(0, 0)  # asks for nothing but its other end's closing
+        gone.poll()
+        shutil.rmtree(folder, ignore_errors=True)
+        os._exit(0)  # the sandbox goes with it
 
 
 def _limit_memory() -> None:

@@ -5,6 +5,7 @@ many packages are under way at once, so a class of any size takes the same memor
 """
 
 import contextlib
+import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -16,13 +17,22 @@ from concurrent.futures import (
 from dataclasses import dataclass
 from typing import Any
 
-from labkit.grade.grader import close_graders, grade_behind_wall, grade_package, sweep
+from labkit.base.processes import sweep
+from labkit.grade.grader import (
+    FOLDER,
+    LEFT_BEHIND,
+    close_graders,
+    grade_behind_wall,
+    grade_package,
+)
 from labkit.grade.package import Package
-from labkit.grade.result import Result
+from labkit.grade.result import Result, from_json
+from labkit.lesson.day import find_day
 from robo47.errors import FaultError, Robo47Error
 
 PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 PATIENCE = 60.0  # seconds without any worker before giving up
+SILENCE = 900.0  # seconds without any result before giving up on what is under way
 NO_DASK = (
     "--dask needs the package distributed: python3 scripts/setup_env.py grade "
     "(make grade does it)"
@@ -59,7 +69,7 @@ def local(processes: int) -> Iterator[Engine]:
     Args:
         processes: how many submissions at a time.
     """
-    sweep()
+    sweep(FOLDER, LEFT_BEHIND)
     pool = ThreadPoolExecutor(processes)  # each thread waits for a process of its own
     try:
         yield Engine(pool, lambda: processes)
@@ -134,19 +144,40 @@ def _finished(
     under_way: dict[Future[Result], tuple[Key, Package]], engine: Engine
 ) -> Iterator[tuple[Key, Package, Result | FaultError]]:
     """Wait for results and yield them."""
-    done, _ = wait(under_way, timeout=PATIENCE, return_when=FIRST_COMPLETED)
-    if not done and not engine.workers():
-        raise Robo47Error(
-            f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded is "
-            "kept: start workers and run the same command again"
-        )
-    for future in done:
+    silent = time.monotonic() + SILENCE
+    while not (done := _some_done(under_way)) and time.monotonic() < silent:
+        if not engine.workers():
+            raise Robo47Error(
+                f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded "
+                "is kept: start workers and run the same command again"
+            )
+    for future in done or list(under_way):
         key, package = under_way.pop(future)
+        if not future.done():
+            future.cancel()
+            yield key, package, FaultError(f"no answer for {SILENCE:.0f} s")
+            continue
         try:
-            yield key, package, future.result()
+            yield key, package, _believed(future.result(), package)
         except FaultError as error:
             yield key, package, error
         except engine.lost:
             yield key, package, FaultError("the workers that graded it were lost")
         except (ImportError, AttributeError) as error:  # an older commit's
             raise Robo47Error(f"a worker cannot run this kit: {error}") from None
+
+
+def _some_done(under_way: Iterable[Future[Result]]) -> set[Future[Result]]:
+    return wait(under_way, timeout=PATIENCE, return_when=FIRST_COMPLETED).done
+
+
+def _believed(answer: object, package: Package) -> Result:
+    """Return a worker's answer as a result of the day: it can be anything.
+
+    Raises:
+        FaultError: it is none.
+    """
+    try:
+        return from_json(answer.to_json(), find_day(package.day))  # type: ignore
+    except Exception:
+        raise FaultError("a worker's answer is no result of the day") from None

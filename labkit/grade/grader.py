@@ -5,7 +5,6 @@
 """
 
 import atexit
-import contextlib
 import json
 import os
 import pickle
@@ -13,8 +12,6 @@ import queue
 import shutil
 import socket
 import tempfile
-import time
-from pathlib import Path
 
 from labkit.base import processes
 from labkit.grade.package import Package, fingerprint
@@ -28,7 +25,7 @@ from robo47.paths import ROOT
 # under load gets here.
 SECONDS = 240.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
-_FOLDER = "robo47-grader-"
+FOLDER = "robo47-grader-"
 
 
 class Grader(processes.Child):
@@ -38,7 +35,7 @@ class Grader(processes.Child):
         """Start the process, behind the wall that was promised, in a new folder."""
         # The wall that was promised, or none of this: not what stands at that moment.
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
-        self.folder = tempfile.mkdtemp(prefix=_FOLDER)
+        self.folder = tempfile.mkdtemp(prefix=FOLDER)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         environment = {**os.environ, **temporary, **promised}
         try:  # in its folder, since MuJoCo writes its warnings there
@@ -136,13 +133,3 @@ def close_graders() -> None:
             _idle.get_nowait().close()
         except queue.Empty:
             return
-
-
-def sweep() -> None:
-    """Remove what graders that were killed left behind, once it is a day old."""
-    for folder in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*"):
-        with contextlib.suppress(OSError):
-            facts = folder.lstat()
-            own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
-            if own and time.time() - facts.st_mtime > LEFT_BEHIND:
-                shutil.rmtree(folder, ignore_errors=True)

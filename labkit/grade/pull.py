@@ -2,17 +2,20 @@
 
 A clone that came as an archive brings its own git configuration, which may name
 programs to run: it is graded and never pulled. Which clones are ours stands in a file
-beside them, with what their configuration was.
+beside them, with what their configuration was. A new one is made under another name,
+noted there, and renamed last: a run that is killed leaves nothing that the next one
+does not heal. What a commit may write is `labkit.base.git`'s to say.
 """
 
 import hashlib
 import json
 import os
+import shutil
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from labkit.base.git import GitError, run
+from labkit.base.git import LARGEST_GIT, LARGEST_OBJECT, GitError, run, too_much
 from labkit.base.store import replace
 from labkit.base.text import visible
 from labkit.grade.roster import Student
@@ -52,7 +55,7 @@ def pull_all(students: list[Student]) -> Iterator[tuple[Student, str]]:
             if mark != ours.get(student.folder):
                 ours[student.folder] = mark
                 _write(marks, ours)
-            yield student, problem
+            yield student, problem or _move_in(student.path)
 
 
 def pull(student: Student, known: str | None) -> tuple[str | None, str]:
@@ -66,14 +69,51 @@ def pull(student: Student, known: str | None) -> tuple[str | None, str]:
         The mark from now on, and what went wrong, or "".
     """
     path = student.path
-    if not path.exists():
-        if not student.url:
-            return known, "there is no such folder, and the roster has no git URL"
-        problem = _git(path.parent, "clone", "-q", "--", student.url, path.name)
-        return (known, problem) if problem else (_mark(path), "")
-    if known is None or known != _mark(path):
-        return known, _NOT_OURS
-    return known, _git(path, "pull", "-q", "--ff-only", "--no-recurse-submodules")
+    if path.exists():
+        if known is None or known != _mark(path):
+            return known, _NOT_OURS
+        return known, _update(path)
+    if not student.url:
+        return known, "there is no such folder, and the roster has no git URL"
+    new = _beside(path)
+    shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
+    bare = ("clone", "-q", "--no-checkout", "--", student.url, new.name)
+    problem = _git(path.parent, *bare) or _take(new, "HEAD", "reset", "-q", "--hard")
+    if problem:
+        shutil.rmtree(new, ignore_errors=True)
+    return (known, problem) if problem else (_mark(new), "")
+
+
+def _beside(path: Path) -> Path:
+    """Return where a clone is made: a name that no student's folder has."""
+    return path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}")
+
+
+def _move_in(path: Path) -> str:
+    """Give a clone that was made beside its name; return what went wrong, or ""."""
+    try:
+        if _beside(path).exists():
+            _beside(path).rename(path)
+    except OSError as error:
+        return f"the new clone cannot be renamed: {error.strerror}"
+    return ""
+
+
+def _update(clone: Path) -> str:
+    """Update our own clone; return what went wrong, or ""."""
+    problem = _git(clone, "fetch", "-q", "--no-recurse-submodules")
+    lock = clone / ".git" / "index.lock"
+    how = ("reset", "-q", "--hard") if lock.exists() else ("merge", "-q", "--ff-only")
+    lock.unlink(missing_ok=True)  # of a run that was killed: some files are new already
+    return problem or _take(clone, "FETCH_HEAD", *how, "FETCH_HEAD")
+
+
+def _take(clone: Path, commit: str, *how: str) -> str:
+    """Check out a commit of a sane size; return what went wrong, or ""."""
+    try:
+        return too_much(clone, commit) or _git(clone, *how)
+    except GitError as error:
+        return str(error)
 
 
 def _mark(clone: Path) -> str | None:
@@ -110,6 +150,8 @@ def _git(folder: Path, *arguments: str) -> str:
             *arguments,
             folder=folder,
             seconds=SECONDS,
+            largest=LARGEST_GIT,
+            GIT_ALLOC_LIMIT=LARGEST_OBJECT,
             GIT_LFS_SKIP_SMUDGE="1",
         )
     except GitError as error:

@@ -111,9 +111,13 @@ def _student(
     name: str, folder: str, root: Path, url: str = "", id: str = ""
 ) -> Student:
     path, problem = root / folder, ""
+    try:
+        is_link = path.is_symlink()
+    except (OSError, ValueError) as error:  # too long for a name, or a NUL
+        path, problem, is_link = root, f"no name of a folder here: {error}", False
     if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
         path, problem = root, f"{folder!r} is no name of a folder"
-    elif path.is_symlink():
+    elif is_link:
         problem = "the folder is a link, which is not followed"
     elif url.startswith("-"):
         problem = f"{url!r} is no git URL"

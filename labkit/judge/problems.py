@@ -34,6 +34,10 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             return Verdict("wrong", "stopped", says)
         case "unsendable":
             return Verdict("wrong", "not-an-array", f"{function}: {reply.error}.")
+        case "huge":
+            says = f"I{reply.error[1:]}; nothing here comes near that. Is something "
+            says += "divided by almost zero?"
+            return Verdict("wrong", "huge-numbers", says)
         case "missing":
             says = f"The file has no function {function}."
             says += f" To put its gap back: make start RESET={task}." if task else ""

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, Path, Question, Reply
+from labkit.base.exchange import CHANNEL, MOST, EndedError, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.sandbox.inside import wire
@@ -20,6 +20,7 @@ from robo47.paths import ROOT, shown
 
 PANDA = Robot()  # what a file that loads the robot at its top is given
 LARGEST, MOST_BESIDE = 1_000_000, 50  # bytes of a file, files beside the script
+HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
 
 
@@ -86,16 +87,16 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
     ]
 
 
-def read(messages: Sequence[dict[str, Any]]) -> list[Reply]:
-    """Return messages as replies, believing nothing in them, up to a forged one."""
-    values = list(map(wire.read_value, [told.get("value") for told in messages]))
-    found = []
-    for told, value in zip(messages, values, strict=True):
-        try:
-            found.append(_reply(told, value))
-        except Exception:  # a forged message can be anything
-            break
-    return found
+def read(message: dict[str, Any]) -> Reply:
+    """Return a message as a reply, believing nothing in it.
+
+    Raises:
+        EndedError: somebody forged it.
+    """
+    try:
+        return _reply(message)
+    except Exception:  # a forged message can be anything
+        raise EndedError(CHANNEL) from None
 
 
 @lru_cache(8)  # a class is asked with the same few robots
@@ -176,17 +177,27 @@ def _facts() -> dict[str, Any]:
     }
 
 
-def _reply(message: dict[str, Any], value: Any) -> Reply:
+def _reply(message: dict[str, Any]) -> Reply:
     if message.get("missing"):
         return Reply(kind="missing")
-    if isinstance(value, ValueError):
-        return Reply(error=f"it returned {visible(value)}", kind="unsendable")
-    if isinstance(value, Exception):
-        raise value
+    try:
+        value = wire.unpack_value(message.get("value"))
+    except ValueError as error:
+        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
+    if (largest := _largest(value)) > HUGE:
+        says = f"it returns numbers as large as {largest:.0e}"
+        return Reply(error=says, kind="huge")
     told = {
         name: made(message[name]) for name, made in _READ.items() if name in message
     }
     return Reply(value=value, **told)
+
+
+def _largest(value: Any) -> float:
+    """Return the largest finite number of an answer."""
+    some = value if isinstance(value, tuple) else (value,)
+    arrays = [part[np.isfinite(part)] for part in some if part is not None]
+    return max([float(np.abs(part).max(initial=0)) for part in arrays], default=0.0)
 
 
 def _kind(told: Any) -> str:

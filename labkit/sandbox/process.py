@@ -13,30 +13,21 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from labkit.base import exchange, processes
-from labkit.base.exchange import LoadError
+from labkit.base import processes
+from labkit.base.exchange import CHANNEL, EndedError, LoadError
 from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
 
 START_SECONDS, LOAD_SECONDS = 60.0, 10.0
 RESIDENT_BYTES = 1024**3
 MODEST = RESIDENT_BYTES // 2  # who holds more is why the machine's memory ran out
-LONGEST_LINE, MOST_WAITING = 10_000_000, 1_000  # bytes of a reply, replies unread
+LONGEST_LINE, MOST_WAITING = 2_000_000, 16  # bytes of a reply, replies unread
+MOST_BYTES = 50_000_000  # of all replies to what is asked at once
 POLL_SECONDS = 0.05
 ENDLESS = "it runs on and on, as a loop without an end does"
-CHANNEL = "it wrote into the checker's own channel"
 
 # A child dies with the thread that started it, so one thread starts them all.
 _starter = ThreadPoolExecutor(1, thread_name_prefix="robo47-start")
-
-
-class EndedError(Exception):
-    """The process came to an end, or had to; `reply` says why."""
-
-    def __init__(self, why: str) -> None:
-        """Keep the reply that says so."""
-        super().__init__(why)
-        self.reply = exchange.stopped(why)
 
 
 class Process:
@@ -51,6 +42,7 @@ class Process:
         self.wall = wall()
         self.secret = b""
         self.answers = 0
+        self._room = MOST_BYTES
         self.killed = False  # ended by a signal of somebody's
         self._oom_kills = processes.oom_kills()
         self._most = 0  # bytes of memory it was seen with
@@ -94,13 +86,13 @@ class Process:
             if message.get("loaded") is not True:
                 from labkit.sandbox import messages  # NumPy, after the start
 
-                reply, *_ = messages.read([message]) or [exchange.stopped(CHANNEL)]
-                raise LoadError(reply)
+                raise LoadError(messages.read(message))
         except EndedError as error:
             raise LoadError(error.reply) from None
 
     def ask(self, calls: Iterable[dict[str, Any]]) -> None:
         """Send questions; `next` returns what came of each."""
+        self._room = MOST_BYTES
         for call in calls:
             self._send(call)
 
@@ -153,6 +145,9 @@ class Process:
                 looked = now
         if line is None:
             raise EndedError(self._how_it_ended())
+        self._room -= len(line)
+        if self._room < 0:
+            raise EndedError("its answers are far too large, all together")
         try:
             message = json.loads(line.removeprefix(self.secret))
             if line.startswith(self.secret) and isinstance(message, dict):

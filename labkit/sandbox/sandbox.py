@@ -17,12 +17,19 @@ import time
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-from labkit.base.exchange import Exchange, LoadError, Question, Reply, stopped, twice
+from labkit.base.exchange import (
+    EndedError,
+    Exchange,
+    LoadError,
+    Question,
+    Reply,
+    stopped,
+    twice,
+)
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
-from labkit.sandbox.process import CHANNEL, EndedError, Process
+from labkit.sandbox.process import Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
@@ -166,17 +173,14 @@ class Session:
         Returns:
             One reply per question; "stopped" from where the session ended.
         """
-        told: list[dict[str, Any]] = []
+        replies: list[Reply] = []
         if self._ended is None:
             self._process.ask(messages.pack(questions, self._robots))
-        while len(told) < len(questions) and self._ended is None:
+        while len(replies) < len(questions) and self._ended is None:
             try:
-                told.append(self._process.next(seconds))
+                replies.append(messages.read(self._process.next(seconds)))
             except (EndedError, FaultError) as error:
                 self._end(str(error))
-        replies = messages.read(told)
-        if len(replies) < len(told):
-            self._end(CHANNEL)
         missing = len(questions) - len(replies)
         return replies + [self._ended] * missing if self._ended else replies
 
@@ -214,25 +218,18 @@ class _Rounds:
         self, process: Process, asked: list[Exchange], into: dict[Exchange, Reply]
     ) -> None:
         """Take the replies of one round."""
-        told: list[dict[str, Any]] = []
-        why: Reply | None = None
         for exchange in asked:
             task = exchange.question.task
             started, waited = time.monotonic(), process.waited
             left = self.deadline + waited - started
             try:
-                told.append(process.next(min(CALL_SECONDS, self.spare[task], left)))
+                message = process.next(min(CALL_SECONDS, self.spare[task], left))
+                into[exchange] = messages.read(message)
             except EndedError as error:
                 late = time.monotonic() > self.deadline + process.waited
-                why = stopped(TOO_LONG) if late else error.reply
+                self.ended = exchange, stopped(TOO_LONG) if late else error.reply
                 break
             self.spare[task] -= time.monotonic() - started - (process.waited - waited)
-        came = messages.read(told)
-        into.update(zip(asked, came, strict=False))
-        if len(came) < len(told):  # somebody forged the next
-            why = stopped(CHANNEL)
-        if why:
-            self.ended = asked[len(came)], why
 
     def fill(self, needs: Mapping[str, Iterable[str]]) -> None:
         """Fill in what was answered twice, and what is not asked again."""

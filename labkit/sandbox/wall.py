@@ -36,8 +36,9 @@ OTHERS = ("python*/site-packages", "python*/dist-packages")  # packages of this 
 _SAYS = {
     "bubblewrap": "student code runs behind bubblewrap: Python and NumPy, read-only, "
     "and nothing else of this machine",
-    "landlock": "student code runs behind Linux's Landlock: no file of yours, no "
-    "network, no other process. Stronger: install bubblewrap",
+    "landlock": "student code runs behind Linux's Landlock: opens no file of yours (it "
+    "can tell names and sizes), no network, no other process. Stronger: install "
+    "bubblewrap",
     "none": "nothing keeps student code from this machine: it runs with your rights",
 }
 
@@ -74,7 +75,7 @@ def wall() -> Wall:
 
 
 def in_container() -> bool:
-    """Return whether this is a container, which is a wall of its own."""
+    """Return whether this is a container, where root is not root outside."""
     marks = ("/.dockerenv", "/run/.containerenv")
     told = ("container", "KUBERNETES_SERVICE_HOST")  # systemd's and podman's; a pod's
     return any(map(os.environ.get, told)) or any(Path(mark).exists() for mark in marks)
@@ -86,12 +87,10 @@ def refusal() -> str:
     Raises:
         Robo47Error: ROBO47_WALL asks for a wall that this machine does not have.
     """
-    if in_container():
-        return ""
-    if hasattr(os, "geteuid") and os.geteuid() == 0:
-        return "you are root, and this is no container: be an ordinary user"
-    if wall().name == "none":
+    if wall().name == "none":  # a container may share the home, as Toolbox's does
         return "these submissions would run with your rights"
+    if hasattr(os, "geteuid") and os.geteuid() == 0 and not in_container():
+        return "you are root, and this is no container: be an ordinary user"
     return ""
 
 

@@ -25,6 +25,7 @@ from labkit.setup.probes import (
     ROBOT_PROBE,
     ROOT,
     VERSIONS_PROBE,
+    WALL_PROBE,
     probe,
 )
 
@@ -33,6 +34,11 @@ VENV_PYTHON = (
 )
 OLDEST = (3, 11)
 LEAST_FREE_GB = 1
+_STRENGTH = {
+    "bubblewrap": "bubblewrap, strong: student code sees no file of yours",
+    "landlock": "Landlock, good: opens no file of yours, but sees names, sizes",
+    "none": "none: student code runs with your rights",
+}
 
 
 class Line(NamedTuple):
@@ -153,6 +159,14 @@ def check_gl(python: str) -> Line:
     return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
 
 
+def check_wall(python: str) -> Line:
+    """What keeps student code from this machine, which counts for who grades."""
+    found, why = probe(python, WALL_PROBE)
+    if found is None:
+        return Line("note", "wall", why.split("Error: ")[-1])
+    return Line("note" if found == "none" else "good", "wall", _STRENGTH[found])
+
+
 def check_display() -> Line:
     """Whether a window can open."""
     if not sys.platform.startswith("linux"):
@@ -204,7 +218,7 @@ def examine() -> list[Line]:
     python = kit_python()
     checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
     if check_python(python).status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_lessons, check_gl)
+        inside = (check_mujoco, check_robot, check_lessons, check_wall, check_gl)
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []

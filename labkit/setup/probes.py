@@ -55,6 +55,11 @@ days = all_days()
 others = [shown(day.source) for day in days if not originals.is_kits(day)]
 print(json.dumps({"days": len(days), "others": others}))
 """
+WALL_PROBE = """
+import json
+from labkit.sandbox.wall import wall
+print(json.dumps(wall().name))
+"""
 GL_PROBE = """
 import json
 from labkit.figures import probe_backends

@@ -25,6 +25,7 @@ _REFUSED = {
 }
 _CHANGES = {"os.remove", "os.rename", "os.mkdir", "os.rmdir", "os.chmod", "os.chown"}
 _CHANGES |= {"os.truncate", "os.utime", "os.symlink", "os.link"}
+LONGEST = 2_000  # characters of a refusal
 _WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
@@ -42,7 +43,7 @@ class Guard:
 
     def refuse(self, what: str) -> RefusedError:
         """Record a refusal and return the exception to raise."""
-        self.refused.append(what)
+        self.refused.append(what[:LONGEST])
         return RefusedError(f"refused by the checker: {what}")
 
     def arm(self) -> None:

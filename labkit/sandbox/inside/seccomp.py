@@ -1,6 +1,7 @@
 """Linux's filter of system calls: what student code has no use for is refused.
 
-No process, signal, socket, memory file, attribute of a file, other process's limits.
+No process, signal, socket, memory file, lock or attribute of a file, no other process's
+limits, nothing of which the whole system has only so much.
 It closes what Landlock leaves open, and holds for root too. Source: seccomp(2),
 <linux/filter.h>, <asm/unistd.h>. Where the processor is another one, there is none.
 """
@@ -22,6 +23,8 @@ listen 50 201         accept 43 202           accept4 288 242
 memfd_create 319 279  memfd_secret 447 447    shmget 29 194           semget 64 190
 msgget 68 186         mq_open 240 180         io_uring_setup 425 425
 userfaultfd 323 282   perf_event_open 298 241 bpf 321 280
+io_setup 206 0        timer_create 222 107    flock 73 32
+sync 162 81           syncfs 306 267
 setpriority 141 140   ioprio_set 251 30       sched_setaffinity 203 122
 sched_setattr 314 274 sched_setparam 142 118  sched_setscheduler 144 119
 migrate_pages 256 238 move_pages 279 239
@@ -47,7 +50,8 @@ quotactl_fd 443 443   syslog 103 116          iopl 172 -              ioperm 173
 _NEWER = 451  # what came later is not known here, nor to today's Python
 _FCNTL, _PRLIMIT, _PRCTL = (72, 25), (302, 261), (157, 167)
 _PDEATHSIG = 1  # of prctl: what ends it with the checker is set already, and stays
-_SIGNALLING = (8, 10, 15)  # F_SETOWN, F_SETSIG, F_SETOWN_EX: signal another by a pipe
+# F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_DUPFD_CLOEXEC: no lock, no lease, no signal.
+_ALLOWED = (0, 1, 2, 3, 1030)
 _MACHINES = {
     "x86_64": (0, 0xC000003E),
     "aarch64": (1, 0xC00000B7),
@@ -97,7 +101,7 @@ def _program(column: int, machine: int) -> list[Instruction]:
     words = _REFUSED.split()
     rows = zip(*(words[start::3] for start in range(3)), strict=True)
     numbers = [int(row[1 + column]) for row in rows if row[1 + column] != "-"]
-    commands = [i for number in _SIGNALLING for i in _refuse(number)]
+    commands = [i for number in _ALLOWED for i in _answer(number, _ALLOW)]
     return [
         (_LOAD, 0, 0, _ARCH),
         (_IF_EQUAL, 1, 0, machine),
@@ -105,10 +109,10 @@ def _program(column: int, machine: int) -> list[Instruction]:
         (_LOAD, 0, 0, _NUMBER),
         (_IF_AT_LEAST, 0, 1, _NEWER),
         (_RETURN, 0, 0, _ENOSYS),
-        *(i for number in numbers for i in _refuse(number)),
+        *(i for number in numbers for i in _answer(number, _EPERM)),
         (_IF_EQUAL, 0, 4, _PRCTL[column]),
         (_LOAD, 0, 0, _FIRST_ARGUMENT),
-        *_refuse(_PDEATHSIG),
+        *_answer(_PDEATHSIG, _EPERM),
         (_RETURN, 0, 0, _ALLOW),
         (_IF_EQUAL, 0, 4, _PRLIMIT[column]),
         (_LOAD, 0, 0, _FIRST_ARGUMENT),
@@ -118,10 +122,10 @@ def _program(column: int, machine: int) -> list[Instruction]:
         (_IF_EQUAL, 0, 2 + len(commands), _FCNTL[column]),
         (_LOAD, 0, 0, _SECOND_ARGUMENT),
         *commands,
-        (_RETURN, 0, 0, _ALLOW),
+        (_RETURN, 0, 0, _EPERM),
         (_RETURN, 0, 0, _ALLOW),
     ]
 
 
-def _refuse(number: int) -> list[Instruction]:
-    return [(_IF_EQUAL, 0, 1, number), (_RETURN, 0, 0, _EPERM)]
+def _answer(number: int, answer: int) -> list[Instruction]:
+    return [(_IF_EQUAL, 0, 1, number), (_RETURN, 0, 0, answer)]
