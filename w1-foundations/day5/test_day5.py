@@ -14,7 +14,7 @@ from conftest import ROOT, load_script, need
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from labkit.log import read_rows
-from robo47 import panda, simulate
+from robo47 import control, panda, simulate
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day5-lab.md").read_text("utf-8").split())
