@@ -48,7 +48,7 @@ def test_a_zero_in_a_form_that_no_lab_prints_is_renewed(monkeypatch):
         monkeypatch.setattr(docs, "wanted", lambda request, new=printed: new)
         text, drifted = docs.rebuilt(block.format("error 0.0e+00"))
         assert (text, drifted) == (block.format(printed), ["python x"])
-        assert docs.rebuilt(block.format("error 2.9e-15"))[1] == []
+        assert docs.rebuilt(block.format("error 2.0e-15"))[1] == []
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
