@@ -4,8 +4,8 @@ A joint is a screw axis S = (omega; v), (6,): omega the unit vector it turns abo
 v the velocity that a turn at 1 rad/s gives the point at the origin. A slide has
 omega = 0 and moves along v. Conventions:
 
-- Twists and screws are (omega; v), as in *Modern Robotics*; MuJoCo and Pinocchio
-  write the other half first.
+- Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`;
+  Pinocchio, `mj_jac` and a free joint's `qvel` have v first.
 - Space screws stand in the world frame, body screws in the end effector's, both with
   the arm at q = 0, where the end effector's pose is M = `T_world_ee`.
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.

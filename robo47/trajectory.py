@@ -167,8 +167,8 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
 def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
     """Return the tool's pose over a cube: pointing down, fingers along a near side.
 
-    A cube looks the same after a quarter turn, so its yaw is folded into +-45
-    degrees, which keeps the last joint in its range.
+    A cube looks the same after a quarter turn, so its yaw is folded into +-45 degrees:
+    from READY_Q the tool is never far to turn.
 
     Args:
         T_world_cube: pose of a cube that stands on one of its faces, its z axis up

@@ -40,6 +40,17 @@ def test_a_drifted_output_is_found(run, tmp_path, monkeypatch):
         assert text == block.format("error 2.0e-15, 0.59 m")
 
 
+def test_a_zero_in_a_form_that_no_lab_prints_is_renewed(monkeypatch):
+    from labkit.commands import docs
+
+    block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
+    for printed in ("error 0", "error 1.1e-16"):
+        monkeypatch.setattr(docs, "wanted", lambda request, new=printed: new)
+        text, drifted = docs.rebuilt(block.format("error 0.0e+00"))
+        assert (text, drifted) == (block.format(printed), ["python x"])
+        assert docs.rebuilt(block.format("error 2.0e-15"))[1] == []
+
+
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
 def test_every_relative_link_leads_somewhere(path):
     text = path.read_text("utf-8")

@@ -10,9 +10,10 @@ from compare import assert_same
 
 from conftest import ROOT, load_script
 from labkit.log import read_rows
-from robo47 import panda, se3
+from robo47 import panda, se3, verify
 
 SCRIPT = "w1-foundations/src/day1_transforms.py"
+GUIDE = " ".join((ROOT / "w1-foundations/docs/day1-lab.md").read_text("utf-8").split())
 
 
 def load_lab():
@@ -28,6 +29,54 @@ def test_the_numbers_in_the_docstrings_are_true(twin):
     assert_same(above[:3, 3], [0, 0, 0.333], 0.0)
     assert_same(lab.compose_fk(model, zero)[:3, 3], [0.088, 0, 0.926], 1e-12)
     assert_same(lab.link4_to_world(model, zero)[:3, 3], [0.0825, 0, 0.649], 1e-12)
+
+
+# --- the reasons that the guide gives: change the cause, see the number change ---
+
+
+def test_a_free_body_has_one_number_more_than_degrees_of_freedom():
+    ball = "<body><freejoint/><geom size='0.1'/></body>"
+    text = f"<mujoco><worldbody>{ball}</worldbody></mujoco>"
+    free, arm = mujoco.MjModel.from_xml_string(text), panda.load("panda_nohand")
+    assert (free.nq, free.nv, arm.nq, arm.nv) == (7, 6, 7, 7)
+    assert "a free body has six degrees of freedom and seven numbers" in GUIDE
+
+
+def test_quaternions_in_another_order_make_a_rigid_but_wrong_pose(monkeypatch, twin):
+    model, q = panda.load("panda_nohand"), panda.READY_Q
+    right = lab.compose_fk(model, q)
+    read = lab.quat_to_R
+    monkeypatch.setattr(lab, "quat_to_R", lambda quat: read(np.roll(quat, 1)))
+    wrong = lab.compose_fk(model, q)
+    off = np.linalg.norm(wrong[:3, 3] - right[:3, 3])
+    assert f"as (x, y, z, w), and the hand is {off:.2f} m off at ready" in GUIDE
+    assert_same(wrong @ lab.inverse(wrong), np.eye(4), 1e-10)
+    assert se3.is_pose(wrong)
+    assert "Of the pose with (x, y, z, w) they hold, too" in GUIDE
+
+
+@pytest.mark.parametrize(("degrees", "step"), [(45, 0.1), (0, 0.1), (45, 0.0)])
+def test_how_far_the_two_orders_are_apart_depends_on_turn_and_step(degrees, step, twin):
+    T = lab.compose_fk(panda.load("panda_nohand"), panda.READY_Q)
+    T_extra = lab.make_T(lab.Rz(np.radians(degrees)), np.array([step, 0.0, 0.0]))
+    apart = np.linalg.norm(np.subtract(*lab.predict_order(T, T_extra)))
+    assert f"{apart:.4f} m" in GUIDE
+    if not step:
+        radius = np.hypot(*T[:2, 3])
+        assert apart == pytest.approx(2 * radius * np.sin(np.radians(22.5)))
+        assert f"the hand is {radius:.4f} m from the axis of the base" in GUIDE
+        T[:2, 3] = 0.0  # on that axis
+        assert_same(*lab.predict_order(T, T_extra), 1e-15)
+
+
+def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
+    model = panda.load("panda_nohand")
+    q = np.vstack([panda.READY_Q, np.zeros(7), verify.random_q(model, 200, 47)])
+    R = np.array([lab.compose_fk(model, x)[:3, :3] for x in q])
+    off = np.abs(R - np.swapaxes(R, 1, 2)).max(axis=(1, 2))
+    assert off[:2].max() < 1e-8
+    assert 1.9 < off[2:].max() <= 2.0
+    assert "At random it is off by up to 2" in GUIDE
 
 
 def test_the_path_is_the_models_own(either_panda):

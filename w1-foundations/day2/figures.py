@@ -1,6 +1,6 @@
 """The pictures of Day 2, made with the lab's own functions; drawn by `make figures`.
 
-screws        the arm at q = 0, its seven screw axes as lines, each with (omega; v)
+screws        the arm at q = 0, its seven axes as lines, and how far apart they are
 dh_roulette   one DH table, five readings of it, drawn as five arms
 """
 
@@ -11,7 +11,7 @@ from day2_screws import FRANKA_DH, LINKS, SEED, exp_rotation, joint_screws
 from PIL import Image
 
 from labkit.figures import client, portrait
-from labkit.figures.overlay import HALO, INK, Layer
+from labkit.figures.overlay import HALO, INK, LEADER, Layer
 from labkit.figures.scene import Camera, Scene
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
@@ -26,11 +26,19 @@ AXES = [
 GHOSTS = [(224, 49, 49), (232, 119, 34), (134, 46, 156), (28, 100, 242), (33, 37, 41)]
 SHOWN_Q = np.array([0.4, -0.3, 0.3, -1.9, 0.5, 1.9, 0.6])  # where the five part well
 THIN = 4.0  # of a line, in pixels of a picture 800 high
+LENGTHS = {  # in the model file, metres: from where to where, (x, z) at y = 0
+    "0.333": ((-0.3, 0.0), (-0.3, 0.333)),
+    "0.316": ((-0.3, 0.333), (-0.3, 0.649)),
+    "0.384": ((-0.3, 0.649), (-0.3, 1.033)),
+    "0.0825": ((0.0, 0.79), (0.0825, 0.79)),
+    "0.088": ((0.0, 1.19), (0.088, 1.19)),
+}
+HEIGHTS = {0.0: 0.0, 0.333: 0.0, 0.649: 0.0825, 1.033: 0.0}  # metres: of which x
 HALF, ROUND = 0.21, 0.055  # metres: half a drawn axis; the radius of its curved arrow
 
 
 def screws() -> Image.Image:
-    """Return the arm at q = 0 with its seven screw axes."""
+    """Return the arm at q = 0 with its seven axes; no numbers: they are asked for."""
     poses = kinematics.fk_all(panda.load("panda_nohand"), np.zeros(7))
     T_zero = np.array([poses[link] for link in LINKS])
     rows = joint_screws(T_zero)
@@ -42,10 +50,11 @@ def screws() -> Image.Image:
     )
     picture = Image.fromarray(client.draw(scene))
     layer = Layer(SIZE)
+    _lengths(layer, scene.camera)
     anchors = []
     for i, (S, T) in enumerate(zip(rows, T_zero, strict=True)):
         anchors.append(_axis(layer, scene.camera, S, T[:3, 3], i))
-    _labels(layer, rows, np.array(anchors))
+    _labels(layer, np.array(anchors))
     return layer.over(picture)
 
 
@@ -87,15 +96,37 @@ def _axis(layer: Layer, camera: Camera, S: Array, origin: Array, i: int) -> Arra
     return camera.project(origin + 0.6 * HALF * omega, SIZE)[:2]
 
 
-def _labels(layer: Layer, rows: Array, anchors: Array) -> None:
-    """Write each screw's six numbers in a column at the right, with a leader."""
-    order = np.argsort(anchors[:, 1])
-    tops = np.linspace(130.0, SIZE[1] - 250.0, len(rows))
-    for place, i in enumerate(order):
-        words = ", ".join(f"{x + 0.0:g}" for x in rows[i][:3])
-        words += "; " + ", ".join(f"{x + 0.0:.4g}" for x in rows[i][3:])
-        side = (610.0, float(tops[place]))
-        layer.label(f"S{i + 1} ({words})", side, tuple(map(float, anchors[i])))
+def _labels(layer: Layer, anchors: Array) -> None:
+    """Write each screw's name in a column at the right, with a leader."""
+    tops = np.linspace(130.0, SIZE[1] - 250.0, len(anchors))
+    for top, i in zip(tops, np.argsort(anchors[:, 1]), strict=True):
+        layer.label(f"S{i + 1}", (760.0, float(top)), tuple(map(float, anchors[i])))
+
+
+def _lengths(layer: Layer, camera: Camera) -> None:
+    """Draw how far the axes are apart, with ticks, and the origin's frame."""
+
+    def seen(x: float, z: float) -> tuple[float, float]:
+        at = camera.project(np.array([x, 0.0, z]), SIZE)
+        return float(at[0]), float(at[1])
+
+    for z, x in HEIGHTS.items():
+        layer.line([seen(-0.33, z), seen(x, z)], LEADER, 1.5)
+    for words, (start, end) in LENGTHS.items():
+        a, b = seen(*start), seen(*end)
+        if start[0] == end[0]:
+            layer.arrow(a, b, INK, -2)
+            layer.arrow(b, a, INK, -2)
+            middle = (3 * (a[0] + b[0]) / 2 - 42, 3 * (a[1] + b[1]) / 2)
+            layer.text(middle, words, "rm")
+        else:  # too short for two arrows
+            layer.line([a, b], INK, 4)
+            layer.text((3 * b[0] + 42, 3 * b[1]), words, "lm")
+    x, y = seen(0.0, 0.0)
+    tips = [seen(0.15, 0.0), camera.project(np.array([0, 0.15, 0.0]), SIZE)[:2]]
+    for name, tip in zip("xy", tips, strict=True):
+        layer.arrow((x, y), (float(tip[0]), float(tip[1])), INK, -1)
+        layer.text((3 * float(tip[0]) + 30, 3 * float(tip[1]) + 36), name, "mm")
 
 
 def _polyline(

@@ -129,6 +129,52 @@ def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
     assert_same(of_the_object, [*omega, *v], 1e-15)
     assert_same(jacp @ data.qvel, v, 1e-15)
     assert_same(jacr @ data.qvel, omega, 1e-15)
+    data.qpos[3:7] = np.sqrt([0.5, 0.5, 0.0, 0.0])  # rolled by a quarter turn
+    mujoco.mj_forward(model, data)
+    assert_same(data.cvel[1, :3], screws.exp_rotation([1, 0, 0], np.pi / 2) @ omega)
+    assert "its omega is in the *body's* axes" in GUIDE
+
+
+@pytest.mark.parametrize("mass_at", [0.0, 0.5])
+def test_the_v_of_cvel_is_that_of_the_centre_of_mass(mass_at):
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body name='a' pos='1 0 0'><joint axis='0 0 1'/>"
+        f"<geom size='0.1' pos='{mass_at} 0 0'/></body></worldbody></mujoco>"
+    )
+    data, of_the_object = mujoco.MjData(model), np.empty(6)
+    data.qvel[0] = 1.0
+    mujoco.mj_forward(model, data)
+    assert_same(data.cvel[1], [0, 0, 1, 0, mass_at, 0], 1e-15)
+    for kind, x in (("mjOBJ_BODY", mass_at), ("mjOBJ_XBODY", 0.0)):
+        kind = getattr(mujoco.mjtObj, kind)
+        mujoco.mj_objectVelocity(model, data, kind, 1, of_the_object, 0)
+        assert_same(of_the_object, [0, 0, 1, 0, x, 0], 1e-15)
+    assert "that of `cvel` is the centre of mass of the whole tree" in GUIDE
+
+
+def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
+    omega, p = np.array([0.0, 0.6, 0.8]), np.array([0.3, -0.2, 0.5])
+    v = lab.screw_axis(omega, p)[3:]
+    assert_same(lab.screw_axis(omega, p + 0.7 * omega)[3:], v, 1e-15)
+    across = lab.screw_axis(omega, p + np.array([0.1, 0, 0]))[3:] - v
+    assert np.linalg.norm(across) == pytest.approx(0.1)
+    assert "Move it across by 0.1 m, and v changes by 0.1" in GUIDE
+
+
+@pytest.mark.parametrize("pitch", [0.0, 0.02])
+def test_a_screw_with_a_pitch_moves_along_its_axis(pitch):
+    omega, p = np.array([0.0, 0.6, 0.8]), np.array([0.3, -0.2, 0.5])
+    S = lab.screw_axis(omega, p)
+    S[3:] += pitch * omega
+    T = lab.exp_screw(S, 2 * np.pi)
+    assert_same(T[:3, 3], 2 * np.pi * pitch * omega, 1e-12)
+    assert r"moves along the axis by $2 \pi h$" in GUIDE
+
+
+def test_the_cube_of_a_bracket_is_its_negative_for_length_1_only():
+    K = lab.skew(np.array([0.0, 0.6, 0.8]))
+    assert_same(K @ K @ K, -K, 1e-15)
+    assert np.abs(8 * K @ K @ K + 2 * K).max() > 1  # of twice that length
 
 
 def test_how_many_named_mistakes_are_exact_at_zero(arm):
@@ -158,6 +204,19 @@ def test_the_wrong_adjoint_hides_in_the_symmetric_M(arm):
     mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
     assert f"{np.median(mm[2:]):.0f} mm, the median of 20 random" in GUIDE
     assert deg.max() < 1e-5
+
+
+@pytest.mark.parametrize(("turn", "hides"), [(se3.Rx, False), (se3.Rz, True)])
+def test_the_wrong_adjoint_does_not_hide_in_a_tilted_tool(arm, turn, hides):
+    S, M, q = arm
+    M = M @ se3.make_T(turn(0.3), np.zeros(3))
+    B = S @ screws.adjoint(M).T
+    mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
+    if hides:
+        assert deg.max() < 1e-5
+    else:
+        assert f"off by {np.median(deg[2:]):.0f} degrees, the median of the" in GUIDE
+        assert f"and the hand by {np.median(mm[2:]):.0f} mm: a tilted M" in GUIDE
 
 
 def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda):

@@ -1,7 +1,8 @@
 """The tab Circle of Day 3: two arms draw one circle, one of them without damping.
 
-The slider turns the radius. With 0.36 m both arms draw the same circle; 0.38 m leads
-past a singularity, where the plain pseudo-inverse asks for more speed than there is.
+The slider turns the radius. With 0.36 m both arms draw the same circle; the top of one
+of 0.38 m is out of reach, and there the plain pseudo-inverse asks for more speed than
+there is.
 Both arms are the library's, and so are the numbers; step 5 of the lab draws yours.
 """
 
@@ -64,7 +65,7 @@ def on_the_circle(radius: float, time: float) -> Array:
 
 
 class Circle(Tab):
-    """A circle past a singularity, with damping and without."""
+    """A circle that leaves the reach, with damping and without."""
 
     title = "Circle"
     wide = True

@@ -17,7 +17,7 @@ from conftest import ROOT, load_script, need
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
-from robo47 import capstone, panda, scenes, se3, simulate, trajectory
+from robo47 import capstone, jacobian, panda, scenes, se3, simulate, trajectory
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -120,6 +120,44 @@ def test_half_way_through_120_degrees_entry_by_entry_is_no_rotation():
     assert says("half way through a turn of 120 degrees the determinant is 0.25")
 
 
+def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
+    dq, free = np.eye(7)[0], np.full(7, np.inf)
+    one, four = (lab.quintic_duration(dq, np.full(7, v), free) for v in (4.0, 1.0))
+    assert four / one == pytest.approx(4.0)
+    one, four = (lab.quintic_duration(dq, free, np.full(7, a)) for a in (4.0, 1.0))
+    assert four / one == pytest.approx(2.0)
+
+
+def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
+    model = scenes.table_top(capstone.CUBE_XY, 0.0)
+    arm, limits = panda.arm(model), model.jnt_range[:7].copy()
+    yaw = np.radians(np.arange(-180, 180, 5))
+    cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
+    cubes[:, :3, :3] = se3.Rz(yaw)
+    cubes[:, :3, 3] = [*capstone.CUBE_XY, scenes.TABLE_HEIGHT + scenes.CUBE_HALF]
+    folded = trajectory.grasp_pose(cubes, np.full(len(yaw), 0.12))
+    plain = folded.copy()
+    plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
+    start = np.tile(panda.READY_Q, (len(yaw), 1))
+    loop = folder.load(find_day(3), "loop")
+
+    def walked(goals):
+        q = loop.walk(arm.screws, arm.M_home, goals, start, limits)
+        return q, ~jacobian.reached(arm.screws, arm.M_home, goals, q)
+
+    assert not walked(folded)[1].any()
+    q, fails = walked(plain)
+    lowest, highest = np.degrees(yaw[fails][[0, -1]])
+    assert says(f"fails for {fails.sum()} of the {len(yaw)} yaws, {lowest:.0f} to")
+    assert says(f"to {highest:.0f} degrees, and each time joint7 stands at its end")
+    assert_same(np.minimum(*np.abs(q[fails, 6, None] - limits[6]).T), np.zeros(17), 0.0)
+    best = jacobian.solve_ik(arm.screws, arm.M_home, plain, start, limits)
+    assert jacobian.reached(arm.screws, arm.M_home, plain, best).all()
+    limits[6] = -7, 7
+    assert not walked(plain)[1].any()
+    assert says("if joint7 could turn by ±7 rad")
+
+
 def test_the_hand_weighs_what_the_guide_says():
     mass = panda.hand_inertia(panda.load("panda"))[0]
     assert says(f"The hand with its fingers is {mass:.2f} kg more")
@@ -134,7 +172,7 @@ def test_step_7s_sentences():
     assert says(f"so it is {numbers['constant speed'][0]:.0f} mrad off")
     assert numbers["constant speed"][2] > 1.0
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
-    assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s3")
+    assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s³")
     assert 0.78 < ways["trapezoid"][1] / T < 0.82  # "a fifth faster"
     top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
     alone = DQ / top + top / lab.A_MAX
@@ -179,7 +217,7 @@ def test_what_the_grip_lifts_is_as_predicted(mass, slips):
 
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
-    assert says(f"speeds up with {up:.2f} m/s2")
+    assert says(f"speeds up with {up:.2f} m/s²")
     assert says(f"{lab.heaviest_cube(0.9247, 1.0, 0.0):.3f} kg at rest")
     assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")

@@ -21,8 +21,8 @@ SEED = 47  # the same random configurations at every run
 NEAR, FAR = 50, 20  # targets of your solve_ik: within 0.3 rad of its start, anywhere
 TRIES = 10  # starts for one far target; with 1, a third of them is not reached
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # Franka's joint speed limits, rad/s
-# The hand draws a circle in the y-z plane, from START_Q on. With radius 0.36 every
-# method can do it; 0.38 grazes a singularity; 0.4 leads beyond the arm's reach.
+# The hand draws a circle in the y-z plane, from START_Q on. With radius 0.36 all of it
+# is in reach; the top of one of 0.38 is not, and its bottom is nearly singular.
 CENTRE = np.array([0.28, -0.06, 0.55])
 EASY, RADIUS = 0.36, 0.38
 START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])  # its elbow: no limit is met
@@ -124,7 +124,7 @@ def solve_ik(
 
 
 def manipulability(J: np.ndarray) -> float:
-    """Return sqrt(det(J J^T)): how far J is from singular, where it is 0 (never NaN).
+    """Return sqrt(det(J J^T)), which is 0 where J is singular (never NaN).
 
     With 1, 2, 3, 1, 1, 1 on the diagonal of J it is 6.
     """
@@ -197,6 +197,13 @@ def on_the_circle(radius: float, time: float) -> np.ndarray:
 def first_q(arm: tuple, radius: float, limits: np.ndarray) -> np.ndarray:
     """Return where the circle starts; the library's, so that all draw the same one."""
     return jacobian.solve_ik(*arm, on_the_circle(radius, 0.0), START_Q, limits)
+
+
+def best_miss(arm: tuple, q: np.ndarray, radius: float, limits: np.ndarray):
+    """Return how far off the circle the hand must be, mm, (n,): the library's best."""
+    goals = np.array([on_the_circle(radius, t - DT) for t in np.arange(DT, LAP, DT)])
+    best = fk_space(*arm, jacobian.solve_ik(*arm, goals, q, limits))
+    return 1000 * np.linalg.norm(best[:, :3, 3] - goals[:, :3, 3], axis=1)
 
 
 def draw_circle(arm: tuple, q: np.ndarray, radius: float, damping: float) -> tuple:
@@ -315,13 +322,19 @@ def main() -> int:
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
                n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip
 
-    lab.step(f"5. A circle of {RADIUS} m, through a singularity, with damping")
-    off, speeds, _ = draw_circle(arm, first_q(arm, RADIUS, limits), RADIUS, DAMPING)
+    lab.step(f"5. A circle of {RADIUS} m, out of reach at its top, with damping")
+    start = first_q(arm, RADIUS, limits)
+    off, speeds, _ = draw_circle(arm, start, RADIUS, DAMPING)
     lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
     lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
                label="fastest joint, in parts of its limit")  # fmt: skip
+    least = best_miss(arm, start, RADIUS, limits)
+    out = np.sum(least > 1e-3)
+    print(f"  {out} of {len(least)} poses are out of reach, by up to", end=" ")
+    print(f"{least.max():.2f} mm.")
+    lab.check("mm farther off than the best joint angles", off - least, 15)
 
-    lab.step("6. Without damping: other digits or another DT, other numbers")
+    lab.step("6. Without damping: another DT, other numbers")
     for radius in (EASY, RADIUS):
         off, speeds, _ = draw_circle(arm, first_q(arm, radius, limits), radius, 0.0)
         print(f"  {radius:.2f} m: {off.max():8.2f} mm off, {speeds.max():8.2f} rad/s, "
