@@ -53,7 +53,7 @@ hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is n
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
 
 borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
-	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ARGS)
+	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
 
 run: .venv/.ready-core $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)

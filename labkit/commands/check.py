@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from labkit.base import cli
-from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.process import Process
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
@@ -122,6 +122,5 @@ def main() -> int:
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
     atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
     options = parse()
-    number = options.day or started_day()
-    day = find_task(options.task)[0] if options.task else find_day(number)
+    day = chosen_day(options.day, options.task)
     return watch(day, options) if options.watch else check(day, options)

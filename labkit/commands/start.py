@@ -10,7 +10,7 @@ A file that is there is never overwritten, and a reset keeps your old text besid
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.originals import require_kits
 from labkit.lesson.starter import make_starter, put_back, read_script
 from robo47.errors import Robo47Error
@@ -86,5 +86,6 @@ def main() -> int:
     parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
     options = parser.parse_args()
     if options.reset:
+        chosen_day(options.day, options.reset)
         return reset(options.reset)
-    return start(find_day(options.day or started_day()))
+    return start(chosen_day(options.day))

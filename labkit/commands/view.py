@@ -20,7 +20,7 @@ import numpy as np
 
 from labkit.base import cli
 from labkit.inspector import native_viewer
-from labkit.lesson.day import Day, find_day, started_day
+from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -151,7 +151,7 @@ def picture_of(options: argparse.Namespace) -> Path:
     """
     if options.screenshot != DAYS_OWN:
         return options.screenshot
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     if not day.figure:
         raise Robo47Error(f"day {day.number} hands no figure in; name a file")
     return day.folder / day.figure
@@ -166,7 +166,7 @@ def main() -> int:
         return screenshot(picture_of(options), options.start)
     if options.native:
         return native()
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or "panda_nohand"
