@@ -225,7 +225,9 @@ def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
 
 def test_no_text_of_a_journal_becomes_a_script(day):
     evil = "<script>alert(1)</script>"
-    text = week_page.render([facts(day, met=[Met("1.1", evil, "still there", evil)])], evil)
+    text = week_page.render(
+        [facts(day, met=[Met("1.1", evil, "still there", evil)])], evil
+    )
     assert "<script" not in text
     assert "default-src 'none'" in text
 

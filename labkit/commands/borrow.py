@@ -44,7 +44,7 @@ def main() -> int:
     """Borrow one task's functions."""
     parser = cli.parser(__doc__)
     parser.add_argument("task", help="such as 3.3")
-    parser.add_argument("--day", type=int, help="default: the task's")
+    parser.add_argument("--day", type=cli.day, help="default: the task's")
     options = parser.parse_args()
     chosen_day(options.day, options.task)
     return borrow(options.task)

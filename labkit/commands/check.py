@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from labkit.base import cli
+from labkit.commands.start import require_begun
 from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.process import Process
 from robo47.errors import Robo47Error
@@ -35,7 +36,7 @@ POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
     parser.add_argument("--task", help="check this task alone, such as 1.4")
     parser.add_argument("--file", type=Path, help="instead of the file in work/")
     parser.add_argument("--watch", action="store_true", help="check again at each save")
@@ -47,9 +48,10 @@ def parse() -> argparse.Namespace:
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
     script = options.file or day.work
-    if not script.is_file():
-        remedy = "" if options.file else f"; first: make start DAY={day.number}"
-        raise Robo47Error(f"{shown(script)} is not there{remedy}")
+    if not options.file:
+        require_begun(day)
+    elif not script.is_file():
+        raise Robo47Error(f"{shown(script)} is not there")
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import journal, report, states

@@ -26,7 +26,7 @@ def main() -> int:
     """Draw what was asked for."""
     parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--out", type=Path, help="folder to write to")
     options = parser.parse_args()
     # Before a lesson imports MuJoCo, which fails there with a traceback.

@@ -78,7 +78,7 @@ def main() -> int:
     parser.add_argument(
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
     if options.task and not options.task[0].isdecimal():

@@ -218,7 +218,7 @@ def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--check", action="store_true", help="write nothing")
     options = parser.parse_args()
     day = chosen_day(options.day)

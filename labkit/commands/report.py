@@ -116,7 +116,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="YYYY-MM-DD",
         help="rows of that date and later",
     )
-    it.add_argument("--day", type=int, help="one day of the course")
+    it.add_argument("--day", type=cli.day, help="one day of the course")
     it.add_argument("--check", default="", metavar="NAME", help="one check")
     cli.add_log(it)
     it.add_argument(

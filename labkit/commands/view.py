@@ -123,7 +123,9 @@ def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
     add, how = parser.add_argument, parser.add_mutually_exclusive_group()
-    add("day", type=int, nargs="?", help="whose tabs and file; the last you started")
+    add(
+        "day", type=cli.day, nargs="?", help="whose tabs and file; the last you started"
+    )
     how.add_argument("--web", action="store_true", help="in a browser; the default")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")
     how.add_argument(
