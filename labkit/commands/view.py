@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from labkit.base import cli
+from labkit.handin.figure import PORTRAIT
 from labkit.inspector import native_viewer
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
@@ -80,9 +81,13 @@ def screenshot(path: Path, start: str) -> int:
             "pictures need Pillow, which is not installed yet: "
             "make view ARGS=--screenshot (or: python3 scripts/setup_env.py figures)"
         ) from None
+    from PIL import PngImagePlugin
+
     picture = draw(configuration(start), start)
+    about = PngImagePlugin.PngInfo()
+    about.add_text(PORTRAIT, start)
     path.parent.mkdir(parents=True, exist_ok=True)
-    picture.save(path)
+    picture.save(path, pnginfo=about)
     print(f"wrote {shown(path)}")
     return cli.EXIT_OK
 
@@ -156,6 +161,12 @@ def picture_of(options: argparse.Namespace) -> Path:
     day = chosen_day(options.day)
     if not day.figure:
         raise Robo47Error(f"day {day.number} hands no figure in; name a file")
+    if day.draw:
+        raise Robo47Error(
+            f"the picture of day {day.number} shows what your functions do: make "
+            f"figures DAY={day.number}. For one of the arm alone name a file: "
+            'ARGS="--screenshot arm.png"'
+        )
     return day.folder / day.figure
 
 

@@ -94,6 +94,9 @@ class Day:
     tasks: tuple[Task, ...]  # in the order to do them
     # The student's picture, "" where there is none; pictures that do not count as it.
     figure: str = entry("", at="figure.path", needed=True)
+    # Which of FIGURES `make figures` draws as it, with the functions of the student's
+    # file; "" where the arm alone is what is asked for.
+    draw: str = entry("", at="figure.draw")
     kit_figures: tuple[str, ...] = entry((), at="figure.not_a_copy_of")
     # The student's worksheet, "" where there is none; what its glossary defines.
     worksheet: str = entry("", at="worksheet.path", needed=True)
