@@ -16,7 +16,7 @@ NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
 VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 
 # A lab that draws gets what it draws with.
-RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>&1),figures,core)
+RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
