@@ -85,7 +85,7 @@ def last_check(day: Day) -> str:
         return f"Not begun: make start DAY={day.number}"
     known = {task.id: states.known(day).get(task.id, "") for task in day.tasks}
     if not all(known.values()):
-        return f"Not checked as it is now: make check DAY={day.number}"
+        return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{id} {state}" for id, state in known.items() if state != "passed"]
     passed = f"The last check: {len(known) - len(left)} of {len(known)} tasks pass"
     return f"{passed}; {', '.join(left)}." if left else f"{passed}."
@@ -102,7 +102,7 @@ def tell(report: Report, days: list[Day]) -> None:
         own = [one for one in report.series if one.day == day.number]
         if stale := sum(one.status == "stale" for one in own):
             old = f"{count(stale, 'number')} from before your file changed"
-            says.append(f"{old}: make run DAY={day.number}")
+            says.append(f"{old}: make run DAY={day.number}.")
         if says:
             print(cli.wrapped(f"day {day.number}: {' '.join(says)}", "  "))
 

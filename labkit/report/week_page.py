@@ -15,6 +15,7 @@ body { max-width: 980px; }
 td.n, th.n { text-align: right; } td.day { font-weight: 600; }
 tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
   border-top: 1px solid var(--grid); }
+td.pass, td.fail, td.none { white-space: normal; min-width: 64px; }
 table { font-size: 14px; margin-top: 0; } th, td { padding: 6px 14px 6px 0; }
 th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal;
   min-width: 160px; }
@@ -172,7 +173,7 @@ def _mistake(day: Day, met: Met) -> str:
 def _counts(one: DayFacts) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
-        return f"<td colspan=2>not checked as it is now: run {command}</td>"
+        return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
     bar, borrowed = _bar(one.passed, one.tasks), ""
     if one.borrowed:
         borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
