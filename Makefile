@@ -15,6 +15,9 @@ NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
 # A picture needs no page in the browser.
 VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 
+# A lab that draws gets what it draws with.
+RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
+
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
 .PHONY: capstone fresh help test soak report lint docs oracle figures notebook
@@ -53,9 +56,9 @@ hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is n
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
 
 borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
-	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ARGS)
+	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
 
-run: .venv/.ready-core $(ROBOT) ## run your own copy of the lab, log its numbers
+run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 doctor: ## what this machine has and lacks; paste it when asking
@@ -83,7 +86,7 @@ lint: .venv/.ready-test ## style, format and types
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ARGS)
 
-figures: .venv/.ready-figures $(ROBOT) ## draw the pictures of a day's lesson
+figures: .venv/.ready-figures $(ROBOT) ## draw the day's picture with your functions
 	@$(PY) scripts/make_figures.py $(ON_DAY) $(ARGS)
 
 notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook

@@ -52,6 +52,47 @@ def run(name):
     cli.run(import_module("labkit.commands." + name).main)
 
 
+def explain(kind, error, trace):
+    """Say in a few lines what ended a script, where a traceback would not help."""
+    if issubclass(kind, KeyboardInterrupt):
+        end(130, "\nstopped")
+    found = own_bug(kind, error, trace)
+    if found:
+        end(1, *found)
+    explain_gl(kind, error, trace)
+
+
+def own_bug(kind, error, trace):
+    """Return three lines on a bug in a student's lab, () where it is not theirs."""
+    import linecache
+
+    script = getattr(sys.modules.get("__main__"), "__file__", None) or ""
+    folder, name = os.path.split(os.path.abspath(script))
+    number = name[3 : name.find("_")]
+    if os.path.basename(folder) != "work" or not number.isdigit():
+        return ()
+    own = None
+    while trace:
+        file = trace.tb_frame.f_code.co_filename
+        if os.path.dirname(os.path.abspath(file)) == folder:
+            own = (file, trace.tb_lineno, trace.tb_frame.f_code.co_name)
+        trace = trace.tb_next
+    if not own:
+        return ()
+    code = linecache.getline(own[0], own[1]).strip()
+    where = "{}, line {}, in {}: {}".format(os.path.basename(own[0]), *own[1:], code)
+    says = "{}: {}".format(kind.__name__, error).splitlines()[0]
+    return (where, says, "Which function is it? make check DAY=" + number)
+
+
+def end(code, *lines):
+    """Print lines and end: after this hook Python would end with 1."""
+    sys.stdout.flush()
+    sys.stderr.write("\n".join(lines) + "\n")
+    sys.stderr.flush()
+    os._exit(code)
+
+
 def explain_gl(kind, error, trace):
     """Say in one line that MUJOCO_GL is wrong: MuJoCo reads it when it is imported."""
     chosen, frame = os.environ.get("MUJOCO_GL"), trace
@@ -60,14 +101,11 @@ def explain_gl(kind, error, trace):
     if not chosen or not frame:
         sys.__excepthook__(kind, error, trace)
         return
-    sys.stdout.flush()
-    says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL\n"
-    sys.stderr.write(says.format(chosen))
-    sys.stderr.flush()
-    os._exit(2)  # after this hook Python would end with 1
+    says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
+    end(2, says.format(chosen))
 
 
 if not here():
     go_on()
 os.environ.pop("ROBO47_HANDED_ON", None)  # programs that we start may hand on too
-sys.excepthook = explain_gl
+sys.excepthook = explain

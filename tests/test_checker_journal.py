@@ -28,14 +28,30 @@ def test_mistakes_are_met_once_and_left_behind_when_the_task_passes(tmp_path):
     for state in (("wrong", "a"), ("wrong", "b"), ("wrong", "a"), ("passed", "")):
         journal.note(results(t1_1=state, t1_2=("close", "c")), tmp_path)
     journal.note(results(t1_3=("wrong", "missing")), tmp_path)
-    met = journal.mistakes_met(journal.read(tmp_path))
-    assert met == [("1.1", "a", True), ("1.2", "c", False), ("1.1", "b", True)]
+    met = journal.mistakes_met(journal.read(tmp_path), {"1.1": "passed"})
+    assert [one[:3] for one in met] == [
+        ("1.1", "a", "left behind"),
+        ("1.2", "c", "not checked since"),
+        ("1.1", "b", "left behind"),
+    ]
+
+
+def test_still_there_is_what_the_last_check_of_the_file_as_it_is_found(tmp_path):
+    for slug in ("a", "b"):
+        says = f"It is {slug}. Mend it."
+        journal.note(results(t1_1=("wrong", slug, says)), tmp_path)
+    met = journal.mistakes_met(journal.read(tmp_path), {"1.1": "wrong"})
+    assert met == [
+        ("1.1", "a", "not right yet", "It is a."),
+        ("1.1", "b", "still there", "It is b."),
+    ]
 
 
 def test_what_follows_from_another_task_is_no_mistake_of_its_own(tmp_path):
     first, then = ("wrong", "a"), ("wrong", "b", "its words", (), "1.1")
     journal.note(results(t1_1=first, t1_2=then), tmp_path)
-    assert journal.mistakes_met(journal.read(tmp_path)) == [("1.1", "a", False)]
+    (met,) = journal.mistakes_met(journal.read(tmp_path), {"1.1": "wrong"})
+    assert met[:3] == ("1.1", "a", "still there")
 
 
 def test_a_torn_or_odd_journal_loses_its_odd_lines_alone(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from labkit.check.source_hints import unfinished
+from labkit.check.source_hints import renamed, unfinished
 
 DOC = '    """Return it."""\n'
 GAP = '    raise NotImplementedError("task 1.2: write f")\n'
@@ -28,3 +28,9 @@ def test_a_plain_gap_or_code_without_a_slip_is_no_slip(body):
 def test_a_function_that_is_gone_or_does_not_parse_is_no_slip():
     assert unfinished("x = 1\n", "f") == ""
     assert unfinished("def f(:\n    pass\n", "f") == ""
+
+
+def test_a_renamed_function_is_found_again():
+    source = "x = 1\ndef rz(t):\n    return t\ndef exp_rotation(w):\n    return w\n"
+    assert "but rz (line 2): did you mean Rz?" in renamed(source, "Rz")
+    assert renamed(source, "log_rotation") == ""

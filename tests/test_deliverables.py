@@ -170,6 +170,32 @@ def test_the_kits_own_picture_does_not_count_even_saved_anew(items, day):
     assert "make one of your own" in items()["figure"].message
 
 
+def test_a_portrait_is_the_picture_of_the_first_day_alone(day, clone):
+    from labkit.handin.figure import PORTRAIT, check_figure
+    from labkit.handin.handin import read_handin
+
+    text = f"{PORTRAIT}\0ready".encode()
+    chunk = struct.pack(">I", len(text)) + b"tEXt" + text
+    chunk += struct.pack(">I", zlib.crc32(b"tEXt" + text))
+    data = png(PICTURE)
+    (day.folder / day.figure).write_bytes(data[:33] + chunk + data[33:])
+    handin = read_handin(day, clone)
+    assert check_figure(day, handin).passed
+    refused = check_figure(replace(day, draw="order"), handin)
+    assert refused.status == "wrong"
+    assert "make figures DAY=1" in refused.message
+
+
+def test_the_picture_of_another_day_does_not_count(day, clone):
+    from labkit.handin.figure import check_figure
+    from labkit.handin.handin import read_handin
+
+    other = find_day(1).folder / "figures" / "day1_reference.png"
+    (day.folder / day.figure).write_bytes(other.read_bytes())
+    handin, alone = read_handin(day, clone), replace(day, kit_figures=())
+    assert "day1_reference.png of the kit" in check_figure(alone, handin).message
+
+
 def test_a_png_reads_back_as_its_pixels():
     assert np.array_equal(read_png(png(PICTURE)), PICTURE)
     with pytest.raises(FlawError, match="no PNG"):

@@ -178,7 +178,21 @@ class TestWhatIsMissing:
         (student / WEEK / "docs" / "RETRO_w1.md").write_text(DIARY.format("") + TWO)
         commit(student)
         says = "its numbers are not filled in yet; make report"
-        assert lacks() == [f"{WEEK}/docs/RETRO_w1.md: {says}"]
+        assert f"{WEEK}/docs/RETRO_w1.md: {says}" in lacks()
+
+    def test_is_told_in_one_round_whatever_is_not_committed_yet(self, student, lacks):
+        diary = student / WEEK / "docs" / "RETRO_w1.md"
+        diary.write_text(DIARY.format("") + TWO)
+        assert lacks() == [
+            f"{WEEK}/docs/RETRO_w1.md: 1 place still to fill in",
+            f"{WEEK}/docs/RETRO_w1.md: changed since the commit",
+            f"{WEEK}/docs/RETRO_w1.md: its numbers are not filled in yet; make report",
+        ]
+
+    def test_is_not_what_make_report_filled_in_since(self, student, lacks):
+        diary = student / WEEK / "docs" / "RETRO_w1.md"
+        diary.write_text(DIARY.format("| 2 |") + "mine\n", "utf-8")
+        assert lacks() == []
 
     def test_is_no_sheet_of_a_day_that_is_not_begun(self, student, lacks):
         git(student, "rm", "-rq", f"{WEEK}/work", f"{WEEK}/docs/day1.md")

@@ -32,6 +32,51 @@ def test_a_lab_that_is_not_begun_is_told_with_the_command(run_in, day):
     assert "there is no day 46 yet" in run_in(RUN, "46").stderr
 
 
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [
+        ((RUN, "0"), "there is no day 0 yet"),
+        ((START, "0"), "there is no day 0 yet"),
+        (("scripts/check_day.py", "0"), "there is no day 0 yet"),
+        (("scripts/report_metrics.py", "--day", "8"), "there is no day 8 yet"),
+        ((RUN, "x"), "'x' is no day; expected its number"),
+        (("scripts/borrow.py", "1.1", "--day", "x"), "'x' is no day"),
+    ],
+)
+def test_a_day_that_is_not_there_is_refused_by_all_in_one_line(run_in, command, says):
+    done = run_in(*command)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert says in done.stderr
+
+
+def test_a_task_of_another_day_is_refused(run_in):
+    done = run_in("scripts/check_day.py", "1", "--task", "2.1")
+    assert done.returncode == 2
+    assert "task 2.1 is of day 2, not of day 1" in done.stderr
+
+
+@pytest.mark.parametrize("script", [RUN, "scripts/check_day.py"])
+def test_an_empty_file_is_told_how_to_begin(run_in, day, script):
+    day.work.parent.mkdir()
+    day.work.write_text("\n")
+    done = run_in(script, "1")
+    assert done.returncode == 2
+    assert "is empty. Delete it, then: make start DAY=1" in done.stderr
+
+
+def test_a_bug_is_three_lines_with_the_command_that_names_it(run_in, day):
+    assert run_in(START, "1").returncode == 0
+    text = day.source.read_text("utf-8").replace("make_T(R.T, -R.T @ t)", "R.t")
+    day.work.write_text(text, "utf-8")
+    day.work.with_name("kit.py").unlink()  # and comes back
+    done = run_in(RUN, "1", "--no-log")
+    where, what, remedy = done.stderr.splitlines()
+    assert done.returncode == 1
+    assert where.endswith("in inverse: return R.t")
+    assert what.startswith("AttributeError: ")
+    assert remedy.endswith("make check DAY=1")
+
+
 def test_the_exit_code_is_the_labs(run_in, day):
     day.work.parent.mkdir()
     day.work.write_text("raise SystemExit(1)\n")
@@ -97,6 +142,9 @@ def test_starting_brings_the_file_that_lets_any_python_run_the_lab(run_in, day):
     assert run_in(START, "1").returncode == 0
     assert day.work.with_name("kit.py").read_bytes() == (
         day.source.with_name("kit.py").read_bytes()
+    )
+    assert day.work.with_name("Makefile").read_bytes() == (
+        (day.folder / "Makefile").read_bytes()
     )
     again = run_in(START, "1")
     assert "stays as it is" in again.stdout

@@ -15,7 +15,7 @@ from test_report import MEASURE, dom
 from labkit.base import store
 from labkit.check.journal import Met
 from labkit.lesson.day import Metric, find_day
-from labkit.lesson.marks import file_mark
+from labkit.lesson.marks import Writers, file_mark, marks_of
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
@@ -46,7 +46,10 @@ def begun(day):
 
 def facts(day, **changed):
     number = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
-    met = [Met("1.3", "t-not-negated", True), Met("1.8", "chain-reversed", False)]
+    met = [
+        Met("1.3", "t-not-negated", "left behind", "It keeps t."),
+        Met("1.8", "chain-reversed", "still there"),
+    ]
     return replace(DayFacts(day, [number], 7, 8, 8, 9, 200, 4, met), **changed)
 
 
@@ -98,10 +101,12 @@ def row(value, script, when="2026-09-01"):
     return {"value": value, "n_failures": 0, "notes": notes, "date": when}
 
 
-def numbers(day, metric, *rows):
+def numbers(day, metric, *rows, own=b"a"):
     day = replace(day, metrics=(metric,))
-    series = Series((day.number, metric.check, metric.metric), metric)
-    series.rows = list(rows)
+    writers = Writers(marks_of(day.source.read_bytes()), marks_of(own))
+    series = Series((day.number, metric.check, metric.metric), metric, writers)
+    for one in rows:
+        series.add(one)
     key = (day.number, metric.check, metric.metric)
     (found,) = numbers_of(day, {key: series})
     return found
@@ -115,9 +120,17 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
         row(1e-15, own),
         {**row(9, own), "notes": ""},
     )
-    found = numbers(day, SMALL, *rows)
+    found = numbers(day, SMALL, *rows, own=own)
     assert (found.latest, found.worst, found.kit, found.runs) == (1e-15, 0.3, 2e-15, 2)
     assert found.passed
+
+
+def test_a_number_of_a_file_that_changed_since_is_no_pass(day):
+    found = numbers(day, SMALL, row(1e-15, b"before"))
+    assert (found.latest, found.status, found.passed) == (1e-15, "stale", False)
+    one = facts(day, numbers=[found])
+    assert "your file changed since" in week_page.render([one], "")
+    assert "| 1.0e-15 (my file changed since) |" in week_retro.as_markdown([one])
 
 
 def test_the_worst_is_the_smallest_where_a_minimum_is_asked_for(day):
@@ -198,8 +211,9 @@ def test_the_page_shows_the_week(day):
     text = week_page.render([facts(day)], "of my log")
     for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
         assert words in text
-    assert "t not negated <span class=pass>✓ left behind" in text
-    assert "chain reversed <span class=fail>✗ still there" in text
+    assert "inverse: t not negated<br><span class=muted>It keeps t.</span>" in text
+    assert "<td class=pass>✓ left behind" in text
+    assert "chain reversed</td><td class=fail>✗ still there" in text
 
 
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
@@ -211,7 +225,9 @@ def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
 
 def test_no_text_of_a_journal_becomes_a_script(day):
     evil = "<script>alert(1)</script>"
-    text = week_page.render([facts(day, met=[Met("1.1", evil, False)])], evil)
+    text = week_page.render(
+        [facts(day, met=[Met("1.1", evil, "still there", evil)])], evil
+    )
     assert "<script" not in text
     assert "default-src 'none'" in text
 
@@ -313,7 +329,8 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(
     assert 'href="report-week1.html">Week 1</a>' in log
     text = (clone / "metrics" / "report-week1.html").read_text("utf-8")
     assert "8 of 8" in text
-    assert "t not negated <span class=pass>✓ left behind" in text
+    assert "inverse: t not negated<br>" in text
+    assert "<td class=pass>✓ left behind" in text
     assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
     assert "report-week" not in run_in(REPORT, "--day", "1").stdout
 
@@ -332,6 +349,53 @@ def test_what_changed_since_the_check_is_not_counted_and_not_run(
         assert ("8 of 8" in text) is known
         says = b"Not counted, since `make check` has not seen it as it is: day 1."
         assert (says in diary.read_bytes()) is not known
+
+
+def test_an_edit_after_the_run_makes_every_number_of_the_day_stale(
+    run_in, begun, clone, diary
+):
+    run_in("scripts/check_day.py", "1")
+    run_in("scripts/run_day.py", "1", "--kit")
+    done = run_in(REPORT)
+    assert "checks: 0 passing, 0 failing" in done.stdout, "the kit's runs are not mine"
+    run_in("scripts/run_day.py", "1")
+    assert "checks: 2 passing, 0 failing" in run_in(REPORT).stdout
+    text = begun.work.read_text("utf-8")
+    broken = text.replace("    return make_T(R.T, -R.T @ t)", "    return T.T")
+    begun.work.write_text(broken + "# later\n", "utf-8")
+    done = run_in(REPORT)
+    assert "checks: 0 passing, 0 failing" in done.stdout
+    told = " ".join(done.stdout.split())
+    assert "day 1: Not checked as it is now: make check DAY=1" in told
+    assert "2 numbers from before your file changed: make run DAY=1" in told
+    for page in ("report.html", "report-week1.html"):
+        text = (clone / "metrics" / page).read_text("utf-8")
+        assert "your file changed since" in text
+        assert "✓ pass" not in text
+    assert diary.read_bytes().count(b"(my file changed since)") == 2
+
+
+def test_borrowed_functions_are_told_everywhere_and_pass_nowhere(
+    run_in, begun, clone, diary
+):
+    assert run_in("scripts/borrow.py", "1.1").returncode == 0
+    run_in("scripts/check_day.py", "1")
+    assert run_in("scripts/run_day.py", "1").returncode == 0
+    done = run_in(REPORT)
+    assert "checks: 0 passing, 0 failing" in done.stdout
+    assert "1.1 borrowed" in done.stdout
+    for page in ("report.html", "report-week1.html"):
+        assert "partly borrowed" in (clone / "metrics" / page).read_text("utf-8")
+    assert b"Borrowed from the kit, and not counted: 1.1." in diary.read_bytes()
+    assert "1    part kit's" in run_in(RUN_WEEK).stdout
+    checked = run_in("scripts/check_day.py", "1", "--explain").stdout
+    assert "Borrowed from the kit: 1.1. The rows count once" in checked
+
+
+def test_another_days_file_leaves_a_day_as_it_was_checked(run_in, begun):
+    run_in("scripts/check_day.py", "1")
+    begun.work.with_name("day2_screws.py").write_text("x = 1\n")
+    assert "Not checked" not in run_in(REPORT).stdout
 
 
 def test_a_check_of_one_task_tells_nothing_of_the_others(run_in, begun, clone):

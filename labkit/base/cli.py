@@ -13,7 +13,7 @@ import textwrap
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TextIO
+from typing import NoReturn, TextIO
 
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
@@ -24,6 +24,22 @@ _REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
 _PAINT = {"good": "32", "bad": "31", "note": "33"}  # green, red, yellow
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that says in one line what it cannot read."""
+
+    def error(self, message: str) -> NoReturn:
+        complain(f"error: {message}; see --help")
+        sys.exit(EXIT_CANNOT_RUN)
+
+
+def day(text: str) -> int:
+    """Return a day's number, as it was typed."""
+    if not text.isdecimal():
+        says = f"{text!r} is no day; expected its number, such as 3"
+        raise argparse.ArgumentTypeError(says)
+    return int(text)
+
+
 def parser(about: str | None) -> argparse.ArgumentParser:
     """Return the parser of a script whose docstring is its help.
 
@@ -31,7 +47,7 @@ def parser(about: str | None) -> argparse.ArgumentParser:
         about: the docstring; its indented lines are kept as they are.
     """
     summary, *paragraphs = (about or "").strip().split("\n\n")
-    return argparse.ArgumentParser(
+    return _Parser(
         description=wrapped(" ".join(summary.split())),
         epilog="\n\n".join(
             text if "\n  " in "\n" + text else wrapped(" ".join(text.split()))

@@ -6,8 +6,9 @@ mistakes were met and left behind; nothing is sent anywhere, and git ignores it.
 
 import contextlib
 import json
+import re
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,20 +33,32 @@ class Entry(NamedTuple):
         task: its id.
         status: as in a verdict.
         mistake: its name, "" where it has none.
+        says: the first sentence of what the checker said of it.
     """
 
     when: float
     task: str
     status: str
     mistake: str
+    says: str = ""
 
 
 class Met(NamedTuple):
-    """A mistake that was made: in which task, and whether the task passes since."""
+    """A mistake that was made.
+
+    Attributes:
+        task: its id.
+        mistake: its name.
+        now: "left behind" where the task passes, "still there" where the last check
+            of the file as it is found it, "not checked since" where there was none,
+            "not right yet" where that check found something else.
+        says: what the checker said of it when it was met, in a sentence.
+    """
 
     task: str
     mistake: str
-    left_behind: bool
+    now: str
+    says: str = ""
 
 
 def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
@@ -58,7 +71,8 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         # What follows from another task is no mistake of its own.
         state = (verdict.status, "" if verdict.follows else verdict.mistake)
         if known is None or (known.status, known.mistake) != state:
-            entry = Entry(round(time.time(), 1), result.task.id, *state)
+            says = _sentence(verdict.message) if state[1] else ""
+            entry = Entry(round(time.time(), 1), result.task.id, *state, says)
             lines.append(json.dumps(entry))
     store.add_lines(NAME, lines, root)
 
@@ -68,17 +82,41 @@ def read(root: Path = ROOT) -> list[Entry]:
     found = []
     for line in store.read_text(NAME, root).splitlines():
         with contextlib.suppress(ValueError, TypeError):
-            when, task, status, mistake = json.loads(line)
-            found.append(Entry(float(when), str(task), str(status), str(mistake)))
+            when, task, status, mistake, *says = json.loads(line)
+            words = (str(task), str(status), str(mistake), *map(str, says[:1]))
+            found.append(Entry(float(when), *words))
     return found
 
 
-def mistakes_met(entries: Iterable[Entry]) -> list[Met]:
-    """Return every named mistake once per task, in the order they were met."""
-    met: dict[tuple[str, str], None] = {}
-    status: dict[str, str] = {}
+def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met]:
+    """Return every named mistake once per task, in the order they were met.
+
+    Args:
+        entries: of the journal, oldest first.
+        known: how tasks stand in the file as it is, as `states.known` has it.
+    """
+    met: dict[tuple[str, str], str] = {}
+    last: dict[str, str] = {}
     for entry in entries:
-        status[entry.task] = entry.status
+        last[entry.task] = entry.mistake
         if entry.status in ("wrong", "close") and entry.mistake not in _NO_MISTAKE:
-            met.setdefault((entry.task, entry.mistake))
-    return [Met(task, slug, status[task] == "passed") for task, slug in met]
+            met.setdefault((entry.task, entry.mistake), entry.says)
+    found = []
+    for (task, slug), says in met.items():
+        match known.get(task):
+            case None:
+                now = "not checked since"
+            case "passed":
+                now = "left behind"
+            case "wrong" | "close" if last[task] == slug:
+                now = "still there"
+            case _:
+                now = "not right yet"
+        found.append(Met(task, slug, now, says))
+    return found
+
+
+def _sentence(message: str) -> str:
+    """Return the first sentence of a message, at most 200 characters of it."""
+    first = re.split(r"(?<=[.:;]) (?=[A-Z])|\n", message, maxsplit=1)[0]
+    return first if len(first) <= 200 else first[:199] + "…"

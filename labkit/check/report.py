@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
 from labkit.judge.mistake import Verdict
-from labkit.lesson.day import Day, Task
+from labkit.lesson.day import Day, Task, day_numbers
 
 if TYPE_CHECKING:
     from labkit.handin import Item
@@ -86,7 +86,10 @@ class Report:
             if not item.passed:
                 return f"the {item.name}."
         if self.items:
-            return "nothing is left to do here. Well done."
+            later = [n for n in day_numbers() if n > self.day.number]
+            then = f"make start DAY={later[0]}" if later else "make fresh"
+            says = "nothing is left to do here. Well done. Your numbers: make report; "
+            return f"{says}then: {then}."
         return f"the whole day: make check DAY={self.day.number}"
 
 
@@ -152,11 +155,12 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     lines = [f"Day {day.number}: {day.title}", ""]
     if report.problem:
         lines += [*_wrapped(report.problem, 2), ""]
-    for result in report.tasks:
-        task, verdict = result.task, result.verdict
-        name = ", ".join(task.functions) + (" (side quest)" if task.optional else "")
+    names = [_name(result.task) for result in report.tasks]
+    width = max([24, *map(len, names)])
+    for result, name in zip(report.tasks, names, strict=True):
+        verdict = result.verdict
         status = "unjudged" if report.problem else state_of(verdict)
-        lines.append(_line(f"{task.id}  {name}", status, colour))
+        lines.append(_line(name, status, colour, width))
         if not report.problem and verdict.mistake != "unwritten":
             lines += _wrapped(_said(report, result, explain), _INDENT)
         if explain:
@@ -166,7 +170,7 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     if report.items:
         lines.append("")
     for item in report.items:
-        lines.append(_line(item.name, item.status, colour))
+        lines.append(_line(item.name, item.status, colour, width))
         if not report.left or explain or item.status == "wrong":
             lines += _wrapped(item.message, _INDENT)
     share = 100 * report.done // report.total
@@ -197,11 +201,16 @@ def state_of(verdict: Verdict) -> str:
     return verdict.mistake if verdict.mistake in _LABEL else verdict.status
 
 
-def _line(name: str, status: str, colour: bool) -> str:
+def _name(task: Task) -> str:
+    side = " (side quest)" if task.optional else ""
+    return f"{task.id}  {', '.join(task.functions)}{side}"
+
+
+def _line(name: str, status: str, colour: bool, width: int) -> str:
     state = _LABEL[status]
     if colour:
         state = f"\x1b[{_COLOUR.get(status, '33')}m{state}\x1b[0m"
-    return f"  {name:24}  {state}"
+    return f"  {name:{width}}  {state}"
 
 
 def _wrapped(text: str, indent: int, hanging: int = 0) -> list[str]:

@@ -1,6 +1,8 @@
 """What the text of a student's function shows, not its answers: names, first slips."""
 
 import ast
+import difflib
+import re
 
 from labkit.lesson.starter import function_lines
 
@@ -41,6 +43,23 @@ def unfinished(source: str, function: str) -> str:
         )
     if body and all(isinstance(node, ast.Pass) for node in body):
         return "Its body is `pass`, which does nothing: write what it should return."
+    return ""
+
+
+def renamed(source: str, function: str) -> str:
+    """Return what to do about a missing function that has another name, or "".
+
+    Args:
+        source: the student's file.
+        function: its name in the kit.
+    """
+    there = {name.lower(): name for name in re.findall(r"^def (\w+)\(", source, re.M)}
+    for near in difflib.get_close_matches(function.lower(), there, 1, cutoff=0.8):
+        line = function_lines(source, there[near])[0] + 1
+        return (
+            f"The file has no function {function}, but {there[near]} (line {line}): "
+            f"did you mean {function}? Give it that name again."
+        )
     return ""
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from labkit.base import store
+from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
 from robo47.paths import ROOT
 
@@ -52,9 +53,17 @@ def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
 
 
 def key_of(day: Day) -> str:
-    """Return what changes with the student's files, the day's own and the kit's."""
-    files = [day.work, *sorted(day.work.parent.glob("*.py"))]
-    digest = _digest([*files, *sorted(day.own.rglob("*.py"))], _kit())
+    """Return what changes with the student's files, the day's own and the kit's.
+
+    Of the student's it is the day's script and what that imports: a line of another
+    day's file leaves a day as it was checked.
+    """
+    script = day.files["script"]
+    content = day.work.read_bytes() if day.work.is_file() else b""
+    helpers = helpers_of(day.folder.parent, script, {script: content})
+    own = [f"{name}\0".encode() + helpers[name] for name in sorted(helpers)]
+    given = hashlib.sha256(b"\0".join([content, *own, _kit()])).digest()
+    digest = _digest(sorted(day.own.rglob("*.py")), given)
     return f"{day.number} {digest.hex()[:16]}"
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply, replies
 from labkit.check.second_look import kits_functions, right_when
-from labkit.check.source_hints import arguments, unfinished
+from labkit.check.source_hints import arguments, renamed, unfinished
 from labkit.judge.ask import Asked, make_round
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
@@ -244,6 +244,8 @@ def _of_function(task: Task, asked: Asked, source: str) -> Verdict:
     for reply in replies([*asked.main, *asked.fresh]):
         if early := no_answer(reply, function, task.id):
             slip = early.mistake == "unwritten" and unfinished(source, function)
+            if early.mistake == "missing" and (near := renamed(source, function)):
+                return replace(early, message=near)
             return Verdict("todo", "raise-left-in", slip) if slip else early
     verdict = judge(asked, source, arguments(source, function))
     came = replies(asked.exchanges)

@@ -10,7 +10,7 @@ Your file as it was is kept beside it.
 from labkit.base import cli
 from labkit.commands.start import free_name
 from labkit.lesson.borrowed import with_borrowed
-from labkit.lesson.day import find_task
+from labkit.lesson.day import chosen_day, find_task
 from labkit.lesson.originals import require_kits
 from labkit.lesson.starter import function_lines, read_script
 from robo47.errors import Robo47Error
@@ -44,4 +44,7 @@ def main() -> int:
     """Borrow one task's functions."""
     parser = cli.parser(__doc__)
     parser.add_argument("task", help="such as 3.3")
-    return borrow(parser.parse_args().task)
+    parser.add_argument("--day", type=cli.day, help="default: the task's")
+    options = parser.parse_args()
+    chosen_day(options.day, options.task)
+    return borrow(options.task)

@@ -27,9 +27,9 @@ from robo47.errors import Robo47Error
 
 CUBES = 20
 HEAD = (
-    f"{'':22}{'place':>8}{'joints':>9}{'line':>8}{'time':>7}{'torque':>8}{'speed':>7}"
+    f"{'':26}{'place':>8}{'joints':>9}{'line':>8}{'time':>7}{'torque':>8}{'speed':>7}"
 )
-UNITS = f"{'':22}{'mm':>8}{'mrad':>9}{'mm':>8}{'s':>7}{'of max':>8}{'of max':>7}"
+UNITS = f"{'':26}{'mm':>8}{'mrad':>9}{'mm':>8}{'s':>7}{'of max':>8}{'of max':>7}"
 
 
 def parse() -> argparse.Namespace:
@@ -62,7 +62,7 @@ def chosen(kit_only: bool) -> Any:
 def row(name: str, result: Result) -> str:
     """Return one line of the table."""
     return (
-        f"{name:22}{result.place_mm:8.1f}{result.joint_mrad:9.2f}{result.line_mm:8.1f}"
+        f"{name:26}{result.place_mm:8.1f}{result.joint_mrad:9.2f}{result.line_mm:8.1f}"
         f"{result.seconds:7.1f}{result.torque:8.2f}{result.speed:7.2f}"
     )
 

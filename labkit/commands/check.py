@@ -23,7 +23,8 @@ from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.git import short_sha
-from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.commands.start import require_begun
+from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.process import Process
 from robo47 import __version__
 from robo47.errors import Robo47Error
@@ -38,7 +39,7 @@ POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
     parser.add_argument("--task", help="check this task alone, such as 1.4")
     parser.add_argument("--file", type=Path, help="instead of the file in work/")
     parser.add_argument("--watch", action="store_true", help="check again at each save")
@@ -53,9 +54,10 @@ def parse() -> argparse.Namespace:
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
     script = options.file or day.work
-    if not script.is_file():
-        remedy = "" if options.file else f"; first: make start DAY={day.number}"
-        raise Robo47Error(f"{shown(script)} is not there{remedy}")
+    if not options.file:
+        require_begun(day)
+    elif not script.is_file():
+        raise Robo47Error(f"{shown(script)} is not there")
     seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
@@ -130,6 +132,5 @@ def main() -> int:
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
     atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
     options = parse()
-    number = options.day or started_day()
-    day = find_task(options.task)[0] if options.task else find_day(number)
+    day = chosen_day(options.day, options.task)
     return watch(day, options) if options.watch else check(day, options)

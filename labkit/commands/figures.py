@@ -1,7 +1,8 @@
-"""Draw the pictures of a day's lesson into its week's figures/.
+"""Draw your picture of a day with your own functions, or the pictures of its lesson.
 
-    make figures DAY=1                                 all of a day
-    python3 scripts/make_figures.py --day 1            the same
+    make figures DAY=6                                 yours, that the day hands in
+    make figures DAY=6 ARGS=--kit                      all of the lesson
+    python3 scripts/make_figures.py --day 6            the same as the first
     python3 scripts/make_figures.py day1_order         one of them
     python3 scripts/make_figures.py --out other/place  into another folder
 
@@ -9,31 +10,41 @@ Works without a display. MuJoCo draws the robot; the frames over it are composed
 by hand, so a wrong one would be seen beside its link.
 """
 
+import traceback
 from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
 from labkit.base import cli
+from labkit.commands.start import require_begun
 from labkit.figures import backends
 from labkit.figures.lessons import lesson_figures
-from labkit.lesson.day import find_day, started_day
+from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.marks import file_mark
 from robo47.errors import Robo47Error
 from robo47.paths import shown
+
+SIGNATURE = b"robo47 drawn with"  # a text of the file, before the mark of whose
 
 
 def main() -> int:
     """Draw what was asked for."""
     parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--out", type=Path, help="folder to write to")
+    parser.add_argument("--kit", action="store_true", help="the lesson's, not yours")
     options = parser.parse_args()
     # Before a lesson imports MuJoCo, which fails there with a traceback.
     backends.rendering_environment()
-    day = find_day(options.day or day_of(options.names) or started_day())
+    number = day_of(options.names) if options.day is None else options.day
+    day = chosen_day(number)
     folder = options.out or day.folder / "figures"
+    own = bool(day.draw and day.work.is_file()) and not (options.names or options.kit)
     try:
+        if own:
+            return draw_own(day, folder / Path(day.figure).name)
         figures = lesson_figures(day.number)
     except ModuleNotFoundError as missing:
         raise Robo47Error(
@@ -51,18 +62,55 @@ def main() -> int:
     return cli.EXIT_OK
 
 
+def draw_own(day: Day, path: Path) -> int:
+    """Draw the picture that a day hands in, with the functions of the student's file.
+
+    Raises:
+        Robo47Error: another picture is in its place.
+    """
+    from PIL import PngImagePlugin
+
+    from labkit.figures import sheet
+
+    if path.is_file() and SIGNATURE not in path.read_bytes():
+        raise Robo47Error(
+            f"{shown(path)} is there already and is none that this drew: it stays. "
+            "Move it away, or choose a folder with --out"
+        )
+    require_begun(day)
+    mark = file_mark(day.work.read_bytes())
+    try:
+        picture = lesson_figures(day.number, own=True)[f"day{day.number}_{day.draw}"]()
+    except (Robo47Error, NotImplementedError):
+        raise
+    except Exception as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        own = [f for f in frames if Path(f.filename).parent == day.work.parent]
+        if not own:
+            raise
+        cli.complain(f"{day.script}, line {own[-1].lineno}, in {own[-1].name}")
+        cli.complain(f"{type(error).__name__}: {error}")
+        cli.complain(f"Which function is it? make check DAY={day.number}")
+        return cli.EXIT_FAILED
+    about = PngImagePlugin.PngInfo()
+    about.add_text(SIGNATURE.decode(), mark)
+    print(save(sheet.signed(picture, f"{day.script}, {mark}"), path, about))
+    return cli.EXIT_OK
+
+
 def day_of(names: list[str]) -> int | None:
     """Return the day that a picture's name begins with: dayN_order."""
     number = names[0].partition("_")[0].removeprefix("day") if names else ""
     return int(number) if number.isdecimal() else None
 
 
-def save(picture: Any, path: Path) -> str:
+def save(picture: Any, path: Path, about: Any = None) -> str:
     """Write a picture whole, or leave what was there; return a line about it.
 
     Args:
         picture: a PIL image.
         path: the PNG file.
+        about: what the file says of itself, a PngInfo.
 
     Raises:
         Robo47Error: the folder cannot be written to.
@@ -70,7 +118,7 @@ def save(picture: Any, path: Path) -> str:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        picture.save(part, "PNG", optimize=True)
+        picture.save(part, "PNG", optimize=True, pnginfo=about)
         part.replace(path)
     except OSError as error:
         raise Robo47Error(

@@ -21,7 +21,7 @@ from labkit.base.words import count
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
-from labkit.lesson.day import Day, find_day, started_day
+from labkit.lesson.day import Day, chosen_day
 from labkit.report.week_labs import Ran, days_of, run_labs, week_of
 
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
@@ -76,7 +76,7 @@ def main() -> int:
     add("week", type=int, nargs="?", help="default: the one begun last")
     add("--quick", action="store_true", help="no environment of its own")
     options = parser.parse_args()
-    week = options.week or week_of(find_day(started_day()))
+    week = week_of(chosen_day(None)) if options.week is None else options.week
     sha, clock = head_of(), Clock()
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(

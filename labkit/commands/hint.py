@@ -10,7 +10,7 @@ remembered in .robo47/, which git ignores.
 """
 
 from labkit.base import cli, store
-from labkit.lesson.day import Day, Task, find_day, find_task, started_day
+from labkit.lesson.day import Day, Task, chosen_day
 from labkit.lesson.starter import read_script, solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -78,14 +78,13 @@ def main() -> int:
     parser.add_argument(
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
-    day, wanted = find_day(options.day or started_day()), None
     if options.task and not options.task[0].isdecimal():
-        return show_deliverable(day, options.task)
-    if options.task:
-        day, wanted = find_task(options.task)
+        return show_deliverable(chosen_day(options.day), options.task)
+    day = chosen_day(options.day, options.task)
+    wanted = day.task(options.task) if options.task else None
     left, problem = check(day, wanted)
     if problem:
         print(cli.wrapped(problem))

@@ -16,7 +16,7 @@ import tomllib
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.lesson.day import Day, find_day, started_day
+from labkit.lesson.day import Day, chosen_day
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -218,10 +218,10 @@ def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=int, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the last begun")
     parser.add_argument("--check", action="store_true", help="write nothing")
     options = parser.parse_args()
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     path, fresh = notebook_of(day), build(day)
     if path.exists() and fresh == path.read_text("utf-8"):
         print(f"{shown(path)} is up to date")

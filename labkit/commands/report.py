@@ -18,7 +18,9 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.base.words import command, count
-from labkit.lesson.day import find_day, started_day
+from labkit.check import states
+from labkit.lesson.day import Day, all_days, chosen_day, find_day
+from labkit.lesson.marks import Writers, writers_of
 from labkit.log.progress import watched
 from labkit.log.scan import scan
 from labkit.report import page
@@ -33,18 +35,29 @@ def main() -> int:
     args = parser().parse_args()
     lines = watched(scan(args.file), args.file)
     since = args.since.isoformat() if args.since else ""
-    report = collect(lines, thresholds(), since, args.day, args.check)
+    days = all_days() if args.day is None else [find_day(args.day)]
+    mine = args.file.resolve() == METRICS_CSV.resolve()
+    writers = {day.number: writers_of(day) for day in days}
+    if not mine:  # nobody knows the files of another log
+        writers = {n: Writers(known.kits) for n, known in writers.items()}
+    report = collect(lines, thresholds(), since, args.day, args.check, writers)
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
-    week = week_of(find_day(started_day())) if whole else None
-    write(out / "report.html", page.render(report, heading, week).encode())
+    week = week_of(chosen_day(None)) if whole else None
+    checked: dict[int | None, str] = {}
+    if mine:
+        checked |= {day.number: last_check(day) for day in days}
+    write(out / "report.html", page.render(report, heading, week, checked).encode())
     if week is not None:
         write_week(report, heading, out, week, args.file)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
-        f" {report.count('fail')} failing, {report.count('none')} not run yet"
+        f" {report.count('fail')} failing,"
+        f" {report.count('none') + report.count('kit')} not run yet"
     )
+    if mine:
+        tell(report, days)
     look = len(report.unread) + len(report.repaired)
     if look:
         need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
@@ -66,6 +79,34 @@ def write_week(report: Report, heading: str, out: Path, week: int, log: Path) ->
             print(f"its numbers are in {shown(path)}")
 
 
+def last_check(day: Day) -> str:
+    """Return a line on what the last check found in the student's file as it is."""
+    if not day.work.is_file():
+        return f"Not begun: make start DAY={day.number}"
+    known = {task.id: states.known(day).get(task.id, "") for task in day.tasks}
+    if not all(known.values()):
+        return f"Not checked as it is now: make check DAY={day.number}."
+    left = [f"{id} {state}" for id, state in known.items() if state != "passed"]
+    passed = f"The last check: {len(known) - len(left)} of {len(known)} tasks pass"
+    return f"{passed}; {', '.join(left)}." if left else f"{passed}."
+
+
+def tell(report: Report, days: list[Day]) -> None:
+    """Say which of the begun days need a run or a check of the file as it is."""
+    for day in days:
+        if not day.work.is_file():
+            continue
+        found = states.known(day)
+        done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
+        says = [] if done else [last_check(day)]
+        own = [one for one in report.series if one.day == day.number]
+        if stale := sum(one.status == "stale" for one in own):
+            old = f"{count(stale, 'number')} from before your file changed"
+            says.append(f"{old}: make run DAY={day.number}.")
+        if says:
+            print(cli.wrapped(f"day {day.number}: {' '.join(says)}", "  "))
+
+
 def parser() -> argparse.ArgumentParser:
     """Return the command line's description."""
     it = cli.parser(__doc__)
@@ -75,7 +116,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="YYYY-MM-DD",
         help="rows of that date and later",
     )
-    it.add_argument("--day", type=int, help="one day of the course")
+    it.add_argument("--day", type=cli.day, help="one day of the course")
     it.add_argument("--check", default="", metavar="NAME", help="one check")
     cli.add_log(it)
     it.add_argument(

@@ -13,25 +13,22 @@ import sys
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.lesson.day import find_day, started_day
+from labkit.commands.start import require_begun
+from labkit.lesson.day import chosen_day
 from labkit.lesson.originals import require_kits
-from robo47.errors import Robo47Error
-from robo47.paths import shown
 
 
 def main() -> int:
     """Find the lab by its manifest and go on in it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
     parser.add_argument("--kit", action="store_true", help="the kit's, not yours")
     options, others = parser.parse_known_args()
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     if options.kit:
         require_kits(day)
-    elif not day.work.is_file():
-        raise Robo47Error(
-            f"{shown(day.work)} is not there; first: make start DAY={day.number}"
-        )
+    else:
+        require_begun(day)
     return go_on(day.source if options.kit else day.work, others)
 
 

@@ -10,7 +10,7 @@ A file that is there is never overwritten, and a reset keeps your old text besid
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.lesson.day import Day, find_day, find_task, started_day
+from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.originals import require_kits
 from labkit.lesson.starter import make_starter, put_back, read_script
 from robo47.errors import Robo47Error
@@ -44,11 +44,29 @@ def start(day: Day) -> int:
     return cli.EXIT_OK
 
 
+def require_begun(day: Day) -> None:
+    """Refuse a day without a file, or with an empty one; a lost kit.py comes back.
+
+    Raises:
+        Robo47Error: says how to begin.
+    """
+    start = f"make start DAY={day.number}"
+    if not day.work.is_file():
+        raise Robo47Error(f"{shown(day.work)} is not there; first: {start}")
+    if not day.work.read_bytes().strip():
+        raise Robo47Error(f"{shown(day.work)} is empty. Delete it, then: {start}")
+    copy_kit(day)
+
+
 def copy_kit(day: Day) -> None:
-    """Put `kit.py` beside the student's file: it lets any Python run the lab."""
-    original, copy = day.source.with_name("kit.py"), day.work.with_name("kit.py")
-    if original.is_file() and not copy.exists():
-        copy.write_bytes(original.read_bytes())
+    """Put the kit's files beside the student's.
+
+    `kit.py` lets any Python run the lab, `Makefile` takes the commands in there too.
+    """
+    for original in (day.source.with_name("kit.py"), day.folder / "Makefile"):
+        copy = day.work.with_name(original.name)
+        if original.is_file() and not copy.exists():
+            copy.write_bytes(original.read_bytes())
 
 
 def reset(task_id: str) -> int:
@@ -82,9 +100,10 @@ def free_name(work: Path, task_id: str) -> Path:
 def main() -> int:
     """Start a day or reset a task."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=int, nargs="?", help="default: the last begun")
+    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
     parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
     options = parser.parse_args()
     if options.reset:
+        chosen_day(options.day, options.reset)
         return reset(options.reset)
-    return start(find_day(options.day or started_day()))
+    return start(chosen_day(options.day))

@@ -19,8 +19,9 @@ from pathlib import Path
 import numpy as np
 
 from labkit.base import cli
+from labkit.handin.figure import PORTRAIT
 from labkit.inspector import native_viewer
-from labkit.lesson.day import Day, find_day, started_day
+from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -80,9 +81,13 @@ def screenshot(path: Path, start: str) -> int:
             "pictures need Pillow, which is not installed yet: "
             "make view ARGS=--screenshot (or: python3 scripts/setup_env.py figures)"
         ) from None
+    from PIL import PngImagePlugin
+
     picture = draw(configuration(start), start)
+    about = PngImagePlugin.PngInfo()
+    about.add_text(PORTRAIT, start)
     path.parent.mkdir(parents=True, exist_ok=True)
-    picture.save(path)
+    picture.save(path, pnginfo=about)
     print(f"wrote {shown(path)}")
     return cli.EXIT_OK
 
@@ -123,7 +128,9 @@ def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
     add, how = parser.add_argument, parser.add_mutually_exclusive_group()
-    add("day", type=int, nargs="?", help="whose tabs and file; the last you started")
+    add(
+        "day", type=cli.day, nargs="?", help="whose tabs and file; the last you started"
+    )
     how.add_argument("--web", action="store_true", help="in a browser; the default")
     how.add_argument("--native", action="store_true", help="MuJoCo's own window")
     how.add_argument(
@@ -151,9 +158,15 @@ def picture_of(options: argparse.Namespace) -> Path:
     """
     if options.screenshot != DAYS_OWN:
         return options.screenshot
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     if not day.figure:
         raise Robo47Error(f"day {day.number} hands no figure in; name a file")
+    if day.draw:
+        raise Robo47Error(
+            f"the picture of day {day.number} shows what your functions do: make "
+            f"figures DAY={day.number}. For one of the arm alone name a file: "
+            'ARGS="--screenshot arm.png"'
+        )
     return day.folder / day.figure
 
 
@@ -166,7 +179,7 @@ def main() -> int:
         return screenshot(picture_of(options), options.start)
     if options.native:
         return native()
-    day = find_day(options.day or started_day())
+    day = chosen_day(options.day)
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or "panda_nohand"

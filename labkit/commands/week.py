@@ -14,6 +14,7 @@ from tqdm import tqdm
 
 from labkit.base import cli
 from labkit.base.words import count, number_of
+from labkit.lesson.marks import writers_of
 from labkit.report.week_labs import Ran, days_of, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
@@ -24,12 +25,14 @@ NAMED = 30  # columns of a number's name
 def lines_of(ran: Ran) -> list[Line]:
     """Return a line per number of a day."""
     lines: list[Line] = []
+    whose = "yours" if ran.mine else "kit's"
+    if ran.mine and writers_of(ran.day).borrowed:
+        whose = "part kit's"
     for metric in ran.day.metrics:
         value = ran.value(metric)
         number = "none" if value is None else number_of(value)
         verdict = "PASS" if ran.passes(metric) else "FAIL"
         name = name_of(ran.day, metric)[:NAMED]
-        whose = "yours" if ran.mine else "kit's"
         lines.append((str(ran.day.number), whose, name, number, metric.limit, verdict))
     return lines
 

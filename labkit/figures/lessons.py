@@ -10,11 +10,12 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
-def lesson_figures(number: int) -> dict[str, Callable[[], Any]]:
+def lesson_figures(number: int, own: bool = False) -> dict[str, Callable[[], Any]]:
     """Return what draws each picture of a day.
 
     Args:
         number: of the day.
+        own: draw with the functions of the student's file, not with the kit's.
 
     Returns:
         {"dayN_name": function that returns a PIL image, ...}; {} where the day has
@@ -26,8 +27,8 @@ def lesson_figures(number: int) -> dict[str, Callable[[], Any]]:
     day = find_day(number)
     if not folder.has(day, "figures"):
         return {}
-    source = str(day.source.parent)
-    if source not in sys.path:  # pictures are drawn with the lab's own functions
+    source = str((day.work if own else day.source).parent)
+    if source not in sys.path:  # where figures.py finds the lab that it imports from
         sys.path.insert(0, source)
     found = getattr(folder.load(day, "figures"), "FIGURES", None)
     if not isinstance(found, dict):

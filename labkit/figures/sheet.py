@@ -6,6 +6,19 @@ INK, FAINT, RULE = (33, 37, 41), (90, 97, 104), (206, 212, 218)
 HEAD, TITLE, SMALL = 130, 44, 30  # pixels: the space above, and two sizes of text
 
 
+FOOT = 44  # pixels: the space below
+
+
+def signed(picture: Image.Image, text: str) -> Image.Image:
+    """Return a picture with a line of text below it."""
+    width, height = picture.size
+    sheet = Image.new("RGB", (width, height + FOOT), "white")
+    sheet.paste(picture, (0, 0))
+    place = (width - 16, height + FOOT / 2)
+    ImageDraw.Draw(sheet).text(place, text, FAINT, ImageFont.load_default(22), "rm")
+    return sheet
+
+
 def side_by_side(*panels: tuple[Image.Image, str, str]) -> Image.Image:
     """Return pictures in a row.
 

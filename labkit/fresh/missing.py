@@ -8,7 +8,7 @@ from pathlib import Path
 from labkit.base.words import count
 from labkit.fresh.clone import ignored_by, uncommitted
 from labkit.lesson.day import Day
-from labkit.report.week_retro import no_numbers
+from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
 
 # Two parts at least: "/" alone, or "/s" in a unit, is no path.
@@ -31,8 +31,9 @@ def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
         root: what it is a clone of.
     """
     weeks = sorted({day.folder.name for day in days})
-    lacks = dict(_unfinished(days, clone)) | _only_here(days, weeks, clone, root)
-    found = [f"{name}: {why}" for name, why in sorted(lacks.items())]
+    lacks = _only_here(days, weeks, clone, root)
+    blank = _unfinished(days, clone, root)
+    found = [f"{name}: {why}" for name, why in sorted([*lacks.items(), *blank])]
     return found + [line for week in weeks for line in _absolute(clone / week, clone)]
 
 
@@ -41,6 +42,11 @@ def _only_here(
 ) -> dict[str, str]:
     """Return what is in the student's folder and not in the commit, with the reason."""
     lacks = uncommitted(root)
+    for week in weeks:  # `make report` fills numbers in at any time
+        for diary in _diaries(clone / week):
+            name = diary.relative_to(clone).as_posix()
+            if name in lacks and _own_words(diary) == _own_words(root / name):
+                del lacks[name]
     for name in sorted({n for day in days for n in day.files.values()}):
         here, there = (root / name).is_file(), (clone / name).is_file()
         if here and not there and name not in lacks:
@@ -56,32 +62,49 @@ def _only_here(
     return lacks
 
 
-def _unfinished(days: Sequence[Day], clone: Path) -> Iterator[tuple[str, str]]:
+def _unfinished(
+    days: Sequence[Day], clone: Path, root: Path
+) -> Iterator[tuple[str, str]]:
     """Yield what the days that were begun hand in, and is not there or has blanks.
 
-    Whether what is written there is good, `make check` says.
+    A sheet is looked at as it is in the student's folder: what it still needs is then
+    known before it is committed. Whether what is written is good, `make check` says.
     """
     for day in days:
         files = day.files
-        if not (clone / files["script"]).is_file():
+        if not any((place / files["script"]).is_file() for place in (clone, root)):
             continue
         for what, name in files.items():
-            if not (clone / name).is_file():
+            there = [p / name for p in (root, clone) if (p / name).is_file()]
+            if not there:
                 yield name, f"not there; day {day.number} hands it in"
             elif what == "worksheet":
-                yield from _blanks(clone / name, clone)
+                yield from _blanks(there[0], name)
         if day == days[-1]:  # which ends the week
-            for diary in sorted((clone / day.folder.name / "docs").glob("RETRO_*.md")):
-                yield from _blanks(diary, clone)
+            for diary in _diaries(clone / day.folder.name):
+                name = diary.relative_to(clone).as_posix()
+                here = root / name
+                yield from _blanks(here if here.is_file() else diary, name)
 
 
-def _blanks(sheet: Path, clone: Path) -> Iterator[tuple[str, str]]:
+def _diaries(week: Path) -> list[Path]:
+    return sorted((week / "docs").glob("RETRO_*.md"))
+
+
+def _own_words(diary: Path) -> str:
+    """Return a retrospective without the numbers that `make report` fills in."""
+    if not diary.is_file():
+        return ""
+    text = diary.read_text("utf-8", errors="replace")
+    return "" if no_numbers(text) else without_numbers(text)
+
+
+def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
     """Yield what nobody has filled in yet."""
     text = sheet.read_text("utf-8", errors="replace")
-    name, blank = sheet.relative_to(clone).as_posix(), len(_BLANK.findall(text))
     if no_numbers(text):
         yield name, "its numbers are not filled in yet; make report"
-    elif blank:
+    if blank := len(_BLANK.findall(text)):
         yield name, f"{count(blank, 'place')} still to fill in"
 
 

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from labkit.base.git import GitError, read_history
 from labkit.handin.commit import check_commit, wanted_names
-from labkit.handin.figure import check_figure
 from labkit.handin.handin import Handin, read_handin
 from labkit.handin.item import Item
 from labkit.handin.rows import check_rows
@@ -73,6 +72,8 @@ def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[It
         handin: what the student's folder holds.
         tasks_pass: whether the day's tasks do; until then no row counts.
     """
+    from labkit.handin.figure import check_figure  # it brings MuJoCo
+
     files = day.files
     found: dict[str, Item] = {}
     checks = {

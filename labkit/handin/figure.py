@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from labkit.handin.handin import Handin
 from labkit.handin.item import Item
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, all_days
 
 SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all
 DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one
 SAME = 0.5  # of 255: mean difference to a picture that was only saved again
+PORTRAIT = "robo47 portrait"  # a text in the file of a picture of the arm alone
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # MuJoCo reads PNG for its textures, so the kit needs no imaging package.
 _TEXTURE = '<mujoco><asset><texture name="t" type="2d" file="f.png"/></asset></mujoco>'
@@ -35,18 +36,33 @@ def check_figure(day: Day, handin: Handin) -> Item:
     name = day.files["figure"]
     data = handin.files.get(name)
     if data is None:
-        command = f"make view DAY={day.number} ARGS=--screenshot"
-        says = f"Save your picture as {name}. One of the arm: {command}"
+        says = f"Save your picture as {name}. {_command(day)}"
         return Item("figure", "todo", says)
     try:
         picture = read_png(data)
         _look(picture)
-        for kit in day.kit_figures:
+        if day.draw and PORTRAIT.encode() in data:
+            says = "it shows the arm alone, and nothing that your functions do"
+            raise FlawError(f"{says}. {_command(day)}")
+        for kit in _kits_pictures(day):
             if _is_copy(picture, day.folder / kit):
                 raise FlawError(f"it is {kit} of the kit; make one of your own")
     except FlawError as error:
         return Item("figure", "wrong", f"{name}: {error}.")
     return Item("figure")
+
+
+def _command(day: Day) -> str:
+    """Return which command makes the picture."""
+    if day.draw:
+        return f"Drawn with your own functions: make figures DAY={day.number}"
+    return f"One of the arm: make view DAY={day.number} ARGS=--screenshot"
+
+
+def _kits_pictures(day: Day) -> list[str]:
+    """Return the kit's pictures of the whole week: another day's is no better."""
+    others = [d for d in all_days(day.folder.parent) if d.folder == day.folder]
+    return sorted({name for one in (day, *others) for name in one.kit_figures})
 
 
 def _look(picture: NDArray[np.uint8]) -> None:
@@ -117,8 +133,11 @@ def _is_copy(picture: NDArray[np.uint8], kits: Path) -> bool:
     if not kits.is_file():
         return False
     try:
-        other = read_png(kits.read_bytes())
-    except FlawError:
+        data = kits.read_bytes()
+        if struct.unpack(">II", data[16:24]) != picture.shape[1::-1]:
+            return False  # most are of another size: there is nothing to decode
+        other = read_png(data)
+    except (FlawError, struct.error):
         return False
     if other.shape != picture.shape:
         return False

@@ -72,7 +72,7 @@ def read_handin(day: Day, root: Path) -> Handin:
             unread[name] = str(error)
         else:
             files |= {} if data is None else {name: data}
-    files |= _helpers(root, wanted["script"], files)
+    files |= helpers_of(root, wanted["script"], files)
     sheet = wanted.get("worksheet", "")
     text = files.get(sheet, b"").decode("utf-8", "replace")
     return Handin(files, unread, _pictures(day, root, sheet, text))
@@ -146,8 +146,14 @@ def _size(root: Path, name: str) -> int | None:
     return status.st_size
 
 
-def _helpers(root: Path, script: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the student's own modules that the script needs, however indirectly."""
+def helpers_of(root: Path, script: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the student's own modules that a script needs, however indirectly.
+
+    Args:
+        root: the student's folder.
+        script: its path from there.
+        files: its content, by that path.
+    """
     work = posixpath.dirname(script)
     try:
         if (root / work).is_symlink() or (root / work).parent.is_symlink():

@@ -5,6 +5,7 @@ import io
 from labkit.base.text import visible
 from labkit.handin.handin import Handin
 from labkit.handin.item import Item
+from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, marks_of
 from labkit.log.rows import Row
@@ -37,6 +38,11 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
         if fault := metric.fault(latest[metric.check, metric.metric]):
             says = f"{metric.check}: {metric.metric} {fault}.\nFix it, then: {run}"
             return Item("metrics", "wrong", says)
+    script = handin.files.get(day.files["script"], b"").decode("utf-8", "replace")
+    if tasks := borrowed_tasks(day, script):
+        ids = ", ".join(task.id for task in tasks)
+        says = f"Borrowed from the kit: {ids}. The rows count once they are your own; "
+        return Item("metrics", "todo", f"{says}then: {run}")
     if not tasks_pass:
         says = f"The rows count when your tasks pass; then again: {run}"
         return Item("metrics", "todo", says)

@@ -21,7 +21,8 @@ def explain(S: Array, T: Array) -> Finding:
         return found
     off = difference(S, T).max()
     why = (
-        "as float32, a difference quotient or a loop that stops too early leaves it."
+        "as float32, a difference quotient, a small damping or a loop that stops too "
+        "early leaves it."
         if off < SINGLE_INSIDE
         else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
         "derivative is a difference quotient, or what is small counts as 0."

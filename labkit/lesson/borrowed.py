@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.lesson import folder
-from labkit.lesson.day import Day, Task
-from labkit.lesson.lab import day_of
+from labkit.lesson.day import Day, Task, day_of
 from labkit.lesson.starter import function_lines
 from robo47.errors import Robo47Error
 from robo47.paths import shown

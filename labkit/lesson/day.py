@@ -94,6 +94,9 @@ class Day:
     tasks: tuple[Task, ...]  # in the order to do them
     # The student's picture, "" where there is none; pictures that do not count as it.
     figure: str = entry("", at="figure.path", needed=True)
+    # Which of FIGURES `make figures` draws as it, with the functions of the student's
+    # file; "" where the arm alone is what is asked for.
+    draw: str = entry("", at="figure.draw")
     kit_figures: tuple[str, ...] = entry((), at="figure.not_a_copy_of")
     # The student's worksheet, "" where there is none; what its glossary defines.
     worksheet: str = entry("", at="worksheet.path", needed=True)
@@ -218,6 +221,40 @@ def started_day(root: Path = ROOT) -> int:
     numbers = day_numbers(root)
     started = [n for n in numbers if any(root.glob(f"w*/work/day{n}_*.py"))]
     return max(started, default=min(numbers, default=1))
+
+
+def chosen_day(number: int | None, task_id: str | None = None) -> Day:
+    """Return the day that a command line means.
+
+    Args:
+        number: of the day; None where none was typed: the task's, or the last begun.
+        task_id: such as "1.4", or None.
+
+    Raises:
+        Robo47Error: no such day or task, or a task of another day.
+    """
+    day = find_day(started_day() if number is None else number)
+    if not task_id:
+        return day
+    of_task, _ = find_task(task_id)
+    if number not in (None, of_task.number):
+        raise Robo47Error(
+            f"task {task_id} is of day {of_task.number}, not of day {number}: "
+            "name one of the two"
+        )
+    return of_task
+
+
+def day_of(script: Path) -> Day:
+    """Return the day whose lab a script is, by its name.
+
+    Raises:
+        Robo47Error: the name is not like dayN_name.py.
+    """
+    found = re.match(r"day(\d+)_", script.name)
+    if not found:
+        raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
+    return find_day(int(found[1]))
 
 
 def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:

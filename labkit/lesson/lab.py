@@ -10,7 +10,6 @@ What a number must reach stands in the day's day.toml and nowhere else.
 """
 
 import contextlib
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -21,7 +20,7 @@ from numpy.typing import ArrayLike
 from labkit import log
 from labkit.base import cli
 from labkit.base.words import count, number_of
-from labkit.lesson.day import Day, Metric, find_day
+from labkit.lesson.day import Metric, day_of
 from labkit.lesson.marks import file_mark
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
@@ -159,18 +158,6 @@ class Lab:
         print(f"  {verdict}  {name}: {number} ({asked})")
         if not good:
             self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
-
-
-def day_of(script: Path) -> Day:
-    """Return the day whose lab a script is, by its name.
-
-    Raises:
-        Robo47Error: the name is not like dayN_name.py.
-    """
-    found = re.match(r"day(\d+)_", script.name)
-    if not found:
-        raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
-    return find_day(int(found[1]))
 
 
 def _bounds(wanted: Metric) -> str:

@@ -2,7 +2,12 @@
 
 import hashlib
 import re
+from collections.abc import Sequence, Set
+from dataclasses import dataclass
+from pathlib import Path
 
+from labkit.lesson.borrowed import borrowed_tasks
+from labkit.lesson.day import Day, Metric
 from labkit.log.rows import Row
 
 _FILE = re.compile(r"\bfile ([0-9a-f]{8})$")
@@ -25,3 +30,43 @@ def marks_of(script: bytes | None) -> set[str]:
         return set()
     unix = script.replace(b"\r\n", b"\n")
     return {file_mark(data) for data in (script, unix, unix.replace(b"\n", b"\r\n"))}
+
+
+@dataclass(frozen=True)
+class Writers:
+    """The files that may have written a day's rows.
+
+    Attributes:
+        kits: marks of the kit's own script.
+        own: marks of the student's file as it is now; None for somebody else's log.
+        borrowed: ids of the tasks whose functions that file borrows from the kit.
+    """
+
+    kits: Set[str] = frozenset()
+    own: Set[str] | None = None
+    borrowed: Sequence[str] = ()
+
+    def judge(self, metric: Metric, row: Row | None) -> str:
+        """Return what a row is worth now.
+
+        Returns:
+            "none", "pass" or "fail" as the manifest has it; "stale" where the file
+            has changed since, "unsigned" where the row does not say which file wrote
+            it, "borrowed" where a passing one is not the student's work alone.
+        """
+        if row is not None and self.own is not None and mark_of(row) not in self.own:
+            return "stale" if mark_of(row) else "unsigned"
+        verdict = metric.judge(row)
+        return "borrowed" if self.borrowed and verdict == "pass" else verdict
+
+
+def writers_of(day: Day) -> Writers:
+    """Return the files that may have written a day's rows in the student's log."""
+    script = _content(day.work)
+    text = (script or b"").decode("utf-8", "replace")
+    borrowed = [task.id for task in borrowed_tasks(day, text)]
+    return Writers(marks_of(_content(day.source)), marks_of(script), borrowed)
+
+
+def _content(path: Path) -> bytes | None:
+    return path.read_bytes() if path.is_file() else None

@@ -1,10 +1,11 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from itertools import groupby
 
 from labkit.base import html
+from labkit.base.words import count
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
@@ -17,20 +18,31 @@ STATUS = {
     "fail": ("✗", "fail"),
     "open": ("•", "no threshold"),
     "none": ("○", "not run yet"),
+    "kit": ("○", "the kit's run alone"),
+    "stale": ("↻", "your file changed since"),
+    "unsigned": ("•", "no file named"),
+    "borrowed": ("•", "partly borrowed"),
 }
+AGAIN = ("stale", "unsigned", "borrowed")  # worth nothing until a run of one's own
 NOTHING = (
     '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
     "<code>make run DAY=1</code></p>"
 )
 
 
-def render(report: Report, heading: str, week: int | None = None) -> str:
+def render(
+    report: Report,
+    heading: str,
+    week: int | None = None,
+    checked: Mapping[int | None, str] | None = None,
+) -> str:
     """Return the whole page.
 
     Args:
         report: what to show.
         heading: one line of plain text on where the rows come from.
         week: whose own page stands beside this one.
+        checked: what the last check found, a line of plain text by day.
     """
     link = f' · <a href="report-week{week}.html">Week {week}</a>'
     beside = "" if week is None else link
@@ -41,7 +53,10 @@ def render(report: Report, heading: str, week: int | None = None) -> str:
         _tiles(report),
         *([] if report.rows else [NOTHING]),
         _jumps(report),
-        *(_day(day, list(series)) for day, series in days),
+        *(
+            _day(day, list(series), (checked or {}).get(day, ""))
+            for day, series in days
+        ),
         _look("Repaired while reading", report.repaired),
         _look("Could not be read", report.unread),
     )
@@ -53,7 +68,8 @@ def _tiles(report: Report) -> str:
         ("pass" if report.count("pass") else "none", report.count("pass"), "passing"),
         ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
         ("none", report.count("open"), "without a threshold"),
-        ("none", report.count("none"), "not run yet"),
+        ("none", sum(map(report.count, AGAIN)), "to run again"),
+        ("none", report.count("none") + report.count("kit"), "not run yet"),
         ("", report.rows, "rows"),
         ("fail" if attention else "none", attention, "lines to look at"),
     ]
@@ -78,11 +94,12 @@ def _jumps(report: Report) -> str:
     return f'<p class="jumps">{links}</p>'
 
 
-def _day(day: int | None, series: list[Series]) -> str:
+def _day(day: int | None, series: list[Series], checked: str) -> str:
     cards = "".join(_card(one) for one in series)
+    about = checked and f'<p class="muted">{escape(checked)}</p>'
     return (
-        f'<section id="{day}"><h2>{_title(day)}</h2><div class="cards">{cards}</div>'
-        "</section>"
+        f'<section id="{day}"><h2>{_title(day)}</h2>{about}'
+        f'<div class="cards">{cards}</div></section>'
     )
 
 
@@ -96,6 +113,8 @@ def _card(series: Series) -> str:
         ("runs", f"{len(series.rows):,}"),
         ("threshold", escape(series.limits)),
     ]
+    if series.kits:
+        facts.append(("the kit's", plot.number(value_of(series.kits[-1]))))
     terms = "".join(
         f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
         for name, value in facts
@@ -104,8 +123,8 @@ def _card(series: Series) -> str:
         f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
         f'<span class="muted">{_text(series.metric)}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
-        f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}{_recent(series.rows)}"
-        "</article>"
+        f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}"
+        f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
     )
 
 
@@ -127,14 +146,14 @@ def _text(cell: object) -> str:
     return escape(str(cell)) or '<span class="muted">(empty)</span>'
 
 
-def _recent(rows: list[Row]) -> str:
+def _recent(rows: list[Row], whose: str = "") -> str:
     if not rows:
         return ""
     names = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
     heads = ("date", "value", "commit", "failures", "config", "method", "notes")
     shown = list(reversed(rows[-RECENT:]))
     body = ("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
-    title = "1 run" if len(rows) == 1 else f"{len(rows):,} runs"
+    title = count(len(rows), "run") + whose
     if len(rows) > RECENT:
         title = f"The latest {RECENT} of {title}"
     head = "".join(f"<th>{name}</th>" for name in heads)

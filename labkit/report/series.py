@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from labkit.lesson.day import Metric, all_days
+from labkit.lesson.marks import Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from robo47.paths import ROOT
@@ -14,13 +15,27 @@ Key = tuple[int | None, str, str]  # day, check, metric
 
 
 class Series:
-    """The runs of one check's metric, oldest first, and what they must reach."""
+    """The runs of one check's metric, oldest first, and what they must reach.
 
-    def __init__(self, key: Key, threshold: Metric | None) -> None:
+    Attributes:
+        rows: all but the kit's own runs.
+        kits: those.
+    """
+
+    def __init__(
+        self, key: Key, threshold: Metric | None, writers: Writers | None = None
+    ) -> None:
         """Begin without runs: the day, check and metric, and what they must reach."""
         self.day, self.check, self.metric = key
         self.threshold = threshold
+        self.writers = writers or Writers()
         self.rows: list[Row] = []
+        self.kits: list[Row] = []
+
+    def add(self, row: Row) -> None:
+        """Add a run, under the name of who made it."""
+        by_kit = mark_of(row) in self.writers.kits
+        (self.kits if by_kit else self.rows).append(row)
 
     @property
     def values(self) -> list[float]:
@@ -30,12 +45,16 @@ class Series:
 
     @property
     def status(self) -> str:
-        """How the latest run did: "pass", "fail", "open" (no threshold), "none"."""
+        """What the latest run is worth now.
+
+        As `Writers.judge` has it; "open" without a threshold, "kit" where nobody but
+        the kit ran it.
+        """
         if not self.rows:
-            return "none"
+            return "kit" if self.kits else "none"
         if self.threshold is None:
             return "open"
-        return self.threshold.judge(self.rows[-1])
+        return self.writers.judge(self.threshold, self.rows[-1])
 
     @property
     def limits(self) -> str:
@@ -108,6 +127,7 @@ def collect(
     since: str = "",
     day: int | None = None,
     check: str = "",
+    writers: Mapping[int, Writers] | None = None,
 ) -> Report:
     """Return the report on the lines that the filters let through.
 
@@ -117,11 +137,12 @@ def collect(
         since: the first date, YYYY-MM-DD; "" is all.
         day: the course's day; None is all.
         check: a check's name; "" is all.
+        writers: of the days' rows; rows of other days are taken as they are.
     """
     found: dict[Key, Series] = {}
     for key, threshold in thresholds.items():
         if day in (None, key[0]) and check in ("", key[1]):
-            found[key] = Series(key, threshold)
+            found[key] = Series(key, threshold, (writers or {}).get(key[0] or 0))
     report = Report([])
     for line in lines:
         row = line.row
@@ -136,7 +157,8 @@ def collect(
         _add(found, thresholds, row)
     report.series = sorted(found.values(), key=_place)
     for series in report.series:  # a merge may leave the dates out of order
-        series.rows.sort(key=lambda row: str(row["date"]))
+        for rows in (series.rows, series.kits):
+            rows.sort(key=lambda row: str(row["date"]))
     return report
 
 
@@ -161,7 +183,7 @@ def _add(
     key = (day, name, metric)
     if key not in found:
         found[key] = Series(key, thresholds.get(key))
-    found[key].rows.append(row)
+    found[key].add(row)
 
 
 def _place(series: Series) -> tuple[float, bool, str, str]:

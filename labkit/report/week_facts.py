@@ -14,7 +14,7 @@ from labkit.base.git import GitError, run
 from labkit.check import journal, states
 from labkit.check.journal import Met
 from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import mark_of, marks_of
+from labkit.lesson.marks import mark_of, writers_of
 from labkit.log.rows import Row
 from labkit.report.series import Key, Series, value_of
 from robo47.paths import ROOT
@@ -29,7 +29,7 @@ class Number:
     Attributes:
         metric: what it must reach.
         latest: the student's last run.
-        status: how that run stands, as `Metric.judge` says.
+        status: what that run is worth now, as `Writers.judge` says.
         worst: the farthest from the limit's good side that the student logged.
         kit: the kit's own last run on this machine.
         runs: how often the student logged it.
@@ -44,7 +44,7 @@ class Number:
 
     @property
     def passed(self) -> bool:
-        """Whether the student's last run is within the limit."""
+        """Whether the student's file as it is gave a number within the limit."""
         return self.status == "pass"
 
 
@@ -64,6 +64,7 @@ class DayFacts:
         met: the named mistakes, in the order they were met.
         checked: whether `make check` has seen all tasks in the file as it is; what it
             has not seen does not count as passed.
+        borrowed: ids of the tasks whose functions are borrowed from the kit.
     """
 
     day: Day
@@ -76,6 +77,7 @@ class DayFacts:
     hints: int
     met: Sequence[Met]
     checked: bool = True
+    borrowed: Sequence[str] = ()
 
     @property
     def begun(self) -> bool:
@@ -103,8 +105,9 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
         sum(len(task.functions) for task in day.tasks),
         minutes_of(day, root),
         sum(n for task, n in store.hints_given(root).items() if task in ids),
-        [m for m in journal.mistakes_met(journal.read(root)) if m.task in ids],
+        [m for m in journal.mistakes_met(journal.read(root), known) if m.task in ids],
         len(known) == len(ids),
+        writers_of(day).borrowed,
     )
 
 
@@ -147,25 +150,22 @@ def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
         day: from its manifest.
         series: the log's rows, by day, check and metric.
     """
-    kits = marks_of(day.source.read_bytes() if day.source.is_file() else None)
-    return [_number(metric, _rows(day, metric, series), kits) for metric in day.metrics]
+    found = []
+    for metric in day.metrics:
+        key = (day.number, metric.check, metric.metric)
+        found.append(_number(metric, series.get(key) or Series(key, metric)))
+    return found
 
 
-def _rows(day: Day, metric: Metric, series: Mapping[Key, Series]) -> Sequence[Row]:
-    found = series.get((day.number, metric.check, metric.metric))
-    return found.rows if found else []
-
-
-def _number(metric: Metric, rows: Sequence[Row], kits: set[str]) -> Number:
-    mine = [r for r in rows if mark_of(r) and mark_of(r) not in kits]
-    own = [_value(r) for r in mine]
-    kit = [_value(r) for r in rows if mark_of(r) in kits]
+def _number(metric: Metric, series: Series) -> Number:
+    mine = [row for row in series.rows if mark_of(row)]
+    own = [_value(row) for row in mine]
     return Number(
         metric,
         own[-1] if own else None,
-        metric.judge(mine[-1] if mine else None),
+        series.writers.judge(metric, mine[-1] if mine else None),
         max(own, key=lambda value: _badness(metric, value), default=None),
-        kit[-1] if kit else None,
+        _value(series.kits[-1]) if series.kits else None,
         len(own),
     )
 

@@ -5,6 +5,8 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.words import number_of
+from labkit.check.journal import Met
+from labkit.lesson.day import Day
 from labkit.report.week_facts import DayFacts, Number
 from labkit.report.week_labs import name_of, week_of
 
@@ -13,19 +15,32 @@ body { max-width: 980px; }
 td.n, th.n { text-align: right; } td.day { font-weight: 600; }
 tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
   border-top: 1px solid var(--grid); }
+td.pass, td.fail, td.none { white-space: normal; min-width: 64px; }
 table { font-size: 14px; margin-top: 0; } th, td { padding: 6px 14px 6px 0; }
 th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal;
   min-width: 160px; }
 .bar { display: inline-block; width: 90px; height: 9px; margin-right: 9px;
   border-radius: 5px; background: var(--grid); overflow: hidden; }
 .bar i { display: block; height: 100%; background: var(--pass); }
-.chips { display: flex; flex-wrap: wrap; gap: 8px; }
-.chip { background: var(--card); border: 1px solid var(--grid); border-radius: 99px;
-  padding: 3px 12px; font-size: 14px; }
 .last { margin-top: 32px; }
 @media (max-width: 500px) { th, td { padding-right: 7px; } .card { padding: 10px; }
   .bar { display: none; } td.wide { min-width: 120px; } }
 """
+
+_MARKS = {
+    "pass": "✓ pass",
+    "fail": "✗ fail",
+    "none": "○ no row yet",
+    "stale": "↻ your file changed since",
+    "borrowed": "• partly borrowed",
+}
+# Names of what no known mistake explains.
+_GENERAL = {
+    "off": "wrong numbers, by no mistake that the kit knows",
+    "raises": "it stopped with an error",
+    "shape": "an array of another shape",
+}
+_MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
 def render(facts: Sequence[DayFacts], heading: str) -> str:
@@ -74,7 +89,11 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
         (sum(f.passed for f in facts), sum(f.tasks for f in facts), "tasks pass"),
         (sum(n.passed for n in numbers), len(numbers), "numbers within limits"),
         (sum(f.own for f in facts), sum(f.functions for f in facts), "functions yours"),
-        (sum(m.left_behind for m in met), len(met), "mistakes left behind"),
+        (
+            sum(m.now == "left behind" for m in met),
+            len(met),
+            "mistakes left behind",
+        ),
     ]
     cells = [
         ("pass" if n and n == of else "", f"{n:,} of {of:,}", label)
@@ -100,9 +119,8 @@ def _numbers(facts: Sequence[DayFacts]) -> str:
 
 
 def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
-    role, mark = "none", "○ no row yet"
-    if number.latest is not None:
-        role, mark = ("pass", "✓ pass") if number.passed else ("fail", "✗ fail")
+    role = number.status if number.status in ("pass", "fail") else "none"
+    mark = "○ the kit's file ran" if _only_kits(number) else _MARKS[number.status]
     day = one.day.number if first else ""
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
@@ -131,34 +149,44 @@ def _days(facts: Sequence[DayFacts]) -> str:
 
 
 def _mistakes(facts: Sequence[DayFacts]) -> str:
-    met = [m for one in facts for m in one.met]
-    chips = "".join(
-        f'<span class="chip"><b>{escape(m.task)}</b> '
-        f"{escape(m.mistake.replace('-', ' '))} "
-        + (
-            "<span class=pass>✓ left behind</span>"
-            if m.left_behind
-            else "<span class=fail>✗ still there</span>"
-        )
-        + "</span>"
-        for m in met
-    )
+    rows = [_mistake(one.day, met) for one in facts for met in one.met]
     nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
-    listed = f'<div class="chips">{chips}</div>' if met else nothing
-    return html.section("The mistakes you met", listed)
+    head = "<th>task</th><th>what was wrong</th><th>now</th>"
+    return html.section(
+        "The mistakes you met", html.table(head, rows) if rows else nothing
+    )
+
+
+def _mistake(day: Day, met: Met) -> str:
+    """Return a row on a mistake: its name, and what the checker said of it."""
+    role, mark = _MOODS.get(met.now, ("none", "•"))
+    name = escape(_GENERAL.get(met.mistake, met.mistake.replace("-", " ")))
+    says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"
+    names = ", ".join(f for t in day.tasks if t.id == met.task for f in t.functions)
+    return (
+        f"<tr><td class=day>{escape(met.task)}</td>"
+        f"<td class=wide>{escape(names)}: {name}{says}</td>"
+        f"<td class={role}>{mark} {met.now}</td></tr>"
+    )
 
 
 def _counts(one: DayFacts) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
-        return f"<td colspan=2>not checked as it is now: run {command}</td>"
-    bar = _bar(one.passed, one.tasks)
-    return f"<td>{bar}</td><td>{one.own} of {one.functions}</td>"
+        return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
+    bar, borrowed = _bar(one.passed, one.tasks), ""
+    if one.borrowed:
+        borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
+    return f"<td>{bar}</td><td>{one.own} of {one.functions}{borrowed}</td>"
 
 
 def _bar(passed: int, of: int) -> str:
     share = 100 * passed / max(1, of)
     return f'<span class=bar><i style="width:{share:.0f}%"></i></span>{passed} of {of}'
+
+
+def _only_kits(number: Number) -> bool:
+    return number.latest is None and number.kit is not None
 
 
 def _value(value: float | None) -> str:

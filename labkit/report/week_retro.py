@@ -14,6 +14,14 @@ from labkit.report.week_labs import name_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
+_MARKS = {  # after a number, what it is worth
+    "pass": "",
+    "none": "",
+    "fail": " (not yet)",
+    "stale": " (my file changed since)",
+    "borrowed": " (partly borrowed)",
+}
+
 
 def fill(facts: Sequence[DayFacts]) -> list[Path]:
     """Write a week's numbers into its retrospectives; return those that have changed.
@@ -40,14 +48,14 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
     for one in facts:
         for number in one.numbers:
             latest, worst = map(_cell, (number.latest, number.worst))
-            mark = "" if number.passed or number.latest is None else " (not yet)"
+            mark = _MARKS[number.status]
             name = name_of(one.day, number.metric)
             limit = number.metric.limit
             rows.append(
                 f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
             )
     met = [m for one in facts for m in one.met]
-    left = sum(m.left_behind for m in met)
+    left = sum(m.now == "left behind" for m in met)
     passed, tasks = (
         sum(getattr(f, name) for f in facts) for name in ("passed", "tasks")
     )
@@ -58,12 +66,18 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
             *rows,
             "",
             f"Tasks passed: {passed} of {tasks}. Functions of my own: {own} of {of}.",
+            *_borrowed(facts),
             *_not_checked(facts),
             f"Named mistakes met: {len(met)}; left behind: {left}.",
             "",
             "",
         ]
     )
+
+
+def _borrowed(facts: Sequence[DayFacts]) -> list[str]:
+    tasks = ", ".join(task for one in facts for task in one.borrowed)
+    return [f"Borrowed from the kit, and not counted: {tasks}."] if tasks else []
 
 
 def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
@@ -76,6 +90,11 @@ def no_numbers(text: str) -> bool:
     """Return whether a retrospective's numbers are still to be filled in."""
     found = blocks.contents(text, "numbers")
     return len(found) == 1 and not found[0].strip()
+
+
+def without_numbers(text: str) -> str:
+    """Return a retrospective as the student wrote it, without what is filled in."""
+    return blocks.refill(text, {"numbers": lambda *_: ""})
 
 
 def _cell(value: float | None) -> str:

@@ -197,7 +197,9 @@ def check_git() -> Line:
         if not done.stdout.strip():
             missing.append(key)
     if missing:
-        remedy = f"git config --global {missing[0]} ..."
+        values = {"user.name": '"Your Name"', "user.email": "you@example.org"}
+        each = [f"git config --global {key} {values[key]}" for key in missing]
+        remedy = " && ".join(each)
         return Line(
             "todo", "git", "does not know your " + " and ".join(missing), remedy
         )
