@@ -29,7 +29,8 @@ p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); 
 .tile b { display: block; font-size: 26px; line-height: 1.2; }
 .cards { display: grid; gap: 16px; align-items: start;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }
-.top { display: flex; flex-wrap: wrap; gap: 4px 10px; justify-content: space-between; align-items: start; }
+.top { display: flex; flex-wrap: wrap; gap: 4px 10px;
+  justify-content: space-between; align-items: start; }
 .top h3 { margin: 0; font-size: 16px; }
 .badge { flex: none; border: 1px solid; border-radius: 99px; padding: 1px 10px;
   font-size: 13px; font-weight: 600; white-space: nowrap; }
