@@ -130,6 +130,13 @@ def _(J):
     return np.sqrt(np.linalg.det(J))
 
 
+@row.wrong
+def diagonal_only(J):
+    """only the diagonal of J J^T is multiplied; a determinant needs all entries => the
+    root of that product"""
+    return np.sqrt(np.prod(np.diag(J @ J.T)))
+
+
 @row.right  # The product of the singular values.
 def _(J):
     return float(np.prod(values(J)))

@@ -129,6 +129,14 @@ def all_positive(tau, limits):
     return np.minimum(np.abs(tau), limits)
 
 
+@row.wrong
+def first_joint_only(tau, limits):
+    """only joint1 is limited; every motor has a limit => the right one with joint1"""
+    out = tau.copy()
+    out[0] = np.clip(tau[0], -limits[0], limits[0])
+    return out
+
+
 @row.right  # The median of three.
 def _(tau, limits):
     return np.median([-limits, tau, limits], axis=0)

@@ -171,6 +171,13 @@ def root_of_the_product(K, Lambda):
     return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))
 
 
+@row.wrong
+def no_roots(K, Lambda):
+    """the square roots are missing: this grows with K, where a damping grows with its
+    root => Lambda K + K Lambda"""
+    return Lambda @ np.diag(K) + np.diag(K) @ Lambda
+
+
 @row.right  # The root by Newton's iteration (Denman and Beavers).
 def _(K, Lambda):
     Y, Z = Lambda.copy(), np.eye(6)

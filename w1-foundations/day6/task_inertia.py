@@ -109,6 +109,16 @@ def entries_inverted(J, M):
     return 1.0 / (J @ np.linalg.solve(M, J.T))
 
 
+@row.wrong
+def blocks_alone(J, M):
+    """the two 3x3 blocks are inverted alone; a push turns the hand, too, so the
+    directions are coupled => the inverse of each block"""
+    A = J @ np.linalg.solve(M, J.T)
+    out = np.zeros((6, 6))
+    out[:3, :3], out[3:, 3:] = np.linalg.inv(A[:3, :3]), np.linalg.inv(A[3:, 3:])
+    return out
+
+
 @row.right  # By a Cholesky factor of M.
 def _(J, M):
     L = np.linalg.cholesky(M)

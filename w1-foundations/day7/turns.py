@@ -13,7 +13,7 @@ from robo47.checks import Array
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
 NEARLY_HALF = np.pi - 1e-3
-SMALL = (2e-4, 3e-3, 0.03)  # radians
+SMALL = (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
 def _ends(R0: Array, turns: Array, s: float, rng: np.random.Generator) -> list:
