@@ -219,15 +219,6 @@ def ways_signed(dq, v_max, a_max):
     return max(by_speed.max(), np.sqrt(10 / np.sqrt(3) * dq / a_max).max())
 
 
-@row.wrong
-def both_times_added(dq, v_max, a_max):
-    """the times of the two limits are added; the longer one is long enough for both =>
-    their sum"""
-    way = np.abs(dq)
-    fast, hard = way / v_max, np.sqrt(10 / np.sqrt(3) * way / a_max)
-    return 15 / 8 * np.max(fast) + np.max(hard)
-
-
 @row.right  # Joint by joint.
 def _(dq, v_max, a_max):
     longest = 0.0
