@@ -4,7 +4,6 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import load from "@mujoco/mujoco";
 
 const JOINTS = 7;
-const READY = [0, -Math.PI / 4, 0, (-3 * Math.PI) / 4, 0, Math.PI / 2, Math.PI / 4];
 const here = (name) => new URL(name, import.meta.url).href;
 const by = (id) => document.getElementById(id);
 
@@ -38,7 +37,7 @@ const data = new mujoco.MjData(model);
 const body = (name) => mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, name);
 const LINKS = Array.from({ length: JOINTS }, (_, i) => body(`link${i + 1}`));
 const END = body("attachment"); // attachment_site sits right on it
-const q = [...READY];
+const q = [...ghosts.ready];
 
 /** The first three rows of a body's pose in the world, from MuJoCo. */
 function pose(id) {
@@ -217,7 +216,7 @@ function followAddress() {
   const angles = (asked.get("q") ?? "").split(",").map(Number);
   by("mistake").value = asked.get("mistake") ?? "";
   const whole = angles.length === JOINTS && angles.every(Number.isFinite);
-  go(whole ? angles : READY);
+  go(whole ? angles : ghosts.ready);
 }
 
 for (const day of [1, 2]) {
@@ -229,7 +228,7 @@ for (const day of [1, 2]) {
 }
 by("mistake").addEventListener("change", show);
 by("frames").addEventListener("change", show);
-by("ready").addEventListener("click", () => go(READY));
+by("ready").addEventListener("click", () => go(ghosts.ready));
 by("zero").addEventListener("click", () => go(Array(JOINTS).fill(0)));
 orbit.addEventListener("change", () => renderer.render(scene, camera));
 addEventListener("hashchange", followAddress);

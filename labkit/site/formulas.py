@@ -19,6 +19,7 @@ from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import checks
 from robo47.errors import Robo47Error
+from robo47.panda import READY_Q
 from robo47.paths import TWIN_XML
 
 # Day, function and slug: rigid poses, each seen at a glance.
@@ -201,4 +202,4 @@ def tables() -> dict[str, Any]:
                 name: [tape.number(x) for x in T[:3].flat] for name, T in drawn.items()
             },
         })
-    return {"lines": tape.lines, "mistakes": mistakes}
+    return {"ready": READY_Q.tolist(), "lines": tape.lines, "mistakes": mistakes}

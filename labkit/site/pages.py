@@ -48,9 +48,9 @@ def lay_out(folder: Path, repository: Path = ROOT) -> None:
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         home.write("\n".join(_contents(pages)))
     shutil.copy(repository / "site" / "arm.md", folder / "arm.md")
-    for title, modules in MODULES:
+    for _, modules in MODULES:
         for module in modules:
-            _write(folder / "library" / f"{module}.md", _reference(module, title))
+            _write(folder / "library" / f"{module}.md", _reference(module))
 
 
 def _linked(
@@ -81,13 +81,10 @@ def _shown(file: Path, name: Path) -> str:
     return f"---\norphan: true\n---\n# `{name.as_posix()}`\n{fence}{language}\n{body}{fence}\n"
 
 
-def _reference(module: str, title: str) -> str:
+def _reference(module: str) -> str:
     """Return the page of a module of the library, made of its docstrings."""
     return (
-        f"# robo47.{module}\n```{{eval-rst}}\n.. automodule:: robo47.{module}\n"
-        "   :members:\n   :imported-members: \n```\n"
-        if False
-        else f"# robo47.{module}\n```{{eval-rst}}\n.. automodule:: robo47.{module}\n"
+        f"# robo47.{module}\n\n```{{eval-rst}}\n.. automodule:: robo47.{module}\n"
         "   :members:\n```\n"
     )
 
