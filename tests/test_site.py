@@ -104,7 +104,9 @@ def test_every_guide_worksheet_and_taught_module_has_a_page(site):
 
     for day in all_days():
         for name in (day.guide, day.worksheet, *day.library):
-            found = [*site.rglob(f"{str(name).rpartition('/')[2].removesuffix('.md')}.html")]
+            found = [
+                *site.rglob(f"{str(name).rpartition('/')[2].removesuffix('.md')}.html")
+            ]
             assert found, f"day {day.number}: {name}"
 
 

@@ -33,5 +33,7 @@ def main() -> int:
     pages = sum(path.suffix == ".html" for path in files)
     size = sum(path.stat().st_size for path in files) / 1e6
     seconds = time.monotonic() - begun
-    print(f"{shown(options.out.resolve())}: {pages} pages, {size:.1f} MB, {seconds:.0f} s")
+    print(
+        f"{shown(options.out.resolve())}: {pages} pages, {size:.1f} MB, {seconds:.0f} s"
+    )
     return cli.EXIT_OK

@@ -83,4 +83,3 @@ def _static(folder: Path) -> Path:
     if done.returncode:
         raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
     return folder
-

@@ -193,13 +193,16 @@ def tables() -> dict[str, Any]:
         asked = questions(number, tape.q)
         with symbols_allowed():
             drawn = {frame: way.code(*of) for frame, of in asked.items()}
-        mistakes.append({
-            "day": number,
-            "function": row.function,
-            "slug": way.slug,
-            "says": f"{way.says[0].upper()}{way.says[1:]}.",
-            "frames": {
-                name: [tape.number(x) for x in T[:3].flat] for name, T in drawn.items()
-            },
-        })
+        mistakes.append(
+            {
+                "day": number,
+                "function": row.function,
+                "slug": way.slug,
+                "says": f"{way.says[0].upper()}{way.says[1:]}.",
+                "frames": {
+                    name: [tape.number(x) for x in T[:3].flat]
+                    for name, T in drawn.items()
+                },
+            }
+        )
     return {"ready": READY_Q.tolist(), "lines": tape.lines, "mistakes": mistakes}
