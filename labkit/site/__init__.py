@@ -1,1 +1,1 @@
-"""Static site of the course: its pages, the arm on one of them, and a check of links."""
+"""Static site of the course: its pages, the arm's own page, a check of links."""

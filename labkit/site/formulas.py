@@ -176,7 +176,7 @@ def chosen() -> list[tuple[int, Row, Way]]:
 
 
 def questions(number: int, q: Any) -> dict[str, tuple]:
-    """Return {frame: what a day's inspector asks the arm's function for it} at q, (7,)."""
+    """Return {frame: what a day's inspector asks the arm's function} at q, (7,)."""
     ghost = folder.load(find_day(number), "inspector").GHOST
     asked = zip(ghost.frames, ghost.questions(twin(), q), strict=True)
     return {

@@ -13,15 +13,21 @@ from pathlib import Path
 from labkit.lesson.day import all_days
 from robo47.paths import ROOT
 
-DOCUMENTS = ("*.md", "w*/README.md", "w*/docs/*.md", "docs/*.md", "metrics/README.md")
-DOCUMENTS += ("bench/README.md",)
+DOCUMENTS = (
+    "*.md",
+    "w*/README.md",
+    "w*/docs/*.md",
+    "docs/*.md",
+    "metrics/README.md",
+    "bench/README.md",
+)
 PICTURES = {".png", ".jpg", ".gif", ".svg"}
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = "README.md"
 MODULES = (
     ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
-    ("Velocities and forces", ("jacobian", "dynamics")),
+    ("Velocities and forces", ("jacobian", "fast.ik", "dynamics")),
     ("Control and motion", ("control", "task_space", "trajectory", "contact")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
     ("The week's end", ("capstone",)),
@@ -78,7 +84,8 @@ def _shown(file: Path, name: Path) -> str:
     """Return a page that shows a file of the repository."""
     fence, language = "`" * 8, LANGUAGE.get(file.suffix, "text")
     body = file.read_text("utf-8")
-    return f"---\norphan: true\n---\n# `{name.as_posix()}`\n{fence}{language}\n{body}{fence}\n"
+    head = f"---\norphan: true\n---\n# `{name.as_posix()}`\n"
+    return f"{head}{fence}{language}\n{body}{fence}\n"
 
 
 def _reference(module: str) -> str:
@@ -91,7 +98,7 @@ def _reference(module: str) -> str:
 
 def _contents(pages: set[Path]) -> Iterator[str]:
     """Yield the table of contents, which the site's margin shows."""
-    days = {}
+    days: dict[str, list[str]] = {}
     for day in all_days():
         week = day.folder.name
         days.setdefault(week, []).extend([day.guide, day.worksheet])
