@@ -27,7 +27,7 @@ LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = "README.md"
 MODULES = (
     ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
-    ("Velocities and forces", ("jacobian", "fast.ik", "dynamics")),
+    ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
     ("Control and motion", ("control", "task_space", "trajectory", "contact")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
     ("The week's end", ("capstone",)),
