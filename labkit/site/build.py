@@ -32,7 +32,7 @@ SETTINGS: dict[str, Any] = {
     ],
     "myst_enable_extensions": ["dollarmath"],
     "myst_heading_anchors": 4,
-    "autodoc_typehints": "signature",
+    "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",
     "napoleon_use_ivar": True,  # a class's attributes are listed once
     "default_role": "code",  # `q` in a docstring
