@@ -20,7 +20,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: capstone fresh help test soak report lint docs oracle figures notebook
+.PHONY: capstone fresh help test soak report lint docs site oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -85,6 +85,13 @@ lint: .venv/.ready-test ## style, format and types
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ARGS)
+
+site: .venv/.ready-site site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
+	@$(PY) scripts/build_site.py $(ARGS)
+
+site/node_modules/.package-lock.json: site/package-lock.json
+	@npm ci --prefix site --no-audit --no-fund --loglevel=error
+	@touch $@
 
 figures: .venv/.ready-figures $(ROBOT) ## draw the day's picture with your functions
 	@$(PY) scripts/make_figures.py $(ON_DAY) $(ARGS)

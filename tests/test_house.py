@@ -17,6 +17,7 @@ FLOORS = [
     "labkit.report",
     "labkit.figures",
     "labkit.inspector",
+    "labkit.site",
     "labkit.fresh",
     "labkit.grade",
     "labkit.setup",

@@ -1,0 +1,39 @@
+"""Build the course as a site of static pages, in `_site/`.
+
+    make site                            build it
+    python3 scripts/build_site.py        the same
+    python3 -m http.server -d _site      look at it: http://localhost:8000
+
+Its documents are those of the repository; a warning, or a link that leads nowhere, is
+an error. The arm's page needs Node.js, and its packages: npm ci --prefix site.
+"""
+
+import time
+from pathlib import Path
+
+from labkit.base import cli
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+
+def main() -> int:
+    """Build the site and say how large it is."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--out", type=Path, default=ROOT / "_site", metavar="FOLDER")
+    options = parser.parse_args()
+    try:
+        from labkit.site.build import build
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"the site needs {missing.name}, which is not installed yet: make site"
+        ) from None
+    begun = time.monotonic()
+    build(options.out.resolve())
+    files = [path for path in options.out.rglob("*") if path.is_file()]
+    pages = sum(path.suffix == ".html" for path in files)
+    size = sum(path.stat().st_size for path in files) / 1e6
+    seconds = time.monotonic() - begun
+    print(
+        f"{shown(options.out.resolve())}: {pages} pages, {size:.1f} MB, {seconds:.0f} s"
+    )
+    return cli.EXIT_OK

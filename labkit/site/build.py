@@ -1,0 +1,85 @@
+"""Sphinx run on the pages, and the files that the page with the arm needs."""
+
+import json
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+from labkit.site import formulas, links, pages
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, TWIN_XML
+
+SOURCES = ROOT / "site"
+WASM = SOURCES / "node_modules" / "@mujoco" / "mujoco" / "mujoco.wasm"
+SETTINGS: dict[str, Any] = {
+    "project": "robo47",
+    "html_title": "robo47",
+    "html_theme": "furo",
+    "html_css_files": ["style.css"],
+    "html_copy_source": False,
+    "html_show_sphinx": False,
+    "html_show_copyright": False,
+    "html_math_renderer": "mathml",
+    "extensions": [
+        "myst_parser",  # the documents are Markdown
+        "sphinx.ext.autodoc",  # the library's pages, from its docstrings
+        "sphinx.ext.napoleon",  # which say Args and Returns
+        "labkit.site.extension",
+    ],
+    "myst_enable_extensions": ["dollarmath"],
+    "myst_heading_anchors": 4,
+    "autodoc_typehints": "none",  # the docstrings tell shapes and units
+    "autodoc_member_order": "bysource",
+    "napoleon_use_ivar": True,  # a class's attributes are listed once
+    "default_role": "code",  # `q` in a docstring
+}
+
+
+def build(out: Path) -> None:
+    """Build the site into a folder, which is made anew.
+
+    Raises:
+        Robo47Error: a warning, a link that leads nowhere, or no packages for the arm.
+    """
+    if not WASM.exists():
+        raise Robo47Error("the arm's packages are missing: npm ci --prefix site")
+    shutil.rmtree(out, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="robo47-site-") as folder:
+        work = Path(folder).resolve()
+        pages.lay_out(work / "pages")
+        site = Sphinx(
+            work / "pages",
+            None,
+            out,
+            work / "doctrees",
+            "html",
+            {**SETTINGS, "html_static_path": [str(_static(work / "static"))]},
+            status=None,
+            warningiserror=True,
+        )
+        site.build()
+    if site.statuscode:
+        raise Robo47Error("the site has warnings, above; each is an error")
+    if wrong := links.faults(out):
+        raise Robo47Error("links that lead nowhere:\n  " + "\n  ".join(wrong))
+
+
+def _static(folder: Path) -> Path:
+    """Return a folder, made with the style and all that the arm's page loads."""
+    folder.mkdir(parents=True)
+    for path in (SOURCES / "style.css", TWIN_XML, WASM):
+        shutil.copy(path, folder)
+    (folder / "ghosts.json").write_text(
+        json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
+    )
+    command = ["npm", "run", "--silent", "build", "--", f"--outfile={folder}/arm.js"]
+    done = subprocess.run(
+        command, cwd=SOURCES, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
+    return folder

@@ -1,0 +1,208 @@
+"""Mistakes as formulas in the joint angles, for a page that cannot run Python.
+
+A mistake of a day is run once on symbols q1 to q7: what NumPy multiplies and adds is
+written down, one operation a line, and the page evaluates the lines at any q. So no
+formula is written twice, and the page's poses are those of the day's own code.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from typing import Any
+from unittest.mock import patch
+
+import mujoco
+import numpy as np
+
+from labkit.base.exchange import Path
+from labkit.judge.row import Row, Way, row_of
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
+from robo47 import checks
+from robo47.errors import Robo47Error
+from robo47.panda import READY_Q
+from robo47.paths import TWIN_XML
+
+# Day, function and slug: rigid poses, each seen at a glance.
+CHOSEN = (
+    (1, "compose_fk", "wxyz-read-as-xyzw"),
+    (1, "compose_fk", "turns-backwards"),
+    (1, "compose_fk", "turns-about-x"),
+    (1, "compose_fk", "joint-before-link"),
+    (1, "compose_fk", "off-by-one-joint"),
+    (1, "compose_fk", "offsets-summed"),
+    (1, "compose_fk", "inertial-frames"),
+    (2, "fk_space", "M-first"),
+    (2, "fk_space", "product-reversed"),
+    (2, "fk_space", "travel-on-a-line"),
+    (2, "fk_space", "R-times-v"),
+    (2, "fk_space", "moment-used-as-point"),
+    (2, "fk_space", "all-backwards"),
+)
+JOINTS = 7
+
+
+class Tape:
+    """Operations in the order in which they are done; none stands there twice."""
+
+    def __init__(self) -> None:
+        """Begin with the joint angles."""
+        self.lines: list[tuple] = []
+        self._known: dict[tuple, int] = {}
+        self.q = np.array([Symbol(self, ("q", i)) for i in range(JOINTS)], dtype=object)
+
+    def at(self, line: tuple) -> int:
+        """Return the number of an operation's line."""
+        if line not in self._known:
+            self._known[line] = len(self.lines)
+            self.lines.append(line)
+        return self._known[line]
+
+    def number(self, value: Any) -> int:
+        """Return the line of a symbol, or of a plain number."""
+        return value.line if isinstance(value, Symbol) else self.at(("=", float(value)))
+
+    def run(self, q: Sequence[float]) -> list[float]:
+        """Return the value of every line at joint angles q, as the page does."""
+        values: list[float] = []
+        for name, *of in self.lines:
+            values.append(_DO[name](values, q, *of))
+        return values
+
+
+_DO: dict[str, Any] = {
+    "q": lambda v, q, i: float(q[i]),
+    "=": lambda v, q, x: x,
+    "+": lambda v, q, a, b: v[a] + v[b],
+    "-": lambda v, q, a, b: v[a] - v[b],
+    "*": lambda v, q, a, b: v[a] * v[b],
+    "sin": lambda v, q, a: float(np.sin(v[a])),
+    "cos": lambda v, q, a: float(np.cos(v[a])),
+}
+
+
+class Symbol:
+    """A number that is not known yet; NumPy takes it as an entry of an array."""
+
+    def __init__(self, tape: Tape, line: tuple) -> None:
+        """Note the operation that gives it."""
+        self.tape, self.line = tape, tape.at(line)
+
+    def _with(self, name: str, a: Any, b: Any) -> "Symbol":
+        return Symbol(self.tape, (name, self.tape.number(a), self.tape.number(b)))
+
+    def __add__(self, other: Any) -> Any:
+        """Add; 0 changes nothing."""
+        if isinstance(other, np.ndarray):
+            return NotImplemented  # NumPy goes through the entries
+        return self if _is(other, 0) else self._with("+", self, other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Any:
+        """Subtract; 0 changes nothing."""
+        if isinstance(other, np.ndarray):
+            return NotImplemented  # NumPy goes through the entries
+        return self if _is(other, 0) else self._with("-", self, other)
+
+    def __rsub__(self, other: Any) -> Any:
+        """Subtract from a number."""
+        if isinstance(other, np.ndarray):
+            return NotImplemented  # NumPy goes through the entries
+        return self._with("-", other, self)
+
+    def __mul__(self, other: Any) -> Any:
+        """Multiply; 0 and 1 need no operation."""
+        if isinstance(other, np.ndarray):
+            return NotImplemented  # NumPy goes through the entries
+        if _is(other, 0):
+            return 0.0
+        return self if _is(other, 1) else self._with("*", self, other)
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> "Symbol":
+        """Change the sign."""
+        return self._with("*", -1.0, self)
+
+    def sin(self) -> "Symbol":
+        """Return the sine; `np.sin` calls this."""
+        return Symbol(self.tape, ("sin", self.line))
+
+    def cos(self) -> "Symbol":
+        """Return the cosine; `np.cos` calls this."""
+        return Symbol(self.tape, ("cos", self.line))
+
+
+def _is(value: Any, number: int) -> bool:
+    return not isinstance(value, Symbol) and value == number
+
+
+@contextmanager
+def symbols_allowed() -> Iterator[None]:
+    """Let NumPy's empty matrices and the library's checks take symbols."""
+    eye, zeros = np.eye, np.zeros
+
+    def as_it_is(value: Any, *_: Any) -> Any:
+        return np.asarray(value)
+
+    with ExitStack() as stack:
+        for name, make in (("eye", eye), ("zeros", zeros)):
+            made = lambda *a, make=make, **k: make(*a, **k).astype(object)  # noqa: E731
+            stack.enter_context(patch.object(np, name, made))
+        for name in ("array", "rotation", "pose", "unit_vector", "screws"):
+            stack.enter_context(patch.object(checks, name, as_it_is))
+        yield
+
+
+def twin() -> mujoco.MjModel:
+    """Return the page's robot, the kit's own Panda."""
+    return mujoco.MjModel.from_xml_path(str(TWIN_XML))
+
+
+def chosen() -> list[tuple[int, Row, Way]]:
+    """Return the day, the row and the mistake of each ghost.
+
+    Raises:
+        Robo47Error: a day no longer has one of them.
+    """
+    found = []
+    for number, function, slug in CHOSEN:
+        row = row_of(find_day(number), function)
+        ways = [way for way in row.named if way.slug == slug]
+        if not ways:
+            raise Robo47Error(f"day {number}: {function} has no mistake {slug!r} now")
+        found.append((number, row, ways[0]))
+    return found
+
+
+def questions(number: int, q: Any) -> dict[str, tuple]:
+    """Return {frame: what a day's inspector asks the arm's function} at q, (7,)."""
+    ghost = folder.load(find_day(number), "inspector").GHOST
+    asked = zip(ghost.frames, ghost.questions(twin(), q), strict=True)
+    return {
+        frame: tuple(list(x.pairs) if isinstance(x, Path) else x for x in question)
+        for frame, question in asked
+        if frame != "link0"
+    }
+
+
+def tables() -> dict[str, Any]:
+    """Return what the page reads: the lines, and per mistake its words and entries."""
+    tape, mistakes = Tape(), []
+    for number, row, way in chosen():
+        asked = questions(number, tape.q)
+        with symbols_allowed():
+            drawn = {frame: way.code(*of) for frame, of in asked.items()}
+        mistakes.append(
+            {
+                "day": number,
+                "function": row.function,
+                "slug": way.slug,
+                "says": f"{way.says[0].upper()}{way.says[1:]}.",
+                "frames": {
+                    name: [tape.number(x) for x in T[:3].flat]
+                    for name, T in drawn.items()
+                },
+            }
+        )
+    return {"ready": READY_Q.tolist(), "lines": tape.lines, "mistakes": mistakes}

@@ -1,0 +1,136 @@
+"""Pages of the site: every document as it stands, and what a document links to.
+
+The documents are copied beside each other as they are in the repository, so that their
+links hold. A link to a file that is no page (a lab, a test) leads to a page that shows
+the file; a link to a folder leads to nothing, and the build says so.
+"""
+
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from labkit.lesson.day import all_days
+from robo47.paths import ROOT
+
+DOCUMENTS = (
+    "*.md",
+    "w*/README.md",
+    "w*/docs/*.md",
+    "docs/*.md",
+    "metrics/README.md",
+    "bench/README.md",
+)
+PICTURES = {".png", ".jpg", ".gif", ".svg"}
+LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
+LANGUAGE = {".py": "python", ".toml": "toml"}
+HOME = "README.md"
+MODULES = (
+    ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
+    ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
+    ("Control and motion", ("control", "task_space", "trajectory", "contact")),
+    ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
+    ("The week's end", ("capstone",)),
+)
+
+
+def lay_out(folder: Path, repository: Path = ROOT) -> None:
+    """Write the site's source into a folder, which is made anew.
+
+    Args:
+        folder: where to.
+        repository: whose documents.
+
+    Raises:
+        FileNotFoundError: a document links to a file that is not there.
+    """
+    shutil.rmtree(folder, ignore_errors=True)
+    documents = [path for each in DOCUMENTS for path in sorted(repository.glob(each))]
+    pages = {path.relative_to(repository) for path in documents}
+    for page in pages:
+        text = (repository / page).read_text("utf-8")
+        name = Path("index.md") if page.as_posix() == HOME else page
+        _write(folder / name, _linked(text, page, pages, repository, folder))
+    with (folder / "index.md").open("a", encoding="utf-8") as home:
+        home.write("\n".join(_contents(pages)))
+    shutil.copy(repository / "site" / "arm.md", folder / "arm.md")
+    for _, modules in MODULES:
+        for module in modules:
+            _write(folder / "library" / f"{module}.md", _reference(module))
+
+
+def _linked(
+    text: str, page: Path, pages: set[Path], repository: Path, folder: Path
+) -> str:
+    """Return a document whose links to files lead to pages of theirs."""
+
+    def lead(found: re.Match[str]) -> str:
+        target = (repository / page.parent / found[1]).resolve()
+        name = target.relative_to(repository)
+        if name in pages or not target.is_file():
+            return found[1]  # Sphinx says what leads nowhere
+        copy = folder / name
+        if target.suffix in PICTURES:
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(target, copy)
+            return found[1]
+        _write(copy.with_name(copy.name + ".md"), _shown(target, name))
+        return found[1] + ".md"
+
+    return LINK.sub(lead, text)
+
+
+def _shown(file: Path, name: Path) -> str:
+    """Return a page that shows a file of the repository."""
+    fence, language = "`" * 8, LANGUAGE.get(file.suffix, "text")
+    body = file.read_text("utf-8")
+    head = f"---\norphan: true\n---\n# `{name.as_posix()}`\n"
+    return f"{head}{fence}{language}\n{body}{fence}\n"
+
+
+def _reference(module: str) -> str:
+    """Return the page of a module of the library, made of its docstrings."""
+    return (
+        f"# robo47.{module}\n\n```{{eval-rst}}\n.. automodule:: robo47.{module}\n"
+        "   :members:\n```\n"
+    )
+
+
+def _contents(pages: set[Path]) -> Iterator[str]:
+    """Yield the table of contents, which the site's margin shows."""
+    days: dict[str, list[str]] = {}
+    for day in all_days():
+        week = day.folder.name
+        days.setdefault(week, []).extend([day.guide, day.worksheet])
+    yield from _tree("", ["arm"])
+    for week, named in days.items():
+        own = [f"{week}/{name.removesuffix('.md')}" for name in map(str, named)]
+        rest = [p for p in pages if p.parts[0] == week and _bare(p) not in own]
+        readme = f"{week}/README"
+        more = sorted({_bare(p) for p in rest} - {readme})
+        yield from _tree(f"Week {week[1:].partition('-')[0]}", [readme, *own, *more])
+    for title, modules in MODULES:
+        yield from _tree(title, [f"library/{module}" for module in modules])
+    apart = [p for p in pages if p.parts[0] not in days and p.as_posix() != HOME]
+    yield from _tree("Teaching and making", sorted(map(_bare, apart)))
+
+
+def _bare(page: Path) -> str:
+    return page.with_suffix("").as_posix()
+
+
+def _tree(caption: str, names: list[str]) -> list[str]:
+    return [
+        "",
+        "```{toctree}",
+        ":hidden:",
+        *([f":caption: {caption}"] if caption else []),
+        "",
+        *names,
+        "```",
+    ]
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, "utf-8", newline="\n")

@@ -1,0 +1,189 @@
+"""The site: links hold, nothing comes from elsewhere, and the arm's page is right."""
+
+import functools
+import http.server
+import json
+import subprocess
+import sys
+import threading
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from conftest import ROOT, need
+from robo47 import panda, verify
+
+pytestmark = pytest.mark.kit
+
+WIDTHS = (390, 1280)
+LOCK = ROOT / "site" / "package-lock.json"
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Return the site, built as a person does: it ends with 0 without a warning."""
+    need(find_spec("sphinx") is not None, "Sphinx: python3 scripts/setup_env.py site")
+    need((ROOT / "site" / "node_modules").is_dir(), "npm ci --prefix site")
+    out = tmp_path_factory.mktemp("site") / "_site"
+    command = [sys.executable, ROOT / "scripts" / "build_site.py", "--out", out]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    return out
+
+
+@pytest.fixture(scope="module")
+def served(site):
+    """Return the site's address."""
+    handler = functools.partial(Quiet, directory=str(site))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+        thread.join()
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def browse(chromium, served):
+    """Open a page of the site; what goes wrong in it is kept."""
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as play:
+        arguments = ["--use-gl=angle", "--use-angle=swiftshader"]
+        browser = play.chromium.launch(
+            executable_path=chromium, args=[*arguments, "--no-sandbox"]
+        )
+        page = browser.new_page()
+        page.problems = []
+        page.on("pageerror", lambda error: page.problems.append(str(error)))
+
+        def abroad(request):
+            if not request.url.startswith((served, "data:", "blob:")):
+                page.problems.append(f"asks {request.url}")
+
+        page.on("request", abroad)
+
+        def go(path, width=1280, **more):
+            page.set_viewport_size({"width": width, "height": 900})
+            page.goto(f"{served}/{path}", **more)
+            return page
+
+        yield go
+        browser.close()
+
+
+def test_a_page_with_a_lost_link_or_a_foreign_script_is_named(tmp_path):
+    from labkit.site import links
+
+    (tmp_path / "a.html").write_text(
+        '<a href="b.html#here">1</a><a href="b.html#gone">2</a><a href="c.html">3</a>'
+        '<script src="https://elsewhere.org/x.js"></script><a href="https://x.org">4</a>'
+    )
+    (tmp_path / "b.html").write_text('<p id="here">')
+    assert links.faults(tmp_path) == [
+        "a.html: b.html#gone: no anchor #gone",
+        "a.html: c.html: no such file",
+        "a.html: https://elsewhere.org/x.js: comes from another host",
+    ]
+
+
+def test_the_lock_file_pins_packages_and_names_no_registry():
+    lock = json.loads(LOCK.read_text("utf-8"))
+    packages = [one for name, one in lock["packages"].items() if name]
+    assert packages
+    assert all("integrity" in one and "resolved" not in one for one in packages)
+
+
+def test_every_guide_worksheet_and_taught_module_has_a_page(site):
+    from labkit.lesson.day import all_days
+
+    for day in all_days():
+        for name in (day.guide, day.worksheet, *day.library):
+            found = [
+                *site.rglob(f"{str(name).rpartition('/')[2].removesuffix('.md')}.html")
+            ]
+            assert found, f"day {day.number}: {name}"
+
+
+def test_formulas_are_those_of_the_mistakes():
+    from labkit.site import formulas
+
+    table = formulas.tables()
+    tape = formulas.Tape()
+    tape.lines = table["lines"]
+    for q in random_q(5):
+        values = tape.run(q)
+        truth = ghosts_at(q)
+        for mistake in table["mistakes"]:
+            for name, entries in mistake["frames"].items():
+                T = np.reshape([values[line] for line in entries], (3, 4))
+                assert np.abs(T - truth[mistake["slug"]][name]).max() < 1e-12
+
+
+def random_q(n):
+    return verify.random_q(panda.load("panda_nohand"), n, seed=31)
+
+
+def ghosts_at(q):
+    """Return {slug: {frame: rows}} of the mistakes, made by the days' own code."""
+    from labkit.site import formulas
+
+    return {
+        way.slug: {
+            frame: np.asarray(way.code(*asked))[:3]
+            for frame, asked in formulas.questions(number, q).items()
+        }
+        for number, _, way in formulas.chosen()
+    }
+
+
+@pytest.mark.browser
+def test_the_arms_page_says_what_python_says(browse):
+    for q in random_q(3):
+        truth = ghosts_at(q)
+        where = verify.mujoco_poses(panda.load("panda_nohand"), q[None])
+        T_world_ee = where["site:attachment_site"][0][:3]
+        angles = ",".join(map(repr, map(float, q)))
+        page = browse(f"arm.html?{angles}#q={angles}")
+        page.wait_for_function("window.arm", timeout=60_000)
+        for slug, frames in truth.items():
+            page.select_option("#mistake", slug)
+            seen = page.evaluate("window.arm")
+            assert seen["q"] == list(map(float, q))
+            assert np.abs(np.ravel(T_world_ee) - seen["truth"]).max() < 1e-12
+            assert seen["poses"].keys() == frames.keys()
+            for name, T in frames.items():
+                assert np.abs(np.ravel(T) - seen["poses"][name]).max() < 1e-12, slug
+            metres = np.linalg.norm(frames["ee"][:, 3] - T_world_ee[:, 3])
+            assert f"off by {1000 * metres:.0f} mm" in page.inner_text("#off")
+            assert f"mistake={slug}" in page.url
+    assert page.problems == []
+
+
+@pytest.mark.browser
+def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
+    page = browse("arm.html")
+    page.wait_for_function("window.arm", timeout=60_000)
+    before = page.inner_text("#pose")
+    page.locator("#sliders input").nth(1).fill("0.5")
+    assert page.inner_text("#pose") != before
+    after = page.inner_text("#pose")
+    page.reload()
+    page.wait_for_function("window.arm", timeout=60_000)
+    assert page.inner_text("#pose") == after
+    assert page.problems == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_page_is_wider_than_the_screen(browse, site, width):
+    for path in sorted(site.rglob("*.html")):
+        page = browse(path.relative_to(site).as_posix(), width, wait_until="load")
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, path.relative_to(site)
+    assert page.problems == []
