@@ -30,7 +30,7 @@ AXIS_COLOURS = (overlay.X, overlay.Y, overlay.Z)
 @pytest.fixture(scope="module", autouse=True)
 def own_memory(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(backends, "CACHE", tmp_path_factory.mktemp("gl") / "backend.json")
+        patch.setattr(backends, "ROOT", tmp_path_factory.mktemp("gl"))
         yield
     client.close()
 
