@@ -662,7 +662,7 @@ class TestSimilarity:
     def test_knows_the_kits_own_solution_however_many_hand_it_in(self):
         kit = similar.runs_of(SOLVED.encode(), STARTER)
         own = similar.runs_of(own_way(ODD_WAY).encode(), STARTER)
-        right = (DAY.own / "submissions" / "right").glob("*.py")
+        right = (DAY.own / "submissions").glob("*/*.py")
         runs = {p.stem: [similar.runs_of(p.read_bytes(), STARTER)] for p in right}
         assert len(runs) > 9
         assert similar.like_the_kit(runs, kit) == []

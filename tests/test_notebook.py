@@ -64,7 +64,7 @@ def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
     changed.write_text(source.replace("np.pi / 4", "np.pi / 3"), "utf-8")
     shutil.copytree(DAY.own, tmp_path / DAY.own.name)
     moved = dataclasses.replace(DAY, folder=tmp_path)
-    monkeypatch.setattr(generator, "find_day", lambda number: moved)
+    monkeypatch.setattr(generator, "chosen_day", lambda number: moved)
     monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--check"])
     assert generator.main() == 1
     assert generator.notebook_of(DAY).read_bytes() == before

@@ -19,6 +19,7 @@ import numpy as np
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.handin.item import Item
+from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric
@@ -27,6 +28,7 @@ from labkit.sandbox.library import library_of
 from labkit.sandbox.messages import PANDA
 from labkit.sandbox.sandbox import Sandbox, Session
 
+ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function
 TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
 CALLS = 8_000  # of the student's functions, a second or two; simulations ask more
 SECONDS = 60.0  # for all of them; a slow function is no wrong one
@@ -86,7 +88,7 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
     if not day.source.is_file():
         return ""
     lab = folder.load_lab(day.source)
-    session = sandbox.session(script, [PANDA], library_of(day))
+    session = sandbox.session(script, ROBOTS, library_of(day))
     budget = _Budget()
     for task in day.tasks:
         for name in task.functions:
@@ -153,9 +155,16 @@ def _asked(
 
 
 def _sent(arg: Any) -> Any:
-    """Return an argument as questions have it: labs know one robot."""
+    """Return an argument as questions have it.
+
+    Raises:
+        EnoughAsked: a robot that the session was not given.
+    """
     if isinstance(arg, mujoco.MjModel):
-        return PANDA
+        for robot in ROBOTS:
+            if robot.model.nq == arg.nq:
+                return robot
+        raise EnoughAsked
     if isinstance(arg, list | tuple) and arg and isinstance(arg[0], tuple):
         return Chain(tuple(arg))
     return arg

@@ -1,10 +1,10 @@
-"""Draw your picture of a day with your own functions, or the pictures of its lesson.
+"""Draw your picture of a day with your functions, or the pictures of its lesson.
 
-    make figures DAY=6                                 yours, that the day hands in
-    make figures DAY=6 ARGS=--kit                      all of the lesson
-    python3 scripts/make_figures.py --day 6            the same as the first
-    python3 scripts/make_figures.py day1_order         one of them
-    python3 scripts/make_figures.py --out other/place  into another folder
+    make figures DAY=6                              yours, that the day hands in
+    make figures DAY=6 ARGS=--kit                   all of the lesson
+    python3 scripts/make_figures.py --day 6         the same as the first
+    python3 scripts/make_figures.py day1_order      one of them
+    python3 scripts/make_figures.py --out elsewhere into another folder
 
 Works without a display. MuJoCo draws the robot; the frames over it are composed
 by hand, so a wrong one would be seen beside its link.

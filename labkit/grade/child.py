@@ -16,6 +16,7 @@ import shutil
 import sys
 import tempfile
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -80,7 +81,10 @@ def grade(package: Package, day: Day) -> Result:
     with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
         tasks, lab, error = _tasks(package, day, Path(folder).resolve())
     items = check_files(day, package.handin, tasks_pass=_done(tasks, day))
-    return _result(day, tasks, [*lab, *items, package.commit_item], error)
+    if lab:  # its numbers cannot be right: every class has the same columns
+        failed = replace(lab[0], name="metrics")
+        items = [failed if item.name == "metrics" else item for item in items]
+    return _result(day, tasks, [*items, package.commit_item], error)
 
 
 def _done(tasks: list[TaskResult], day: Day) -> bool:
