@@ -5,6 +5,7 @@ written down, one operation a line, and the page evaluates the lines at any q. S
 formula is written twice, and the page's poses are those of the day's own code.
 """
 
+import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import Any
@@ -20,25 +21,16 @@ from labkit.lesson.day import find_day
 from robo47 import checks
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
-from robo47.paths import TWIN_XML
+from robo47.paths import ROOT, TWIN_XML
 
-# Day, function and slug: rigid poses, each seen at a glance.
-CHOSEN = (
-    (1, "compose_fk", "wxyz-read-as-xyzw"),
-    (1, "compose_fk", "turns-backwards"),
-    (1, "compose_fk", "turns-about-x"),
-    (1, "compose_fk", "joint-before-link"),
-    (1, "compose_fk", "off-by-one-joint"),
-    (1, "compose_fk", "offsets-summed"),
-    (1, "compose_fk", "inertial-frames"),
-    (2, "fk_space", "M-first"),
-    (2, "fk_space", "product-reversed"),
-    (2, "fk_space", "travel-on-a-line"),
-    (2, "fk_space", "R-times-v"),
-    (2, "fk_space", "moment-used-as-point"),
-    (2, "fk_space", "all-backwards"),
-)
+SITE = ROOT / "site"
 JOINTS = 7
+
+
+def _listed() -> list[tuple[int, str, str]]:
+    """Return day, function and slug of the page's mistakes: rigid poses, each seen."""
+    listed = tomllib.loads((SITE / "ghosts.toml").read_text("utf-8"))["ghosts"]
+    return [(one["day"], one["function"], one["slug"]) for one in listed]
 
 
 class Tape:
@@ -166,7 +158,7 @@ def chosen() -> list[tuple[int, Row, Way]]:
         Robo47Error: a day no longer has one of them.
     """
     found = []
-    for number, function, slug in CHOSEN:
+    for number, function, slug in _listed():
         row = row_of(find_day(number), function)
         ways = [way for way in row.named if way.slug == slug]
         if not ways:
