@@ -111,7 +111,7 @@ def short_sha(folder: Path) -> str:
     """
     try:
         return (_git(folder / ".git", "rev-parse", "--verify", "HEAD") or "")[:SHA]
-    except GitError:
+    except (GitError, OSError):  # a folder that is not for us to look into
         return ""
 
 
