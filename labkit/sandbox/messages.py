@@ -9,7 +9,15 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import CHANNEL, MOST, EndedError, Path, Question, Reply
+from labkit.base.exchange import (
+    CHANNEL,
+    MOST,
+    NUMBERS,
+    EndedError,
+    Path,
+    Question,
+    Reply,
+)
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.sandbox.inside import wire
@@ -80,21 +88,29 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
         elif isinstance(arg, int | float):
             packed[key] = {"number": arg}
     plain = {key: arg for key, arg in args.items() if key not in packed}
-    packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    try:
+        packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    except wire.UnsendableError as error:
+        asked = ", ".join(sorted({one.function for one in questions}))
+        raise Robo47Error(f"a question to {asked} holds {error}") from None
     return [
         {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
         for one in questions
     ]
 
 
-def read(message: dict[str, Any]) -> Reply:
+def read(message: dict[str, Any], most: int = NUMBERS) -> Reply:
     """Return a message as a reply, believing nothing in it.
+
+    Args:
+        message: as it came.
+        most: numbers in an answer.
 
     Raises:
         EndedError: somebody forged it.
     """
     try:
-        return _reply(message)
+        return _reply(message, most)
     except Exception:  # a forged message can be anything
         raise EndedError(CHANNEL) from None
 
@@ -177,11 +193,11 @@ def _facts() -> dict[str, Any]:
     }
 
 
-def _reply(message: dict[str, Any]) -> Reply:
+def _reply(message: dict[str, Any], most: int) -> Reply:
     if message.get("missing"):
         return Reply(kind="missing")
     try:
-        value = wire.unpack_value(message.get("value"))
+        value = wire.unpack_value(message.get("value"), most)
     except ValueError as error:
         return Reply(error=f"it returned {visible(error)}", kind="unsendable")
     if (largest := _largest(value)) > HUGE:
