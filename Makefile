@@ -21,7 +21,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: capstone fresh help test soak report lint docs site oracle figures notebook
+.PHONY: new author capstone fresh help test soak report lint docs site oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -85,7 +85,7 @@ lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
-	@$(PY) scripts/build_docs.py $(ARGS)
+	@$(PY) scripts/build_docs.py $(ON_DAY) $(ARGS)
 
 site: .venv/.ready-site site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
 	@$(PY) scripts/build_site.py $(ARGS)
@@ -99,6 +99,13 @@ figures: .venv/.ready-figures $(ROBOT) ## draw the day's picture with your funct
 
 notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook
 	@$(PY) scripts/make_notebook.py $(ON_DAY) $(ARGS)
+
+new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-autonomy NAME=me
+	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
+	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
+
+author: .venv/.ready-test .venv/.ready-notebook $(ROBOT) ## is a day that you write as it must be?
+	@$(PY) scripts/author_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import textwrap
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import hypothesis
 import mujoco
@@ -15,6 +16,9 @@ from labkit.figures import backends
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.panda import files
+
+if TYPE_CHECKING:
+    from labkit.lesson.day import Day
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -81,6 +85,14 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+def days() -> list["Day"]:
+    """Return the days to test: all, or the one that its author asks for."""
+    from labkit.lesson.day import all_days, find_day
+
+    asked = os.environ.get("ROBO47_DAY")
+    return [find_day(int(asked))] if asked else all_days()
 
 
 def kit_folders() -> list[str]:
