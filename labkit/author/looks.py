@@ -7,7 +7,9 @@ from importlib.util import find_spec
 import numpy as np
 
 from labkit.author.sheet import worksheet_of
+from labkit.base.exchange import Exchange, Question
 from labkit.handin.worksheet import split_sections
+from labkit.judge.ask import stacked
 from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
@@ -61,7 +63,7 @@ def _functions(day: Day) -> Iterator[str]:
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
         elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
-            row.ask.truth.nth(0, [[one] for one in first])
+            row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
 
 
 def _guide(day: Day) -> Iterator[str]:

@@ -84,9 +84,9 @@ def style(day: Day) -> Iterator[str]:
         ["format", "--check", "-q"],
     ):
         code, lines = run(day, "-m", "ruff", *check, *files)
-        yield from lines if code else ()
         if code and check[0] == "format":
-            yield f"to format: .venv/bin/python -m ruff format {shown(day.own)}"
+            lines = [f"to format: .venv/bin/python -m ruff format {shown(day.own)}"]
+        yield from lines if code else ()
 
 
 def _test_of(module: str) -> bool:

@@ -34,8 +34,6 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
-DOCUMENTS += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -187,9 +185,12 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     parser.add_argument("--day", type=cli.day, metavar="N", help="its documents alone")
     options = parser.parse_args()
-    documents = dict.fromkeys(DOCUMENTS, False)
     if options.day is not None:
         documents = documents_of(find_day(options.day))
+    else:
+        paths = [ROOT / "README.md", ROOT / "bench" / "README.md"]
+        paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
+        documents = dict.fromkeys(paths, False)
     drift = renew(documents, options.check)
     state = "drifted" if options.check else "renewed"
     print(f"{len(documents)} documents, {drift} outputs {state}")

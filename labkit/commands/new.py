@@ -25,5 +25,6 @@ def main() -> int:
     for path in new_day(options.day, options.week, options.name):
         print(f"wrote {shown(path)}")
     docs.renew(docs.documents_of(find_day(options.day)))
-    print(f"Now: make author DAY={options.day}, and docs/teaching.md")
+    n = options.day
+    print(f"Now: make notebook DAY={n}, make author DAY={n}, and docs/teaching.md")
     return cli.EXIT_OK

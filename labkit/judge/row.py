@@ -21,7 +21,7 @@ import importlib
 import inspect
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType, ModuleType
@@ -97,6 +97,8 @@ class Row:
             more: further fields of `Ask`: accept, held_out, unnamed and so on; what a
                 `HeldOut` calls truth or mistaken takes one question, too.
         """
+        if unknown := set(more) - {one.name for one in fields(Ask)}:
+            raise TypeError(f"a Row has no {min(unknown)}")
         self.kind, self.near, self.alike, self.more = kind, near, list(alike), more
         self._truth = truth
         self._draw: Inputs | None = None

@@ -47,11 +47,11 @@ def load(day: Day, name: str) -> ModuleType:
         raise
     except Exception as error:
         last = traceback.extract_tb(error.__traceback__)[-1]
-        line = getattr(error, "lineno", None) or last.lineno
-        raise Robo47Error(
-            f"{shown(day.own / name)}.py does not load: {type(error).__name__}: "
-            f"{error} ({Path(last.filename).name}, line {line})"
-        ) from error
+        where = f" ({Path(last.filename).name}, line {last.lineno})"
+        where = "" if isinstance(error, SyntaxError) else where  # it says so itself
+        why = f"{type(error).__name__}: {error}{where}"
+        file = shown(day.own / name)
+        raise Robo47Error(f"{file}.py does not load: {why}") from error
 
 
 @cache
