@@ -248,7 +248,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = _where(kind, S[i], T[i], case.given, ask.tolerance)
+        where = near_miss.in_common(S[i], T[i])
+        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
