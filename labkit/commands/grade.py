@@ -33,6 +33,7 @@ from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
 from labkit.grade.overview import Course
+from labkit.grade.package import version
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
@@ -71,6 +72,12 @@ def parse() -> argparse.Namespace:
         default=os.cpu_count() or 1,
         metavar="N",
         help="submissions at a time; default: one per core",
+    )
+    add(
+        "--seed",
+        type=int,
+        metavar="N",
+        help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--again", action="store_true", help="grade those too that did not change")
@@ -196,8 +203,15 @@ def grade_day(
         out.parent.mkdir(parents=True, exist_ok=True)
     given = options.deadline is not None
     since = options.deadline if given else int(time.time())
-    journal = Journal(out.parent / "grading.jsonl", [day], since, deadline=given)
+    journal = Journal(
+        out.parent / "grading.jsonl", [day], since, deadline=given, seed=options.seed
+    )
     with contextlib.closing(journal):
+        if not week.days:
+            options.seed = journal.seed  # one for all days
+            print(
+                f"kit: {version()}; fresh inputs for everybody: --seed {journal.seed}"
+            )
         room = Classroom(week.students, [day], journal, options.again, tally.notes)
         if options.pull and not week.days:
             room.pull()
