@@ -137,7 +137,7 @@ def hybrid_wrench(
 ) -> np.ndarray:
     """Return a wrench, (6,): a spring but along z, where it pushes down with a force.
 
-    e, V_err, K and D as in `spring_wrench`; with e and V_err 0: (0, 0, 0, 0, 0, -force).
+    The first four as in `spring_wrench`; with e and V_err 0: (0, 0, 0, 0, 0, -force).
     The damper stays in all six rows; along z there is nothing of K.
     """
     # region 6.9
