@@ -135,3 +135,12 @@ def test_one_state_leaves_nothing_behind_for_the_next():
 def test_a_site_that_is_not_there_is_named():
     with pytest.raises(Robo47Error, match="no site 'attachment_site'; load panda_no"):
         verify.mujoco_site_jacobian(pendulum(), [0.0])
+
+
+def test_each_asks_a_function_once_per_row():
+    asked = verify.each(
+        lambda R, p: R @ p, np.eye(3)[None] * [[[2.0]], [[3.0]]], np.eye(3)[:2]
+    )
+    assert asked.tolist() == [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
+    with pytest.raises(ValueError, match="shorter"):
+        verify.each(max, np.zeros(2), np.zeros(1))

@@ -22,6 +22,7 @@ from labkit.base import cli
 from labkit.base.words import count, number_of
 from labkit.lesson.day import Metric, day_of
 from labkit.lesson.marks import file_mark
+from labkit.lesson.predictions import predictions
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -48,6 +49,27 @@ class Lab:
         self.day = day_of(self.script)
         self.failed: list[str] = []
         self.rows: list[dict[str, Any]] = []
+        self.predicted = predictions(self._worksheet())
+
+    def _worksheet(self) -> str:
+        """Return the text of the day's worksheet; "" where the kit's own lab runs."""
+        if self.script.resolve() != self.day.work.resolve():
+            return ""
+        try:
+            return (self.day.folder / self.day.worksheet).read_text("utf-8-sig")
+        except (OSError, UnicodeDecodeError):  # `make check` says so
+            return ""
+
+    def measured(self, number: str, value: float) -> None:
+        """Print a number beside the student's prediction; nothing where there is none.
+
+        Args:
+            number: the first cell of its row in the worksheet's table of predictions.
+            value: in the row's unit.
+        """
+        if number in self.predicted:
+            yours = f"  you predicted {self.predicted[number]}, measured {value:.4g}: "
+            print(cli.wrapped(yours + number, "    "))
 
     def step(self, title: str) -> None:
         """Print the heading of a step."""

@@ -4,6 +4,7 @@ Nothing here composes a transform or a torque; this is what they are judged agai
 Units: metres, radians, seconds, kilograms.
 """
 
+from robo47.verify.answers import each
 from robo47.verify.motion import (
     mujoco_acceleration,
     mujoco_bias,
@@ -21,7 +22,7 @@ from robo47.verify.poses import (
 )
 
 __all__ = [
-    "Worst", "mujoco_acceleration", "mujoco_bias", "mujoco_inverse_dynamics",
+    "Worst", "each", "mujoco_acceleration", "mujoco_bias", "mujoco_inverse_dynamics",
     "mujoco_mass_matrix", "mujoco_poses", "mujoco_site_jacobian", "mujoco_step",
     "random_q", "verify_fk", "worst_difference",
 ]  # fmt: skip
