@@ -136,7 +136,7 @@ def compare_breaking(
     ):
         found = breaking(model, law_of, 1 / (every * h), start)
         what = f"torque every {1e3 * every * h:g} ms, loop breaks at"
-        lab.predicted(what, limit, found, "rad/s")
+        lab.predict(what, limit, found, "rad/s")
         lab.check(f"{whose}, rad/s", limit - found, limit=2.0)
 
 

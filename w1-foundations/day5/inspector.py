@@ -11,7 +11,7 @@ import numpy as np
 
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import control, kinematics, panda, simulate
+from robo47 import control, kinematics, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
@@ -58,11 +58,6 @@ LAWS: dict[str, Law] = {
 }
 
 
-def _hang(spec: mujoco.MjSpec) -> None:
-    ball = {"mass": 1.0, "inertia": [1e-4] * 3, "explicitinertial": True}
-    spec.body("attachment").add_body(name="load", **ball)
-
-
 def reference(t: float, swing: bool) -> tuple[Array, Array, Array]:
     """Return position, velocity and acceleration of the ghost: ready, or the swing."""
     made = references.raised_cosine(READY_Q, REACH) if swing else None
@@ -80,7 +75,7 @@ class Control(Tab):
         super().__init__(page)
         self.models = [
             panda.load("panda_nohand", drive="torque", edit=edit)
-            for edit in (None, _hang)
+            for edit in (None, scenes.hang_kilogram)
         ]
         self.arm = panda.arm(self.models[0])  # the model never knows of the load
         self.law, self.omega, self.heavy, self.swing = computed, 20.0, 0, False

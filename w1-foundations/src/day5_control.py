@@ -222,9 +222,9 @@ def main() -> int:
     predicted = loops.rest(sag_step, READY_Q, lambda q: arm.at(q).gravity_torque, KP)
     log = run(model, arm, springs, goal, 6.0)
     low = [1e3 * (READY_Q - q)[3] for q in (predicted, log.q[-1])]
-    lab.predicted("joint 4 hangs low by", *low, "mrad")
+    lab.predict("joint 4 hangs low by", *low, "mrad")
     top, *low = (arm.at(q).T_world_ee[2, 3] for q in (READY_Q, predicted, log.q[-1]))
-    lab.predicted("the hand by", *(1e3 * (top - z) for z in low), "mm")
+    lab.predict("the hand by", *(1e3 * (top - z) for z in low), "mm")
     lab.record("sag_predicted", log.q[-1] - predicted, label="sag, worst joint, rad")
     log = run(model, arm, springs_and_gravity, goal, 0.5)
     lab.check("with gravity's torque added, rad", log.q - READY_Q)
@@ -235,7 +235,7 @@ def main() -> int:
         log = run(model, arm, equal_springs(10.0, zeta), goal, 1.0, READY_Q - E0)
         e, wanted = (READY_Q - log.q) / E0, error_response(log.t, 10.0, zeta)
         apart.append(np.abs(e.T - wanted).max())
-        lab.predicted(f"zeta {zeta:g}: after 0.3 s", wanted[k], e[k].mean(), "of e0")
+        lab.predict(f"zeta {zeta:g}: after 0.3 s", wanted[k], e[k].mean(), "of e0")
     lab.record("error_dynamics", apart, label="curve - predicted, of e0", seed=0)
     log = run(model, arm, gains_outside, goal, 0.5, READY_Q - E0)
     off = (READY_Q - log.q) / E0 - error_response(log.t, OMEGA, 1.0)[:, None]
@@ -251,7 +251,7 @@ def main() -> int:
     predicted = loops.rest(sag_step, READY_Q, load, gains(OMEGA, 1.0)[0])
     log = run(heavy, arm, equal_springs(), goal, 1.5)
     low = [1e3 * (READY_Q - q)[3] for q in (predicted, log.q[-1])]
-    lab.predicted("joint 4 under 1 kg hangs low by", *low, "mrad")
+    lab.predict("joint 4 under 1 kg hangs low by", *low, "mrad")
     lab.check("sag under 1 kg, worst joint, rad", log.q[-1] - predicted)
     log = run(heavy, arm, with_integral(), goal, 2.0)
     lab.check("with an integral, after 2 s, rad", log.q[-1] - READY_Q, limit=1e-5)
