@@ -183,7 +183,8 @@ class Ask:
     @cached_property
     def draws(self) -> int:
         """How often inputs are drawn anew."""
-        size = sum(np.size(arg) for arg in self.inputs(np.random.default_rng(SEED))[-1])
+        *_, last = self.inputs(np.random.default_rng(SEED))
+        size = sum(map(np.size, last))
         draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
         return (draws if self.truth else 1) if self.fresh else 0
 

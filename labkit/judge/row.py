@@ -25,8 +25,6 @@ from functools import cache, cached_property
 from types import MappingProxyType, ModuleType
 from typing import Any
 
-import numpy as np
-
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.mistake import InTurn, Mistake
