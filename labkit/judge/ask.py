@@ -193,8 +193,8 @@ class Ask:
         """Calls with the edge values of every argument, where one answer is right."""
         found: dict[str, tuple[Any, ...]] = {}
         for i in range(self.draws if self.truth else 0):
-            calls = self.inputs(Edges(np.random.PCG64([SEED, i])))[-self.fresh :]
-            found |= {repr(call): tuple(call) for call in calls}
+            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
+            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
         return [call for call in found.values() if _well_posed(self, call)]
 
 
