@@ -193,6 +193,7 @@ def test_logarithms_errors_and_steps_are_judged(right):
         verify.off_goal(ask(jacobian.pose_error), T[:6], T[6:]),
         verify.off_least_squares(ask(jacobian.dls_step), J, 4),
         verify.off_null_vector(ask(jacobian.null_step), J, 5),
+        verify.off_volume(jacobian.manipulability if right else np.trace, J),
     ]
     assert all((np.abs(x).max() < 1e-9) == right for x in off)
 

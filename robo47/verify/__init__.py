@@ -16,6 +16,7 @@ from robo47.verify.answers import (
     off_motion,
     off_null_vector,
     off_rotation,
+    off_volume,
     random_screws,
 )
 from robo47.verify.circle import CENTRE, LAP, circle, least_miss
@@ -45,6 +46,6 @@ __all__ = [
     "mujoco_inverse_dynamics", "mujoco_mass_matrix", "mujoco_poses", "mujoco_push",
     "mujoco_rotation", "mujoco_screws", "mujoco_site_jacobian", "mujoco_step",
     "off_adjoint", "off_cross", "off_goal", "off_least_squares", "off_library",
-    "off_log", "off_motion", "off_null_vector", "off_rotation", "random_q",
-    "random_screws", "tries", "verify_fk", "worst_difference",
+    "off_log", "off_motion", "off_null_vector", "off_rotation", "off_volume",
+    "random_q", "random_screws", "tries", "verify_fk", "worst_difference",
 ]  # fmt: skip

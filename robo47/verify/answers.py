@@ -167,6 +167,11 @@ def off_null_vector(
     return each(null_step, J, dq) - along
 
 
+def off_volume(manipulability: Callable[..., Any], J: Array) -> Array:
+    """Return how far manipulability squared is from det(J J^T), (n,)."""
+    return each(manipulability, J) ** 2 - np.linalg.det(J @ np.swapaxes(J, 1, 2))
+
+
 def in_the_hand(J_site: Array, T: Array) -> Array:
     """Return Jacobians with both halves turned into the hand's axes, (n, 6, 7).
 

@@ -242,9 +242,10 @@ def main() -> int:
     lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
     off = verify.off_null_vector(null_step, J_mujoco[1:])
     lab.check("null_step - the part along the null vector", off)
-    flat, U = manipulability(J_mujoco[0]), np.linalg.svd(J_mujoco[0])[0]
-    print(f"  At q = 0 manipulability is {flat:.4f}. Day 2 asked what is lost there:")
-    lab.show("the wrench that no motor feels", np.abs(U[:, -1]), 3)
+    off = verify.off_volume(manipulability, J_mujoco)
+    lab.check("manipulability squared - det(J J^T)", off)
+    flat, u = manipulability(J_mujoco[0]), np.linalg.svd(J_mujoco[0])[0][:, -1]
+    lab.show(f"At q = 0 it is {flat:.4f}; no motor feels the wrench", np.abs(u), 3)
 
     lab.step("4. Inverse kinematics")
     off = solve_ik(*arm, T[1], READY_Q, limits) - READY_Q
