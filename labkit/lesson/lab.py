@@ -96,6 +96,19 @@ class Lab:
         for row in values + 0.0:  # + 0.0: no "-0.0"
             print("    " + " ".join(f"{x:{decimals + 4}.{decimals}f}" for x in row))
 
+    def predict(self, what: str, wanted: float, found: float, unit: str) -> None:
+        """Print a prediction of the lab's, what came out, and how far apart they are.
+
+        Args:
+            what: of what; "what, unit" may be a row of the worksheet.
+            wanted: as predicted.
+            found: as measured.
+            unit: of both.
+        """
+        print(f"  {what}: predicted {wanted:.3f}, measured {found:.3f} {unit}")
+        print(f"    difference {abs(wanted - found):.1e} {unit}")
+        self.measured(f"{what}, {unit}", found)
+
     def check(self, name: str, error: ArrayLike, limit: float | None = None) -> None:
         """Print whether an error is small enough, and remember if it is not.
 

@@ -255,10 +255,7 @@ def main() -> int:
     lab.check("2 m away, out of reach: error / the best", ends.out_of_reach, 1.01)
     lab.check("rad beyond the joint limits", ends.beyond)
     at = verify.tries(solve_ik, arm, limits, T[2 : FAR + 2], READY_Q, TRIES, SEED)
-    first, found = np.sum(at == 1), np.sum(at > 0)
-    print(
-        f"  {len(at)} targets: {first} reached from ready, {found} with other starts."
-    )
+    print(f"  Reached of {len(at)}: {sum(at == 1)} from ready, {sum(at > 0)} in all.")
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
                n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip
     lab.step(f"5. A circle of {RADIUS} m, out of reach at its top, with damping")
