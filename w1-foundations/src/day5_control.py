@@ -164,9 +164,9 @@ def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     return lambda *now: with_model(*now, kp, kd)
 
 
-def feedforward(*now):
+def feedforward(arm, q, qd, ref):
     """Give the model's torque for the reference's acceleration: no springs at all."""
-    return with_model(*now, 0.0, 0.0)
+    return with_model(arm, q, qd, (q, qd, ref[2]), 0.0, 0.0)
 
 
 def gains_outside(arm, q, qd, ref):
