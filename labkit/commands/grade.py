@@ -2,7 +2,7 @@
 
     python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python3 scripts/grade_class.py CLONES --day 1-7      a week; or --day all
+    python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
@@ -33,10 +33,12 @@ from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
 from labkit.grade.overview import Course
+from labkit.grade.package import version
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
-from labkit.lesson.day import Day, all_days, find_day
+from labkit.lesson.day import Day, all_days, days_of, find_day
+from labkit.lesson.week import find_week
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -47,7 +49,8 @@ def parse() -> argparse.Namespace:
     parser = cli.parser(__doc__)
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
-    add("--day", default="1", metavar="N|N-M|all", help="default: 1")
+    add("--day", metavar="N|N-M|all", help="default: 1")
+    add("--week", type=int, metavar="N", help="all days of this week")
     add(
         "--out",
         type=Path,
@@ -69,6 +72,12 @@ def parse() -> argparse.Namespace:
         default=os.cpu_count() or 1,
         metavar="N",
         help="submissions at a time; default: one per core",
+    )
+    add(
+        "--seed",
+        type=int,
+        metavar="N",
+        help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--again", action="store_true", help="grade those too that did not change")
@@ -108,12 +117,17 @@ def admit(options: argparse.Namespace) -> None:
         )
 
 
-def chosen(text: str) -> list[Day]:
-    """Return the days that "2", "1-7" or "all" means.
+def chosen(text: str | None, week: int | None = None) -> list[Day]:
+    """Return the days that "2", "1-7" or "all" means, or a week.
 
     Raises:
-        Robo47Error: it means none.
+        Robo47Error: it means none, or both are given.
     """
+    if week is not None:
+        if text:
+            raise Robo47Error("--day and --week: name one of the two")
+        return days_of(find_week(week))
+    text = text or "1"
     if text == "all":
         return all_days()
     span = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
@@ -157,7 +171,7 @@ class Tally:
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
-    days = chosen(options.day)
+    days = chosen(options.day, options.week)
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"
@@ -189,8 +203,15 @@ def grade_day(
         out.parent.mkdir(parents=True, exist_ok=True)
     given = options.deadline is not None
     since = options.deadline if given else int(time.time())
-    journal = Journal(out.parent / "grading.jsonl", [day], since, deadline=given)
+    journal = Journal(
+        out.parent / "grading.jsonl", [day], since, deadline=given, seed=options.seed
+    )
     with contextlib.closing(journal):
+        if not week.days:
+            options.seed = journal.seed  # one for all days
+            print(
+                f"kit: {version()}; fresh inputs for everybody: --seed {journal.seed}"
+            )
         room = Classroom(week.students, [day], journal, options.again, tally.notes)
         if options.pull and not week.days:
             room.pull()

@@ -89,7 +89,7 @@ class Classroom:
             for key in ((d, f) for d in self._days for f in self._students):
                 day, student = self._days[key[0]], self._students[key[1]]
                 try:
-                    package = collect(student, day)
+                    package = collect(student, day, self.journal.seed)
                 except (OSError, GitError, MemoryError) as error:
                     fault = FaultError(visible(error) or type(error).__name__)
                     note(key, Package(day.number, ""), fault)
@@ -135,7 +135,8 @@ class Classroom:
         alike += similar.similar_groups({f: r[0] for f, r in own.items() if r})
         everybody = [graded[day.number, folder] for folder in self._students]
         journal = self.journal
-        return Course(day, everybody, alike, journal.reference, journal.deadline)
+        facts = (journal.reference, journal.deadline, journal.seed)
+        return Course(day, everybody, alike, *facts)
 
 
 def write_all(course: Course, out: Path) -> None:

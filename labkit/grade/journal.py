@@ -8,6 +8,7 @@ the machine is no result and never written here.
 import contextlib
 import json
 import os
+import secrets
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -30,12 +31,19 @@ class Journal:
         reference: the time that "minutes since last commit" counts to, seconds since
             1970.
         deadline: whether that is the deadline, and not when the first run began.
+        seed: of the fresh inputs, the same for everybody; drawn at the first run.
         odd: lines that are no result.
         outdated: results that were not used, since another kit gave them.
     """
 
     def __init__(
-        self, path: Path, days: Sequence[Day], reference: int, *, deadline: bool
+        self,
+        path: Path,
+        days: Sequence[Day],
+        reference: int,
+        *,
+        deadline: bool,
+        seed: int | None = None,
     ) -> None:
         """Open it for ourselves alone and read what is there.
 
@@ -44,6 +52,7 @@ class Journal:
             days: what is graded; a journal of other days is refused.
             reference: see above.
             deadline: see above; any other reference gives way to one that is there.
+            seed: see above; None is the one that is there, or a new one.
 
         Raises:
             Robo47Error: the file cannot be written, is another day's, or somebody else
@@ -51,6 +60,7 @@ class Journal:
         """
         self.path, self.reference, self.deadline = path, reference, deadline
         self.odd = self.outdated = 0
+        self.seed = secrets.randbits(32)
         self._days = {day.number: day for day in days}
         self._results: dict[tuple[int, str], tuple[str, str, Result]] = {}
         try:
@@ -66,10 +76,14 @@ class Journal:
         except BaseException:
             self._file.close()
             raise
-        if not known or (deadline and reference != self.reference):
+        kept = (self.reference, self.deadline, self.seed)
+        if not known or deadline:
             self.reference, self.deadline = reference, deadline
-            head = {"reference": reference, "deadline": deadline}
-            self._append({"kind": KIND, "days": list(self._days), **head})
+        self.seed = self.seed if seed is None else seed
+        if not known or kept != (self.reference, self.deadline, self.seed):
+            since = {"reference": self.reference, "deadline": self.deadline}
+            head = {"kind": KIND, "days": list(self._days), "seed": self.seed}
+            self._append({**head, **since})
 
     def find(self, folder: str, package: Package) -> Result | None:
         """Return a student's result, unless what they hand in, or the kit, has changed.
@@ -151,6 +165,7 @@ class Journal:
             if type(reference) is not int or not 0 <= reference < _LATEST:
                 raise ValueError(reference)
             self.reference, self.deadline = reference, record["deadline"] is True
+            self.seed = int(record["seed"])
             return True
         day = self._days[record["day"]]
         facts = (record["folder"], record["package"], record["kit"])

@@ -68,6 +68,8 @@ def columns(day: Day) -> list[str]:
         "what_it_says",
         "minutes_since_commit_own_clock",
         "commit_hash",
+        "kit",
+        "seed",
         "refused",
         "error",
     ]
@@ -103,6 +105,8 @@ def _cells(graded: Graded) -> list[str | int]:
         plain(mistake.message if mistake else ""),
         "" if graded.minutes is None else graded.minutes,
         graded.commit[:10],
+        graded.result.kit,
+        graded.result.seed if graded.result.kit else "",
         plain("; ".join(result.refused)),
         plain(graded.error),
     ]

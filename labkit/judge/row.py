@@ -25,8 +25,6 @@ from functools import cache, cached_property
 from types import MappingProxyType, ModuleType
 from typing import Any
 
-import numpy as np
-
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.mistake import InTurn, Mistake
@@ -101,9 +99,9 @@ class Row:
 
     # What a day's file says.
 
-    def inputs(self, draw: Callable[[np.random.Generator], Iterable[Any]]) -> Any:
+    def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
-        self._draw = lambda rng: list(draw(rng))
+        self._draw = draw
         return draw
 
     def wrong(

@@ -11,14 +11,13 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, kinematics, panda
+from robo47 import jacobian, kinematics, panda, verify
 from robo47.arm import Arm
 from robo47.checks import Array
 
-CENTRE = np.array([0.28, -0.06, 0.55])
-START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # rad/s, of the seven joints
-LAP, DT, GAIN = 6.0, 0.02, 10.0  # seconds, seconds, 1/s: as in the lab
+DT, GAIN = 0.02, 10.0  # seconds, 1/s: as in the lab
+TIMES = np.arange(0.0, verify.LAP, DT)
 DAMPING, RADIUS = 0.05, 0.38
 DRAW, AGAIN = "draw", "from the start"
 NAMES = ("damped", "plain")
@@ -57,13 +56,6 @@ class Pen:
         self.path.append(self.arm.at(self.q).T_world_ee[:3, 3])
 
 
-def on_the_circle(radius: float, time: float) -> Array:
-    """Return where the hand should be, (4, 4): upright circle, the tool down."""
-    phi, T = 2 * np.pi * time / LAP, np.diag([-1.0, 1.0, -1.0, 1.0])
-    T[:3, 3] = CENTRE + radius * np.array([0.0, np.cos(phi), np.sin(phi)])
-    return T
-
-
 class Circle(Tab):
     """A circle that leaves the reach, with damping and without."""
 
@@ -94,17 +86,16 @@ class Circle(Tab):
         """Choose the radius, in metres; both arms go to the circle's start."""
         self.loop.stop()
         self.radius, self.steps = radius, 0
-        T = on_the_circle(radius, 0.0)
-        S, M = self.arm.screws, self.arm.M_home
-        q = jacobian.solve_ik(S, M, T, START_Q, self.limits)
+        arm = (self.arm.screws, self.arm.M_home)
+        self.circle, q = verify.circle(arm, self.limits, radius, TIMES)
         self.pens = [Pen(self.arm, q, damping) for damping in (DAMPING, 0.0)]
-        times = np.linspace(0.0, LAP, 121)
-        self.goal.points = _segments([on_the_circle(radius, t)[:3, 3] for t in times])
+        points = self.circle[:, :3, 3]
+        self.goal.points = _segments([*points, points[0]])
         self.show()
 
     def press(self, name: str) -> None:
         """Start or stop drawing, or go back to the start."""
-        if name == AGAIN or self.steps >= round(LAP / DT) - 1:
+        if name == AGAIN or self.steps >= len(TIMES) - 1:
             self.turn(self.radius)
         if name == DRAW:
             (self.loop.stop if self.loop.running else self.loop.start)()
@@ -113,15 +104,12 @@ class Circle(Tab):
         """Go on by DT; after a lap there is no more."""
         self.draw()
         self.show()
-        return self.steps < round(LAP / DT) - 1
+        return self.steps < len(TIMES) - 1
 
     def draw(self) -> None:
         """Move both arms by DT."""
-        now = self.steps * DT
-        T_now = on_the_circle(self.radius, now)
-        T_next = on_the_circle(self.radius, now + DT)
         for pen in self.pens:
-            pen.step(T_now, T_next)
+            pen.step(*self.circle[self.steps : self.steps + 2])
         self.steps += 1
 
     def show(self) -> None:

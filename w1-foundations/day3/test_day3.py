@@ -27,6 +27,7 @@ DAY = find_day(3)
 WHOSE = (ROOT / "w1-foundations/docs/which-jacobian-is-whose.md").read_text("utf-8")
 WHOSE = " ".join(WHOSE.split())
 ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
+ARMS = ARM[:2], ARM[2]
 LOOP = folder.load(DAY, "loop")
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
@@ -40,11 +41,11 @@ def arm(either_panda):
 def own_jacobians(arm, q):
     """Return the lab's three Jacobians at q, (n, 7)."""
     T = screws.fk_space(*arm, q)
-    J_space = lab.each(lambda x: lab.space_jacobian(arm[0], x), q)
+    J_space = verify.each(lambda x: lab.space_jacobian(arm[0], x), q)
     return {
         "J_space": J_space,
-        "J_site": lab.each(lab.site_jacobian, J_space, T[:, :3, 3]),
-        "J_body": lab.each(lab.body_jacobian, J_space, T),
+        "J_site": verify.each(lab.site_jacobian, J_space, T[:, :3, 3]),
+        "J_body": verify.each(lab.body_jacobian, J_space, T),
     }
 
 
@@ -271,25 +272,31 @@ def test_joint4_after_a_quarter_turn_of_joint1(arm):
 # --- the circle: what of it is geometry, and what the damping costs ---
 
 
+def circle(radius, first=0.0):
+    """Return the circle's poses, DT apart, and q at the first."""
+    times = first + np.arange(0.0, verify.LAP, lab.DT)
+    return verify.circle(*ARMS, radius, times)
+
+
 def drawn(radius, damping, off=0.0):
     """Return misses in mm, shares of the speed limits, and angles."""
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits) + off
-    miss, speeds, path = lab.draw_circle((S, M), q, radius, damping)
+    path, q = circle(radius)
+    miss, speeds, path = lab.draw_circle(ARM[:2], path, q + off, damping)
     return miss, (speeds / lab.SPEED).max(axis=1), path
 
 
 def out_of_reach(radius, limits=ARM[2]):
     """Return the best misses along the circle in mm, (n,); over 1e-3: out of reach."""
-    S, M, _ = ARM
-    return lab.best_miss((S, M), lab.first_q((S, M), radius, ARM[2]), radius, limits)
+    path, q = circle(radius)
+    return verify.least_miss(ARM[:2], limits, path[:-1], q)
 
 
 def test_by_hand_the_larger_circle_is_12_mm_too_far():
     reach = np.hypot(0.316, 0.0825) + np.hypot(0.384, 0.0825)
     assert f"= {reach:.4f}" in GUIDE
-    side = np.hypot(*lab.CENTRE[:2]) - 0.088
-    far = [np.hypot(side, lab.CENTRE[2] + r + 0.107 - 0.333)
+    x, y, z = verify.CENTRE
+    side = np.hypot(x, y) - 0.088
+    far = [np.hypot(side, z + r + 0.107 - 0.333)
            for r in (lab.EASY, lab.RADIUS)]  # fmt: skip
     assert far[0] < reach
     says = f"{far[0]:.4f} m for 0.36, and {far[1]:.4f} m for 0.38: "
@@ -311,13 +318,8 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
 @pytest.mark.kit
 def test_a_tool_that_may_tilt_comes_closer():
     S, M, limits = ARM
-    goals = np.array(
-        [lab.on_the_circle(lab.RADIUS, t) for t in np.arange(1.3, 1.9, 0.02)]
-    )
-    start, tenth = (
-        lab.first_q((S, M), lab.RADIUS, limits),
-        np.array([1.0] * 3 + [10] * 3),
-    )
+    goals, _ = verify.circle(*ARMS, lab.RADIUS, np.arange(1.3, 1.9, 0.02))
+    start, tenth = circle(lab.RADIUS)[1], np.array([1.0] * 3 + [10] * 3)
     M10, far = M.copy(), goals.copy()  # lengths ten times as large: a radian is 0.1 m
     M10[:3, 3], far[:, :3, 3] = 10 * M[:3, 3], 10 * goals[:, :3, 3]
     q = jacobian.solve_ik(S * tenth, M10, far, start, limits)
@@ -338,7 +340,7 @@ def test_where_the_arm_can_go_the_plain_pseudo_inverse_is_the_better_one(radius)
 
 
 @pytest.mark.kit
-def test_what_the_damping_costs_shows_at_the_bottom(monkeypatch):
+def test_what_the_damping_costs_shows_at_the_bottom():
     best = out_of_reach(lab.RADIUS)
     off, _, path = drawn(lab.RADIUS, lab.DAMPING)
     worst = (off - best).argmax()
@@ -349,9 +351,8 @@ def test_what_the_damping_costs_shows_at_the_bottom(monkeypatch):
     least = np.linalg.svd(J)[1][:, -1].min()
     assert f"a least singular value of {least:.3f}" in GUIDE
     # The plain one, from where the damped one is after 3 s: the same circle, shifted.
-    circle = lab.on_the_circle
-    monkeypatch.setattr(lab, "on_the_circle", lambda r, t: circle(r, t + 3.0))
-    plain, speeds, _ = lab.draw_circle(ARM[:2], path[150], lab.RADIUS, 0.0)
+    later, _ = circle(lab.RADIUS, first=3.0)
+    plain, speeds, _ = lab.draw_circle(ARM[:2], later, path[150], 0.0)
     plain, speeds = plain[:145], speeds[:145]
     assert f"within {plain[10:].max():.2f} mm, at" in GUIDE
     assert f"at {(speeds / lab.SPEED).max():.2f} of the speed limits" in GUIDE
@@ -373,7 +374,7 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
 ):
     off, rate, path = drawn(lab.RADIUS, 0.0)
     assert rate.max() > 5
-    assert lab.beyond(ARM[2], path) > 1.0
+    assert verify.beyond(ARM[2], path) > 1.0
     assert f"double the {off.max() / 1000:.2f} m" in GUIDE
     assert abs(drawn(lab.RADIUS, 0.0, 1e-12)[0].max() - off.max()) < 1e-3
     monkeypatch.setattr(lab, "DT", 0.019)
@@ -382,20 +383,16 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits)
-    off, speeds, path = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+    off, share, path = drawn(radius, lab.DAMPING)
     assert off.max() < 20.0
-    assert (speeds / lab.SPEED).max() < 1.0
-    assert lab.beyond(limits, path) < 0.01
+    assert share.max() < 1.0
+    assert verify.beyond(ARM[2], path) < 0.01
 
 
 def test_the_easy_circle_needs_no_damping():
-    S, M, limits = ARM
-    q = lab.first_q((S, M), lab.EASY, limits)
-    off, speeds, _ = lab.draw_circle((S, M), q, lab.EASY, 0.0)
+    off, share, _ = drawn(lab.EASY, 0.0)
     assert off.max() < 1.0
-    assert (speeds / lab.SPEED).max() < 0.6
+    assert share.max() < 0.6
 
 
 def test_the_elbow_swings_while_the_hand_stands(arm):
@@ -407,7 +404,7 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
         J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])
         step = lab.null_step(J, 0.005 * np.eye(7)[2])
         q = q + step + lab.dls_step(J, lab.pose_error(now, T), 0.01)
-        if lab.beyond(limits, q):
+        if verify.beyond(limits, q):
             break
     moved = np.linalg.norm(lab.pose_error(screws.fk_space(S, M, q), T))
     elbow = verify.mujoco_poses(
@@ -455,7 +452,7 @@ def test_a_dragged_target_is_reached_and_a_moved_elbow_leaves_the_hand(tab):
     q = tab.page.move.call_args.args[0]
     assert np.linalg.norm(jacobian.pose_error(screws.fk_space(S, M, q), T)) < 1e-4
     assert np.abs(q - panda.READY_Q).max() > 0.05
-    assert lab.beyond(limits, q) == 0.0
+    assert verify.beyond(limits, q) == 0.0
 
 
 def test_the_tab_compares_the_students_jacobian_by_value(tab):
@@ -470,22 +467,21 @@ def test_the_tab_compares_the_students_jacobian_by_value(tab):
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_the_circles_tab_draws_what_the_lab_draws(tab, radius):
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits)
-    circle = folder.load(DAY, "circle").Circle(tab.page)
-    circle.turn(radius)
-    assert_same(circle.pens[0].q, q, 1e-12)
-    for _ in range(len(np.arange(lab.DT, lab.LAP, lab.DT))):
-        circle.draw()
-    circle.show()
-    damped, plain = circle.pens
-    off, speeds, _ = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+    shown = folder.load(DAY, "circle").Circle(tab.page)
+    shown.turn(radius)
+    path, q = circle(radius)
+    assert_same(shown.pens[0].q, q, 1e-12)
+    for _ in path[1:]:
+        shown.draw()
+    shown.show()
+    damped, plain = shown.pens
+    off, share, _ = drawn(radius, lab.DAMPING)
     assert_same(damped.off[1:], off, 1e-6)
-    assert_same(damped.rate[1:], (speeds / lab.SPEED).max(axis=1), 1e-6)
+    assert_same(damped.rate[1:], share, 1e-6)
     assert max(damped.rate) < 1.0
-    assert f"radius {radius:g} m" in circle.numbers.content
+    assert f"radius {radius:g} m" in shown.numbers.content
     if radius == lab.EASY:  # beyond it rounding grows a thousandfold and more
-        off, speeds, _ = lab.draw_circle((S, M), q, radius, 0.0)
+        off, _, _ = drawn(radius, 0.0)
         assert_same(plain.off[1:], off, 1e-6)
         assert max(plain.rate) < 1.0
-    assert circle.steps == len(off)
+    assert shown.steps == len(off)
