@@ -154,10 +154,10 @@ def compare(
     force, k, height = rng.uniform([-10, 290, -10], [10, 310, 10], (n, 3)).T
     columns = {
         "null_torque": (J, M, Lambda, torque),
-        "spring_wrench": (e, V_err, K, D),
+        "spring_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D),
         "critical_damping": (rng.uniform(30, 400, (n, 6)), Lambda),
         "set_point_for_force": (force, k, height),
-        "hybrid_wrench": (e, V_err, K, D, force),
+        "hybrid_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D, force),
     }
     for name, function in own.items():
         truth = getattr(task_space, name)(*columns[name])

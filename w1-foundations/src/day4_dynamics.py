@@ -125,9 +125,9 @@ def bias_torque(
 
     At qd = 0 it is gravity_torque.
     """
-    # region 4.7
+    # region 4.6
     return inverse_dynamics(J, G, qd, np.zeros(len(qd)), g)
-    # endregion 4.7
+    # endregion 4.6
 
 
 def forward_dynamics(

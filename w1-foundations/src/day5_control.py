@@ -79,9 +79,9 @@ def gravity_pd(
     e: np.ndarray, ed: np.ndarray, kp: Gain, kd: Gain, g_at_q: np.ndarray
 ) -> np.ndarray:
     """Return the torque of springs that do not sag, (7,). Without error it is g."""
-    # region 5.5
+    # region 5.4
     return pd_torque(e, ed, kp, kd) + g_at_q
-    # endregion 5.5
+    # endregion 5.4
 
 
 def computed_torque(
@@ -114,9 +114,9 @@ def pid_step(
 
 def saturate(tau: np.ndarray, limits: np.ndarray) -> np.ndarray:
     """Return what the motors can give, (7,). 100 N m where the limit is 87: 87."""
-    # region 5.8
+    # region 5.7
     return np.clip(tau, -limits, limits)
-    # endregion 5.8
+    # endregion 5.7
 
 
 def stiffest_omega(h: float) -> float:
@@ -164,9 +164,9 @@ def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     return lambda *now: with_model(*now, kp, kd)
 
 
-def feedforward(*now):
+def feedforward(arm, q, qd, ref):
     """Give the model's torque for the reference's acceleration: no springs at all."""
-    return with_model(*now, 0.0, 0.0)
+    return with_model(arm, q, qd, (q, qd, ref[2]), 0.0, 0.0)
 
 
 def gains_outside(arm, q, qd, ref):

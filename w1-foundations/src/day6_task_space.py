@@ -95,6 +95,16 @@ def spring_wrench(
     # endregion 6.5
 
 
+def set_point_for_force(force: float, k: float, surface: float) -> float:
+    """Return the height to command so that a hand of k N/m presses down with a force.
+
+    For 20 N at 400 N/m on a surface at 0.42 m it is 0.37 m.
+    """
+    # region 6.5
+    return surface - force / k
+    # endregion 6.5
+
+
 def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     """Return D, (6, 6), with which a spring K, (6,), does not ring.
 
@@ -120,16 +130,6 @@ def impedance_torque(
     # region 6.7
     return J.T @ wrench + bias + damping * qd + tau_null
     # endregion 6.7
-
-
-def set_point_for_force(force: float, k: float, surface: float) -> float:
-    """Return the height to command so that a hand of k N/m presses down with a force.
-
-    For 20 N at 400 N/m on a surface at 0.42 m it is 0.37 m.
-    """
-    # region 6.8
-    return surface - force / k
-    # endregion 6.8
 
 
 def hybrid_wrench(
