@@ -235,10 +235,10 @@ def ask(student):
     from labkit.base.exchange import Exchange, Question, replies
     from labkit.sandbox.sandbox import Sandbox
 
-    def run(code, *questions, library=None, needs=None):
+    def run(code, *questions, library=None, needs=None, limits=None):
         asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
-            sandbox.run(student(code), asked, library, needs)
+            sandbox.run(student(code), asked, library, needs, limits=limits)
         return replies(asked)
 
     return run

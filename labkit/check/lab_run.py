@@ -88,7 +88,7 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
     if not day.source.is_file():
         return ""
     lab = folder.load_lab(day.source)
-    session = sandbox.session(script, ROBOTS, library_of(day))
+    session = sandbox.session(script, ROBOTS, library_of(day), limits=day.limits)
     budget = _Budget()
     for task in day.tasks:
         for name in task.functions:
