@@ -83,6 +83,20 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     return panda.load("panda_nohand")
 
 
+def kit_folders() -> list[str]:
+    """Return the names of the folders that a clone needs to run."""
+    from labkit.lesson.week import weeks
+
+    return ["robo47", "labkit", "scripts", "metrics", *(w.folder.name for w in weeks())]
+
+
+def write_week(folder: Path, *days: int) -> None:
+    """Write the manifest of a week with these days, as the folder's name has it."""
+    number, _, name = folder.name[1:].partition("-")
+    text = f'number = {number}\nname = "{name}"\ntitle = "t"\ndays = {[*days]}\n'
+    (folder / "week.toml").write_text(text, "utf-8")
+
+
 def environment_of(clone: Path) -> dict[str, str]:
     """Return this environment, with a clone's own `robo47` and this clone's robot."""
     robots = os.environ.get("MENAGERIE_ROOT") or str(ROOT / "mujoco_menagerie")
@@ -124,8 +138,8 @@ def clone(tmp_path):
     """
     copy = tmp_path / "clone"
     copy.mkdir()
-    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
-        skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
+    skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
+    for name in kit_folders():
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     from labkit import log
     from labkit.lesson.day import find_day
@@ -140,10 +154,14 @@ def clone(tmp_path):
 @pytest.fixture
 def one_day(clone):
     """Return that copy with its first day alone: the labs of a week take seconds."""
-    from labkit.lesson.day import all_days
+    from labkit.lesson.week import weeks
 
-    for day in all_days(clone)[1:]:
-        shutil.rmtree(day.own)
+    first, *others = weeks(clone)
+    for week in others:
+        shutil.rmtree(week.folder)
+    for number in first.days[1:]:
+        shutil.rmtree(first.folder / f"day{number}")
+    write_week(first.folder, first.days[0])
     return clone
 
 

@@ -2,7 +2,7 @@
 
     python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python3 scripts/grade_class.py CLONES --day 1-7      a week; or --day all
+    python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
@@ -36,7 +36,8 @@ from labkit.grade.overview import Course
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
-from labkit.lesson.day import Day, all_days, find_day
+from labkit.lesson.day import Day, all_days, days_of, find_day
+from labkit.lesson.week import find_week
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -47,7 +48,8 @@ def parse() -> argparse.Namespace:
     parser = cli.parser(__doc__)
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
-    add("--day", default="1", metavar="N|N-M|all", help="default: 1")
+    add("--day", metavar="N|N-M|all", help="default: 1")
+    add("--week", type=int, metavar="N", help="all days of this week")
     add(
         "--out",
         type=Path,
@@ -108,12 +110,17 @@ def admit(options: argparse.Namespace) -> None:
         )
 
 
-def chosen(text: str) -> list[Day]:
-    """Return the days that "2", "1-7" or "all" means.
+def chosen(text: str | None, week: int | None = None) -> list[Day]:
+    """Return the days that "2", "1-7" or "all" means, or a week.
 
     Raises:
-        Robo47Error: it means none.
+        Robo47Error: it means none, or both are given.
     """
+    if week is not None:
+        if text:
+            raise Robo47Error("--day and --week: name one of the two")
+        return days_of(find_week(week))
+    text = text or "1"
     if text == "all":
         return all_days()
     span = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
@@ -157,7 +164,7 @@ class Tally:
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
-    days = chosen(options.day)
+    days = chosen(options.day, options.week)
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"

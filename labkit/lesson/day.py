@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.lesson.table import entry, fill
+from labkit.lesson.week import Week, find_week, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -122,6 +123,11 @@ class Day:
         return self.folder / f"day{self.number}"
 
     @property
+    def week(self) -> Week:
+        """The week that it belongs to."""
+        return load_week(self.folder)
+
+    @property
     def files(self) -> dict[str, str]:
         """What it hands in: paths from the clone's top, by what they are."""
         week = self.folder.name
@@ -185,7 +191,7 @@ def day_numbers(root: Path = ROOT) -> list[int]:
     """Return the numbers of all days that have a manifest, in order.
 
     Args:
-        root: the clone; its manifests are `w*/dayN/day.toml`.
+        root: the clone; its weeks name their days.
     """
     return sorted(_manifests(root))
 
@@ -197,6 +203,15 @@ def all_days(root: Path = ROOT) -> list[Day]:
         Robo47Error: a manifest is not right.
     """
     return [load_day(path) for _, path in sorted(_manifests(root).items())]
+
+
+def days_of(week: Week) -> list[Day]:
+    """Return the days of a week, in order.
+
+    Raises:
+        Robo47Error: a manifest is not right.
+    """
+    return [load_day(path) for path in week.manifests.values()]
 
 
 def find_day(number: int, root: Path = ROOT) -> Day:
@@ -218,9 +233,13 @@ def find_day(number: int, root: Path = ROOT) -> Day:
 
 def started_day(root: Path = ROOT) -> int:
     """Return the latest day that the student has a script of, else the first."""
-    numbers = day_numbers(root)
-    started = [n for n in numbers if any(root.glob(f"w*/work/day{n}_*.py"))]
-    return max(started, default=min(numbers, default=1))
+    manifests = _manifests(root)
+    started = [
+        number
+        for number, manifest in manifests.items()
+        if any((manifest.parent.parent / "work").glob(f"day{number}_*.py"))
+    ]
+    return max(started, default=min(manifests, default=1))
 
 
 def chosen_day(number: int | None, task_id: str | None = None) -> Day:
@@ -243,6 +262,21 @@ def chosen_day(number: int | None, task_id: str | None = None) -> Day:
             "name one of the two"
         )
     return of_task
+
+
+def chosen_week(number: int | None, day: int | None = None) -> Week:
+    """Return the week that a command line means.
+
+    Args:
+        number: of the week; None where none was typed: that of the day.
+        day: its number; None where none was typed: the day begun last.
+
+    Raises:
+        Robo47Error: no such week or day.
+    """
+    if number is not None:
+        return find_week(number)
+    return find_day(started_day() if day is None else day).week
 
 
 def day_of(script: Path) -> Day:
@@ -326,11 +360,9 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
 
 def _manifests(root: Path) -> dict[int, Path]:
     found: dict[int, Path] = {}
-    for path in sorted(root.glob("w*/day*/day.toml")):
-        if number := re.fullmatch(r"day(\d+)", path.parent.name):
-            other = found.setdefault(int(number[1]), path)
+    for week in weeks(root):
+        for number, path in week.manifests.items():
+            other = found.setdefault(number, path)
             if other != path:
-                raise Robo47Error(
-                    f"two days {number[1]}: {shown(other)}, {shown(path)}"
-                )
+                raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
     return found
