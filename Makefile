@@ -60,7 +60,7 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
 
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
-	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
+	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
 
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)

@@ -19,7 +19,7 @@ from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
 from robo47.checks import Array
 
-Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16

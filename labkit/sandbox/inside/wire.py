@@ -103,3 +103,20 @@ def unpack_value(packed: Any) -> Any:
     if isinstance(parts, list) and len(parts) <= PARTS:
         return tuple(map(unpack_array, parts))
     raise ValueError("not a packed value")
+
+
+def unpack_values(some: list[Any]) -> list[Any]:
+    """Return each value, or the ValueError that says why it is none.
+
+    Returns:
+        One per value, up to the first that only a forger writes.
+    """
+    found: list[Any] = []
+    for packed in some:
+        try:
+            found.append(unpack_value(packed))
+        except ValueError as error:
+            found.append(error)
+        except Exception:
+            break
+    return found
