@@ -116,7 +116,8 @@ def arm_regressor(
     X = adjoint(se3.inverse(checks.array(T_links, "T_links", (n, 4, 4))))
     wrenches = link_regressor(_times(X, V), _times(X, A))  # (..., n, 6, 10)
     seen = np.swapaxes(X @ J[..., None, :, :], -1, -2)  # the joints from each link
-    felt = np.tri(n).T[..., None] * np.swapaxes(seen @ wrenches, -3, -2)  # link >= joint
+    felt = np.swapaxes(seen @ wrenches, -3, -2)  # (..., joint, link, 10)
+    felt = np.tri(n).T[..., None] * felt  # a joint carries its own link and those after
     return felt.reshape(*felt.shape[:-2], PER_LINK * n)
 
 
@@ -184,7 +185,7 @@ def predict_with_sigma(
         (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
         noise of a new measurement. What a motion never showed has no sigma.
     """
-    Y, (U, s, Vt) = _stacked(Y), _kept(Y, rtol)
+    Y, (_, s, Vt) = _stacked(Y), _kept(Y, rtol)
     Y_new = checks.array(Y_new, "Y_new", (Y.shape[1],))
     if len(Y) <= len(s):
         raise ValueError(f"{len(Y)} rows leave no residual at rank {len(s)}")
@@ -217,7 +218,8 @@ def payload_from_holds(
     W = np.zeros((*R.shape[:-2], 6, 4))
     W[..., 3:, 0], W[..., :3, 1:] = g, -skew(g) @ R
     rows = -np.swapaxes(J, -1, -2) @ W
-    return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=1e-9)[0]
+    found, *_ = np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=1e-9)
+    return np.asarray(found, dtype=np.float64)
 
 
 def least_pseudo(phi: ArrayLike) -> Array:

@@ -5,15 +5,17 @@ with it is the subject of `robo47.identification`. Radians, seconds, kilograms, 
 """
 
 import copy
+from collections.abc import Callable
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, simulate, verify
+from robo47 import checks, identification, simulate, verify
 from robo47.arm import Arm
 from robo47.checks import Array
+from robo47.fast.arm_state import ArmState
 from robo47.panda import ARM_JOINTS, READY_Q
 from robo47.panda.loading import Edit
 
@@ -24,6 +26,7 @@ RANGE_SHARE, SPEED_SHARE = 0.8, 0.9  # of what the joints may do
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of Day 5's swing
 RADIUS = 0.04  # m, of the ball that is hung on the hand
 OMEGA, RATE = 20.0, 100.0  # rad/s of the springs that hold the arm; Hz
+SLOW_RATE = 10.0  # Hz: gravity is in no hurry
 AWAY, REST = 0.1, 2.0  # rad that a hold begins beside its pose; s
 
 
@@ -126,6 +129,25 @@ def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
     return Motion(q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
 
 
+def numbers(known: Arm) -> Array:
+    """Return the 91 numbers that an arm's model holds: links, rotors, friction.
+
+    Returns:
+        phi of the links one after the other, armature, damping, dry friction 0, (91,).
+    """
+    links = identification.parameters(known.masses, known.coms, known.inertias)
+    return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
+
+
+def torques(model: mujoco.MjModel, motion: Motion) -> Array:
+    """Return the torques, N m, (n, 7), that MuJoCo finds for a motion.
+
+    Its dry friction has the sign of qd + qdd / b with b about 105 1/s, a property of
+    its constraint solver: below 0.1 rad/s it need not be that of qd.
+    """
+    return verify.mujoco_inverse_dynamics(model, *motion)
+
+
 def hold(
     model: mujoco.MjModel, known: Arm, q: ArrayLike, side: float, seconds: float = REST
 ) -> tuple[Array, Array]:
@@ -157,3 +179,54 @@ def hold(
     data = simulate.start(model, q + side * AWAY * lifts)
     run = simulate.run(model, data, law, seconds, rate=RATE)
     return run.q[-2], run.tau[-1] - known.at(run.q[-2]).gravity_torque
+
+
+def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, Array]:
+    """Return `hold` of k poses from either side: q and torques, (2, k, 7) each."""
+    poses = checks.array(poses, "poses", (7,))
+    found = [[hold(model, known, q, side) for q in poses] for side in (1.0, -1.0)]
+    at, torque = np.moveaxis(np.array(found), 2, 0)
+    return at, torque
+
+
+def hands(known: Arm, q: ArrayLike) -> tuple[Array, Array]:
+    """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations."""
+    now = [known.at(x) for x in checks.array(q, "q", (7,))]
+    return (
+        np.array([x.J_site for x in now]),
+        np.array([x.T_world_ee[:3, :3] for x in now]),
+    )
+
+
+def rises(
+    model: mujoco.MjModel,
+    known: Arm,
+    still: Callable[[ArmState], Array],
+    load: ArrayLike,
+    seconds: float = REST,
+) -> float:
+    """Return how far the hand rises, m, on torques that should just hold the arm.
+
+    The robot's dry friction is taken off, so that nothing else holds it.
+
+    Args:
+        model: the robot, with motors.
+        known: where its hand and links are.
+        still: from the arm at a configuration to the torque that holds it empty, (7,).
+        load: (m, m c) that its hand is said to carry, in the site's axes, (4,).
+        seconds: how long it floats.
+    """
+    m, *h = checks.array(load, "load", (4,))
+    free = copy.copy(model)
+    free.dof_frictionloss[:] = 0.0
+
+    def law(t: float, q: Array, qd: Array) -> Array:
+        now = known.at(q)
+        weight = m * known.gravity, np.cross(now.T_world_ee[:3, :3] @ h, known.gravity)
+        return still(now) - now.J_site.T @ np.concatenate(weight[::-1])
+
+    run = simulate.run(
+        settled(free), simulate.start(free, READY_Q), law, seconds, rate=SLOW_RATE
+    )
+    heights = [known.at(q).T_world_ee[2, 3] for q in run.q[[0, -1]]]
+    return float(heights[1] - heights[0])

@@ -1,6 +1,6 @@
 """Day 8: what the model does not know. A robot is weighed by its own motors.
 
-    make day8                            in the clone: sets everything up, then runs this
+    make day8                            in the clone: sets all up, then runs this
     python src/day8_identification.py    in w2-autonomy/, once that is done
 
 phi of a body is (m, m c, Ixx, Iyy, Izz, Ixy, Ixz, Iyz), the inertia about its own
@@ -10,7 +10,7 @@ origin. Twists (omega; v), wrenches (moment; force). Metres, radians, kilograms,
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import cli, dynamics, panda, secret, simulate, verify
+from robo47 import cli, panda, secret
 from robo47 import identification as library
 from robo47.lesson.lab import Lab
 from robo47.screws import ad, adjoint, skew
@@ -23,14 +23,14 @@ SLOW = 0.1  # rad/s: below it a joint's dry friction is not yet that of its sign
 RTOL = 1e-9  # of the largest singular value: smaller ones count as nothing
 LOAD, AT = 0.5, np.array([0.02, -0.03, 0.06])  # kg and m: what the arm is to find
 POSES = 5  # that the arm is held in; one shows m, and not all of c
-RATE, FLOAT = 10.0, 2.0  # Hz and s, of the arm that floats
+
+rms = lambda x: np.sqrt(np.mean(np.square(x)))  # noqa: E731
 
 
 def inertia_of(phi: np.ndarray) -> np.ndarray:
     """Return the 6x6 inertia of a body, (6, 6), from its ten numbers phi, (10,).
 
-    For (2, 0, 0, 2, 2, 2, 0, 0, 0, 0), 2 kg at (0, 0, 1), the diagonal is
-    (2, 2, 0, 2, 2, 2), as in Day 4.
+    (2, 0, 0, 2, 2, 2, 0, 0, 0, 0) is Day 4's 2 kg at (0, 0, 1), (2, 2, 0, 2, 2, 2).
     """
     # region 8.1
     m, x, y, z, xx, yy, zz, xy, xz, yz = phi  # x, y, z: m c
@@ -48,8 +48,8 @@ def inertia_of(phi: np.ndarray) -> np.ndarray:
 def link_regressor(V: np.ndarray, A: np.ndarray) -> np.ndarray:
     """Return what each of the ten numbers costs in wrench, (6, 10).
 
-    V and A, (6,), are the body's twist and acceleration, in its own axes. At rest, with
-    A = (0, 0, 0, 0, 0, 9.81), the column of m is A, that of m cx (0, -9.81, 0, 0, 0, 0).
+    V and A, (6,), are the body's twist and acceleration, in its axes. At rest with A =
+    (0, 0, 0, 0, 0, 9.81) the column of m is A, that of m cx (0, -9.81, 0, 0, 0, 0).
     """
     # region 8.2
     G = np.array([inertia_of(unit) for unit in np.eye(10)])
@@ -58,12 +58,9 @@ def link_regressor(V: np.ndarray, A: np.ndarray) -> np.ndarray:
 
 
 def arm_regressor(
-    J_space: np.ndarray,
-    T_links: np.ndarray,
-    qd: np.ndarray,
-    qdd: np.ndarray,
+    J_space: np.ndarray, T_links: np.ndarray, qd: np.ndarray, qdd: np.ndarray,
     g: np.ndarray,
-) -> np.ndarray:
+) -> np.ndarray:  # fmt: skip
     """Return Y, (7, 70), with which the torque of all links is Y phi.
 
     J_space is (6, 7), T_links (7, 4, 4). One hinge about +y with qdd 1, each T the
@@ -93,9 +90,9 @@ def motor_features(qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
 
 
 def identifiable(Y: np.ndarray, rtol: float) -> tuple[int, float]:
-    """Return how many combinations Y, (n, p), shows, and how unevenly: rank, condition.
+    """Return (rank, condition): how much Y, (n, p), shows, and how unevenly.
 
-    A singular value counts above rtol times the largest. For [[1, 1], [2, 2]]: (1, 1.0).
+    A singular value counts above rtol times the largest. Of [[1, 1], [2, 2]]: (1, 1.0).
     """
     # region 8.5
     s = np.linalg.svd(Y, compute_uv=False)
@@ -126,10 +123,8 @@ def predict_with_sigma(
     """
     # region 8.7
     _, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    kept = s > rtol * s[0]
-    phi = fit(Y, tau, rtol)
-    residual = tau - Y @ phi
-    noise = np.sqrt(residual @ residual / (len(tau) - kept.sum()))
+    kept, phi = s > rtol * s[0], fit(Y, tau, rtol)
+    noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())
     return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1)
     # endregion 8.7
 
@@ -139,25 +134,21 @@ def payload_from_holds(
 ) -> np.ndarray:
     """Return m and m c, (4,), of what hangs on the hand; c is in the hand's axes.
 
-    In k poses J_site is (k, 6, 7), R_site (k, 3, 3), and holding still takes the
-    torques extra, (k, 7), more than without. A slide along z that takes 9.81 N more in
-    every pose: (1, 0, 0, 0), the smallest.
+    J_site is (k, 6, 7), R_site (k, 3, 3); extra (k, 7) is how much more torque the k
+    poses take with it. A slide along z that takes 9.81 N more each time: (1, 0, 0, 0).
     """
     # region 8.8
-    rows = []
-    for J, R in zip(J_site, R_site, strict=True):
-        weight = np.zeros((6, 4))  # (moment; force) of m and of m c
-        weight[3:, 0], weight[:3, 1:] = g, -skew(g) @ R
-        rows.append(-J.T @ weight)
-    return np.linalg.lstsq(np.vstack(rows), extra.ravel(), rcond=None)[0]
+    weight = np.zeros((len(R_site), 6, 4))  # (moment; force) of m and of m c
+    weight[:, 3:, 0], weight[:, :3, 1:] = g, -skew(g) @ R_site
+    rows = -np.swapaxes(J_site, 1, 2) @ weight
+    return np.linalg.lstsq(rows.reshape(-1, 4), extra.ravel(), rcond=None)[0]
     # endregion 8.8
 
 
 def least_pseudo(phi: np.ndarray) -> float:
     """Return the least eigenvalue of [[tr(I)/2 1 - I, h], [h^T, m]], with h = m c.
 
-    No body has it below 0. Of a point mass it is 0; (1, 0, 0, 0, 1, 1, 3, 0, 0, 0) has
-    -0.5: its I is that of nothing.
+    Of a body it is never below 0. (1, 0, 0, 0, 1, 1, 3, 0, 0, 0) has -0.5.
     """
     # region 8.9
     G = inertia_of(phi)
@@ -167,24 +158,20 @@ def least_pseudo(phi: np.ndarray) -> float:
     # endregion 8.9
 
 
-def by_value(rng: np.random.Generator) -> dict[str, np.ndarray]:
-    """Return each small function's errors: against Day 4's formulas, or the library."""
-    m, c, A = rng.uniform(1, 3), rng.uniform(-1, 1, 3), rng.uniform(-1, 1, (3, 3))
-    phi, G = library.parameters(m, c, A @ A.T), dynamics.spatial_inertia(m, c, A @ A.T)
-    V, acc, tau = *rng.uniform(-1, 1, (2, 6)), rng.uniform(-1, 1, 40)
+def arguments() -> dict[str, tuple]:
+    """Return random arguments for each function that is compared with the library."""
+    rng = np.random.default_rng(SEED)
     Y = rng.normal(size=(40, 4)) @ rng.normal(size=(4, 6))  # rank 4 of 6
-    seen, known = identifiable(Y, RTOL), library.identifiable(Y, RTOL)
-    given = Y, tau, rng.normal(size=(8, 6)), RTOL
-    pairs = zip(predict_with_sigma(*given), library.predict_with_sigma(*given))
-    features = motor_features(V, acc) - library.motor_features(V, acc)
+    tau, Y_new, (V, A) = (rng.normal(size=n) for n in (40, (8, 6), (2, 6)))
+    J, R, extra = (rng.normal(size=(5, *n)) for n in ((6, 7), (3, 3), (7,)))
     return {
-        "inertia_of - Day 4's spatial_inertia": inertia_of(phi) - G,
-        "link_regressor phi - its wrench": link_regressor(V, acc) @ phi
-        - (G @ acc - ad(V).T @ G @ V),
-        "motor_features - the library's": features,
-        "rank and condition - the library's": np.subtract(seen, known),
-        "fit - NumPy's lstsq": fit(Y, tau, RTOL) - np.linalg.lstsq(Y, tau)[0],
-        "predict_with_sigma - the library's": [a - b for a, b in pairs],
+        "inertia_of": (rng.normal(size=10),),
+        "link_regressor": (V, A),
+        "motor_features": (V, A),
+        "identifiable": (Y, RTOL),
+        "fit": (Y, tau, RTOL),
+        "predict_with_sigma": (Y, tau, Y_new, RTOL),
+        "payload_from_holds": (J, R, extra, A[3:]),
     }
 
 
@@ -198,104 +185,68 @@ def regressor(arm, motion: secret.Motion) -> np.ndarray:
     return np.array(Y)
 
 
-def measured(robot, motion: secret.Motion, rng) -> np.ndarray:
-    """Return MuJoCo's torques of a motion, (n, 7), with noise on each."""
-    return verify.mujoco_inverse_dynamics(robot, *motion) + NOISE * rng.normal(
-        size=motion.q.shape
-    )
-
-
-def rms(x: np.ndarray) -> float:
-    """Return the root of the mean square."""
-    return float(np.sqrt(np.mean(np.square(x))))
-
-
 def judged(name: str, Y, tau, new: tuple, rtol: float = RTOL) -> tuple:
     """Fit, print how good it looks and how good it is; return phi, RMS and share."""
     (torque, sigma), phi = predict_with_sigma(Y, tau, new[0], rtol), fit(Y, tau, rtol)
     rank, condition = identifiable(Y, rtol)
     off, inside = rms(torque - new[1]), np.mean(np.abs(torque - new[1]) < 1.96 * sigma)
     print(f"  {name:20}{rank:4}{condition:13,.0f}{rms(tau - Y @ phi):10.4f}"
-          f"{off:13,.3f}{rms(sigma):11,.3f}{inside:6.0%}")  # fmt: skip
+          f"{off:12,.3f}{rms(sigma):11,.3f}{inside:6.0%}")  # fmt: skip
     return phi, off, inside
 
 
-def fits(model, robot, arm, new: tuple, rng) -> tuple:
-    """Print a table of fits to motions of the secret robot; return the first."""
+def fits(robot, arm, new: tuple) -> tuple:
+    """Print how fits to two motions of the secret robot do; return the last."""
     print(
-        "  fitted to          rank    condition  residual  new motions      sigma   in"
+        "  fitted to          rank    condition  residual   elsewhere      sigma   in"
     )
-    excited, swing = secret.excitation(model, SEED), secret.swing()
-    first = regressor(arm, secret.Motion(*(x[:40] for x in swing)))  # then it repeats
-    Y, Y_swing = regressor(arm, excited), np.tile(first, (5, 1, 1))
-    tau, fast = measured(robot, excited, rng), np.abs(excited.qd) > SLOW
-    tau_swing, moves = measured(robot, swing, rng), np.abs(swing.qd) > SLOW
-    few = np.s_[::20]
-    best = judged("excited", Y[fast], tau[fast], new)
-    judged("and its slow rows", Y.reshape(-1, 91), tau.ravel(), new)
-    judged("ten samples of it", Y[few][fast[few]], tau[few][fast[few]], new)
-    judged("Day 5's swing", Y_swing[moves], tau_swing[moves], new)
-    judged("swing, rtol 1e-3", Y_swing[moves], tau_swing[moves], new, 1e-3)
-    return best
+    rng, found = np.random.default_rng(SEED), []
+    for motion in (secret.swing(), secret.excitation(robot, SEED)):
+        tau = secret.torques(robot, motion) + NOISE * rng.normal(size=motion.q.shape)
+        found += [regressor(arm, motion), tau, np.abs(motion.qd) > SLOW]
+    Y, tau, fast = found[:3]
+    judged("Day 5's swing", Y[fast], tau[fast], new)
+    judged("the same, rtol 1e-3", Y[fast], tau[fast], new, 1e-3)
+    Y, tau, fast = found[3:]
+    few = fast & (np.arange(len(Y)) % 20 == 0)[:, None]
+    judged("ten samples, excited", Y[few], tau[few], new)
+    judged("excited, slow rows", Y.reshape(-1, 91), tau.ravel(), new)
+    return judged("excited", Y[fast], tau[fast], new)
 
 
-def weigh(arm, q: np.ndarray, extra: np.ndarray) -> np.ndarray:
-    """Return (m, m c) from holds at q, (k, 7), that took the torques extra, (k, 7)."""
-    now = [arm.at(x) for x in q]
-    J, R = [x.J_site for x in now], [x.T_world_ee[:3, :3] for x in now]
-    return payload_from_holds(np.array(J), np.array(R), extra, arm.gravity)
-
-
-def weighings(robot, loaded, arm, rng) -> dict[str, np.ndarray]:
-    """Return what is found, (m, m c), by which holds: both robots, from either side."""
-    poses = panda.READY_Q + rng.uniform(-0.5, 0.5, (POSES, 7))
-    (_, empty), (q, full) = (
-        np.array(
-            [[secret.hold(one, arm, x, side) for x in poses] for side in (1, -1)]
-        ).transpose(2, 0, 1, 3)
-        for one in (robot, loaded)
-    )
-    return {
-        "both held from one side": weigh(arm, q[0], full[0] - empty[0]),
-        "one from either side": weigh(arm, q[1], full[1] - empty[0]),
-        "each from both, averaged": weigh(
-            arm, q.mean(axis=0), (full - empty).mean(axis=0)
-        ),
+def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
+    """Return (m, m c), (4,), by how the arm was held with a load and without."""
+    beside = np.random.default_rng(SEED).uniform(-0.5, 0.5, (POSES, 7))
+    poses = panda.READY_Q + beside
+    (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in (robot, loaded))
+    ways = {
+        "both held from one side": (q[0], full[0] - empty[0]),
+        "one from either side": (q[1], full[1] - empty[0]),
+        "each from both, averaged": (q.mean(axis=0), (full - empty).mean(axis=0)),
     }
-
-
-def rises(robot, arm, phi: np.ndarray, load: np.ndarray) -> float:
-    """Return how far the hand rises, mm, while the arm floats on phi and the load."""
-
-    def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        now, g, rest = arm.at(q), arm.gravity, np.zeros(7)
-        h = now.T_world_ee[:3, :3] @ load[1:]
-        weight = np.append(np.cross(h, g), load[0] * g)
-        still = arm_regressor(now.J_space, now.T_links, rest, rest, g) @ phi[:70]
-        return still - now.J_site.T @ weight
-
-    start = simulate.start(robot, panda.READY_Q)
-    run = simulate.run(robot, start, law, FLOAT, rate=RATE)
-    return 1000 * (arm.at(run.q[-1]).T_world_ee - arm.at(run.q[0]).T_world_ee)[2, 3]
+    return {
+        name: payload_from_holds(*secret.hands(arm, q), extra, arm.gravity)
+        for name, (q, extra) in ways.items()
+    }
 
 
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
-    lab, rng = Lab(__file__, __doc__), np.random.default_rng(SEED)
+    lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand", drive="torque")
     print(panda.describe("panda_nohand"))
     arm, robot = panda.arm(model), secret.changed(model, SEED)
 
     lab.step("1. A body in ten numbers, and a torque that is linear in them")
-    for name, off in by_value(rng).items():
-        lab.check(name, off)
+    for name, given in arguments().items():
+        off = np.subtract(globals()[name](*given), getattr(library, name)(*given))
+        lab.check(f"{name} - the library's", off)
 
     lab.step("2. The whole arm: what its motion shows, and what it hides")
     new = secret.anywhere(model, SEED, TRIALS)
     Y = regressor(arm, new)
-    links = library.parameters(arm.masses, arm.coms, arm.inertias).ravel()
-    file = np.concatenate([links, arm.armature, arm.damping, np.zeros(7)])
-    off = Y @ file - verify.mujoco_inverse_dynamics(model, *new)
+    file = secret.numbers(arm)  # that the model file holds for the 91
+    off = Y @ file - secret.torques(model, new)
     lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m",
                config="random", seed=SEED)  # fmt: skip
     for name, part in (("links", Y[..., :70]), ("with motors", Y)):
@@ -303,37 +254,34 @@ def main() -> int:
         print(f"  {name}: {rank} of {part.shape[-1]} show, condition {condition:.0f}")
 
     lab.step("3. A robot that nobody knows: five fits to its torques, N m")
-    fast, truth = np.abs(new.qd) > SLOW, verify.mujoco_inverse_dynamics(robot, *new)
-    new = Y[fast], truth[fast]
-    phi, off, inside = fits(model, robot, arm, new, rng)
-    print(f"  The model file's own numbers: {rms(new[0] @ file - new[1]):.3f} there.")
-    lab.record("fit", off, metric="new_rms_nm", label="excited, new motions", seed=SEED)
-    lab.record("fit", inside, metric="inside_95", label="of them within 1.96 sigma",
-               seed=SEED)  # fmt: skip
+    fast, truth = np.abs(new.qd) > SLOW, secret.torques(robot, new)
+    phi, off, inside = fits(robot, arm, (Y[fast], truth[fast]))
+    print(f"  the model file's own numbers{rms((Y @ file - truth)[fast]):31.3f}")
+    lab.record("fit", off, metric="new_rms_nm", label="excited, elsewhere", seed=SEED)
+    lab.record("fit", inside, metric="inside_95", label="in 1.96 sigma", seed=SEED)
 
     lab.step("4. What hangs on its hand")
     loaded = panda.load("panda_nohand", drive="torque", edit=secret.load(LOAD, AT))
     loaded = secret.changed(loaded, SEED)
-    found = weighings(robot, loaded, arm, rng)
+    found = weighings(robot, loaded, arm)
     for name, (m, *h) in found.items():
-        c = ", ".join(f"{1000 * x / m:5.1f}" for x in h)
-        print(f"  {name:25} {1000 * m:6.1f} g at ({c}) mm")
+        c = 1000 * np.array(h) / m
+        print(f"  {name:25}{1000 * m:7.1f} g at {c[0]:.1f}, {c[1]:.1f}, {c[2]:.1f} mm")
     lab.record("payload_g", 1000 * (m - LOAD), label="the last, g off", seed=SEED)
 
     lab.step("5. Float with it, without friction: how far the hand rises in 2 s")
-    loaded.dof_frictionloss[:] = 0.0
-    for name, load in ({"nothing": np.zeros(4)} | found).items():
-        up = rises(secret.settled(loaded), arm, phi, load)
-        print(f"  {name:25} {up:6.0f} mm")
+    rest = np.zeros(7), np.zeros(7), arm.gravity
+    still = lambda now: arm_regressor(now.J_space, now.T_links, *rest) @ phi[:70]  # noqa: E731
+    for name, load in ({"told of no load": np.zeros(4)} | found).items():
+        up = 1000 * secret.rises(loaded, arm, still, load)
+        print(f"  {name:25}{round(up):6} mm")
 
     lab.step("6. Side quest: can a body have these ten numbers?")
     with lab.side_quest():
-        own = phi[:70].reshape(7, 10)
-        off = [least_pseudo(x) - library.least_pseudo(x) for x in own]
+        links = phi[:70].reshape(7, 10)
+        off = [least_pseudo(x) for x in links] - library.least_pseudo(links)
         lab.check("least_pseudo - the library's", off)
-        print(
-            f"  the least of the links that were found: {min(map(least_pseudo, own)):.2f}"
-        )
+        print(f"  the least of the links found: {min(map(least_pseudo, links)):.2f}")
     return lab.finish()
 
 
