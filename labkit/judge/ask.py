@@ -123,8 +123,9 @@ class Ask:
 
     Attributes:
         inputs: from a seeded generator to the arguments of every call: the case of the
-            docstring first, drawn ones last, all calls' arguments of the same shapes.
-            Round what is drawn (`draw.rounded`), so that a student can type it.
+            docstring first, drawn ones last. What is random is an argument: noise is
+            drawn here. Round what is drawn (`draw.rounded`), so that a student can
+            type it. Arrays of bools and of whole numbers stay what they are.
         kind: of the answer; a tuple of kinds where the function returns a tuple.
         truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
             takes them; an oracle, never the lab script.
@@ -233,7 +234,8 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
 def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     """Return all questions' arguments, one array (n, ...) per argument.
 
-    A robot is one model for all of them, and a path one path.
+    A robot is one model for all of them, and a path one path. Arguments of several
+    sizes are an array (n,) of arrays.
     """
     columns = zip(*(exchange.question.args for exchange in exchanges), strict=True)
     return tuple(_column(column) for column in columns)
@@ -245,7 +247,12 @@ def _column(column: tuple[Any, ...]) -> Any:
         return first.model
     if isinstance(first, Path):
         return first.pairs
-    return np.array(column, dtype=np.float64)
+    if len({np.shape(one) for one in column}) > 1:  # of several sizes
+        found = np.empty(len(column), dtype=object)
+        found[:] = column
+        return found
+    whole = np.array(column)
+    return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 
 def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:

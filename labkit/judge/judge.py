@@ -19,7 +19,7 @@ from labkit.judge.ask import (
     right_answers,
     stacked,
 )
-from labkit.judge.compare import difference, matches
+from labkit.judge.compare import as_one, as_one_size, difference, largest, matches
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 
@@ -40,7 +40,9 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
+    if size := problems.of_another_size(asked):
+        return Verdict("wrong", *size)
+    if state := problems.kept_state(asked, source):
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
         if asked.ask.accept:
@@ -165,10 +167,8 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
-    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
     wrong: list[tuple[Question, Finding]] = []
-    for question, row in zip(questions, zip(*columns, strict=True), strict=True):
-        answer = row[0] if len(row) == 1 else row
+    for question, answer in zip(questions, problems.answers(asked), strict=True):
         args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
         if why := ask.accept(*args, answer):
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
@@ -214,7 +214,7 @@ def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
+    if found := redone(ask, case.arguments, S, T) or _nothing_there(ask, S):
         return found
     if found := _not_finite(S, case.given):
         return _and_the_finite(found, case, S, T)
@@ -292,15 +292,16 @@ def _made_again(
     redo = mistake.redo
     if not isinstance(redo, InTurn):
         return parts(redo(*arguments))
-    finite = [np.abs(s[np.isfinite(s)]) for s in S]
-    largest = [x.max(initial=k.scale) for x, k in zip(finite, ask.kinds, strict=True)]
+    pairs = zip(S, ask.kinds, strict=True)
+    scales = [k.scale * max(1.0, largest(s, k.scale)) for s, k in pairs]
     found: list[Parts] = []
     for i in reversed(range(len(S[0]))):
         found.append(parts(redo.nth(i, arguments)))
-        for s, a, size in zip(S, found[-1], largest, strict=False):
-            if not matches(s[i : i + 1], a[None], size):
+        for s, a, scale, k in zip(S, found[-1], scales, ask.kinds, strict=False):
+            one, again = as_one([s[i], a])
+            if not k.fits(a.shape) or not matches(one[None], again[None], scale):
                 return ()
-    return tuple(map(np.array, zip(*reversed(found), strict=True)))
+    return tuple(map(as_one, zip(*reversed(found), strict=True)))
 
 
 def redone(
@@ -326,11 +327,10 @@ def redone(
 
 def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
-    gaps = [
-        difference(s.reshape(len(s), -1), t.reshape(len(t), -1)) / kind.scale
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return np.max(gaps, axis=0)
+    trios = zip(S, T, ask.kinds, strict=True)
+    return np.max(
+        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
+    )
 
 
 def off_by(ask: Ask, S: Parts, T: Parts) -> float:
@@ -347,8 +347,8 @@ def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
     return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
 
 
-def _nothing_there(S: Parts) -> Finding | None:
-    if any(part.any() for part in S):
+def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
+    if any(part.any() for part in S) or not all(kind.empty for kind in ask.kinds):
         return None
     return Finding(
         "all-zeros",
@@ -382,8 +382,7 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
 
 
 def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
-    flat = difference(S.reshape(len(S), -1), T.reshape(len(T), -1))
-    wrong = flat > near * kind.scale
+    wrong = difference(S, T, kind.scale) > near
     if wrong.all():
         return ""
     right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"
