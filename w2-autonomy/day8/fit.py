@@ -42,8 +42,8 @@ def nothing_cut(Y, tau, rtol):
 
 @row.wrong
 def times_s(Y, tau, rtol):
-    """it is multiplied by the singular values; Y = U S V^T is undone by dividing => V S
-    U^T tau"""
+    """it is multiplied by the singular values; Y = U S V^T is undone by dividing, and
+    Y^T tau alone is no solution => V S U^T tau"""
     U, s, Vt = parts(Y, rtol)
     return Vt.T @ (s * (U.T @ tau))
 
@@ -95,12 +95,6 @@ def ridge(Y, tau, rtol):
 
 
 @row.wrong
-def Y_transposed_tau(Y, tau, rtol):
-    """this is Y^T tau, the right-hand side; the equations are not solved => Y^T tau"""
-    return Y.T @ tau
-
-
-@row.wrong
 def V_not_transposed(Y, tau, rtol):
     """V^T stands where V belongs: svd returns V^T => V^T S^-1 U^T tau"""
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
@@ -123,4 +117,4 @@ def _(Y, tau, rtol):
 @row.close("rounded-somewhere")  # A very small ridge on the values that count.
 def _(Y, tau, rtol):
     U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (s / (s**2 + 1e-6 * s[0] ** 2) * (U.T @ tau))
+    return Vt.T @ (s / (s**2 + 1e-10 * s[0] ** 2) * (U.T @ tau))

@@ -50,8 +50,8 @@ def nothing_cut(Y, rtol):
 
 @row.wrong
 def cut_not_squared(Y, rtol):
-    """these are eigenvalues of Y^T Y, the squares of the singular values, and the cut is
-    not squared => the right one with rtol's square root"""
+    """these are eigenvalues of Y^T Y, squares of singular values; the cut has to be
+    squared, too => the right one with rtol's square root"""
     s = values(Y)
     kept = s[s**2 > rtol * s[0] ** 2]
     return len(kept), kept[0] / kept[-1]
@@ -67,8 +67,7 @@ def condition_squared(Y, rtol):
 
 @row.wrong
 def condition_inverted(Y, rtol):
-    """the condition is upside down: largest over smallest, so 1 or more => smallest over
-    largest"""
+    """the condition is upside down: it is 1 or more => smallest over largest"""
     s = values(Y)
     kept = s[s > rtol * s[0]]
     return len(kept), kept[-1] / kept[0]

@@ -9,8 +9,7 @@ from robo47.screws import skew
 
 from .states import SWAP, bodies
 
-row = Row(Symmetric((6, 6)), alike=[{"corners-swapped", "first-moment-negative"}])
-UNITS_HIDE = "a unit vector has m or m c, never both"
+row = Row(Symmetric((6, 6)))
 
 
 @row.inputs
@@ -112,6 +111,6 @@ def _(phi):
     return np.tensordot(phi, right(np.eye(10)), axes=1)
 
 
-@row.close("rounded")  # float32 inside.
+@row.close("rounded-somewhere")  # float32 inside.
 def _(phi):
     return right(phi.astype(np.float32).astype(float) + 1e-7)

@@ -84,12 +84,6 @@ def largest(phi):
     return np.linalg.eigvalsh(pseudo(phi))[-1]
 
 
-@row.wrong
-def eigenvalue_of_the_corner(phi):
-    """only the upper left is looked at; m and m c belong to it => that of tr(I)/2 1 - I"""
-    return least(pseudo(phi)[:3, :3])
-
-
 @row.right  # From the general eigenvalues.
 def _(phi):
     return np.linalg.eigvals(pseudo(phi)).real.min()

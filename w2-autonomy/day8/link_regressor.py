@@ -11,7 +11,9 @@ from .states import NUMBERS, SWAP, WRENCH
 
 row = Row(Matrix((6, 10), rows=WRENCH, columns=NUMBERS))
 REST, UP, SPIN = np.zeros(6), np.array([0, 0, 0, 0, 0, 9.81]), np.eye(6)[2]
-row.reached_by("inertia_of", "in inertia_of, ", but=["inertia-about-the-centre"])
+# A unit vector has m or m c, never both: what needs both cannot be told here.
+HIDDEN = ["inertia-about-the-centre", "corners-empty"]
+row.reached_by("inertia_of", "in inertia_of, ", but=HIDDEN)
 
 
 @row.inputs
@@ -73,8 +75,8 @@ def force_first(V, A):
 
 @row.wrong
 def moments_empty(V, A):
-    """the moment's rows are 0: a point mass at the origin needs none, a body does => the
-    right one without moments"""
+    """the moment's rows are 0: only a point mass at the origin needs none => the right
+    one without moments"""
     Y = link_regressor(V, A)
     Y[:3] = 0.0
     return Y

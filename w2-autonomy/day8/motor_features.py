@@ -30,8 +30,8 @@ def sign_of_the_acceleration(qd, qdd):
 
 @row.wrong
 def smoothed(qd, qdd):
-    """dry friction is tanh(qd / 0.1); here it is the sign itself, and slow rows are left
-    out in the lab => tanh(qd / 0.1) in the last block"""
+    """dry friction is tanh(qd / 0.1); here it is the sign itself; the lab leaves slow
+    rows out => tanh(qd / 0.1) in the last block"""
     return side_by_side(qdd, qd, np.tanh(qd / 0.1))
 
 
@@ -93,5 +93,5 @@ def _(qd, qdd):
     Y = np.zeros((7, 21))
     for i in range(7):
         Y[i, i], Y[i, 7 + i] = qdd[i], qd[i]
-        Y[i, 14 + i] = (qd[i] > 0) - (qd[i] < 0)
+        Y[i, 14 + i] = float(qd[i] > 0) - float(qd[i] < 0)
     return Y

@@ -1,4 +1,4 @@
-"""8.8 `payload_from_holds(J_site, R_site, extra, g)`: its questions and its mistakes."""
+"""8.8 `payload_from_holds(J_site, R_site, extra, g)`: questions and mistakes."""
 
 import numpy as np
 
@@ -52,8 +52,8 @@ def force_first(J_site, R_site, extra, g):
 
 @row.wrong
 def R_forgotten(J_site, R_site, extra, g):
-    """R is not in it: m c is taken to stand in world axes, and turns with no hand => the
-    right one with R = I"""
+    """R is not in it: m c is taken to stand in world axes all along => the right one
+    with R = I"""
     return solved(J_site, np.array([np.eye(3)] * len(R_site)), extra, g)
 
 

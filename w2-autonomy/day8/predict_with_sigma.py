@@ -50,7 +50,7 @@ for slug, says, redone, change in (
     ),
     (
         "n-less-one",
-        "the noise is divided by n - 1, which is for a mean; the fit took rank of the n",
+        "the noise is divided by n - 1, as for a mean; the fit took rank of the n",
         "sigma with n - 1",
         lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / (n - 1)),
     ),
@@ -91,9 +91,7 @@ for slug, says, redone, change in (
         lambda sigma, noise, n, rank, p: 1.96 * sigma,
     ),
 ):
-    row.wrong(slug, says, redone, "" if slug != "columns-for-rank" else "")(
-        with_sigma(change)
-    )
+    row.wrong(slug, says, redone)(with_sigma(change))
 
 
 @row.wrong

@@ -5,6 +5,8 @@
 
 import os
 
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: small SVDs are faster so
+
 _folder = os.path.dirname(os.path.abspath(__file__))
 _script = os.path.join(_folder, os.pardir, os.pardir, "scripts", "kit.py")
 if os.path.exists(_script):  # a copy outside the clone, as a checker's, needs no help
