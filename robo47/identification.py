@@ -195,12 +195,30 @@ def predict_with_sigma(
     return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt.T / s, axis=-1)
 
 
+def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
+    """Return what m and m c of a load on the hand cost in torque: -J^T (R h x g; m g).
+
+    A weight m g at R c has the moment R h x g = -[g] R h about the site.
+
+    Args:
+        J_site: site Jacobian, (..., 6, n).
+        R_site: `R_world_site`, (..., 3, 3).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        (..., n, 4): times (m, m c) it is the torque that holds the load.
+    """
+    J = checks.array(J_site, "J_site", (6, "n"))
+    R, g = checks.array(R_site, "R_site", (3, 3)), checks.array(g, "g", (3,))
+    W = np.zeros((*R.shape[:-2], 6, 4))
+    W[..., 3:, 0], W[..., :3, 1:] = g, -skew(g) @ R
+    return -np.swapaxes(J, -1, -2) @ W
+
+
 def payload_from_holds(
     J_site: ArrayLike, R_site: ArrayLike, extra: ArrayLike, g: ArrayLike
 ) -> Array:
     """Return what hangs on the hand, from torques that hold it still in some poses.
-
-    Each pose says extra = -J^T (R h x g; m g), linear in m and h = m c.
 
     Args:
         J_site: site Jacobians, (k, 6, n).
@@ -212,12 +230,8 @@ def payload_from_holds(
         (m, m c), kg and kg m in the site's axes, (4,). Poses that only turn about
         gravity leave a part of c unseen; the smallest is returned.
     """
-    J = checks.array(J_site, "J_site", (6, "n"))
-    R, g = checks.array(R_site, "R_site", (3, 3)), checks.array(g, "g", (3,))
-    extra = checks.array(extra, "extra", J.shape[-1:])
-    W = np.zeros((*R.shape[:-2], 6, 4))
-    W[..., 3:, 0], W[..., :3, 1:] = g, -skew(g) @ R
-    rows = -np.swapaxes(J, -1, -2) @ W
+    rows = load_regressor(J_site, R_site, g)
+    extra = checks.array(extra, "extra", rows.shape[-2:-1])
     found, *_ = np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=1e-9)
     return np.asarray(found, dtype=np.float64)
 

@@ -58,7 +58,7 @@ def _values(axes: Axes, Y: np.ndarray, name: str, colour: str) -> None:
     axes.axhline(RTOL, color=INK, linestyle="--", linewidth=1.5)
     axes.set(ylim=(1e-18, 30), xlabel="singular value", title="What a motion shows")
     axes.set_ylabel("of the largest")
-    axes.legend(loc="center left", fontsize=14)
+    axes.legend(loc=(0.03, 0.25), fontsize=14)
 
 
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: secret.Motion) -> None:
