@@ -33,9 +33,9 @@ MOST = 50  # walkers of one target
 DRAWN = 1000  # random configurations that the nearest ones are chosen from
 ROUNDS = 20
 FEW = 16  # targets that are walked to one by one: more of them share their calls better
-TRIES = 6  # starts of each of those before they go on together
-# Patient from the caller's start, impatient from a random one.
-FIRST, AGAIN = Patience(60, 5, 0.9), Patience(30, 3, 0.5)
+TRIES = 16  # starts of each of those before they go on together
+# Patient and careful from the caller's start, impatient and bold from a random one.
+FIRST, AGAIN = Patience(60, 5, 0.9, 0.5), Patience(30, 3, 0.5, 0.1)
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,7 @@ def _walk(
 
     Walkers end when one of them reaches their common target, or they no longer gain.
     """
-    steps, every, enough = patience
+    steps, every, enough, damping = patience
     best, miss = q.copy(), np.full(q.shape[1], np.inf)
     before, walker = np.full(q.shape[1], np.inf), np.arange(q.shape[1])
     solved = np.zeros(problem.goals.shape[-1], dtype=bool)
@@ -183,7 +183,7 @@ def _walk(
             q, J, e, ee = q[:, on], J[..., on], e[:, on], ee[on]
         if not len(walker):
             break
-        q = _step(problem, q, J, e, 0.5 * ee + FLOOR)
+        q = _step(problem, q, J, e, damping * ee + FLOOR)
     return best, miss
 
 
