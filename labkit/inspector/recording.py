@@ -24,6 +24,11 @@ from robo47.checks import Array
 
 FRAMES = 30  # a second
 GRID = 1 / 256  # m; with the robot's own meshes a file would have 3 MB
+# What viser's player needs of a page's policy. Its workers compile what they run.
+ALLOWED = (
+    "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
+    "; img-src data: blob:; connect-src data: blob:"
+)
 CAMERA, LOOK_AT = (1.75, -1.3, 0.95), (0.3, 0.0, 0.35)
 
 
@@ -75,10 +80,19 @@ class Recording:
         self._recorded.insert_sleep(seconds)
         self.seconds += seconds
 
-    def page(self, title: str = "robo47") -> str:
-        """Return the HTML file, and end the recording."""
+    def page(self, title: str, nonce: str = "") -> str:
+        """Return the HTML file, and end the recording.
+
+        Args:
+            title: of the window.
+            nonce: of its scripts, where a page's policy (`ALLOWED`) lets no other run.
+        """
         self.wait(0.0)
         assert self._recorded is not None
         text = self._recorded.as_html()
         self.server.stop()
-        return text.replace("<title>Viser</title>", f"<title>{title}</title>", 1)
+        text = text.replace("<title>Viser</title>", f"<title>{title}</title>", 1)
+        if nonce:  # viser's own script adds one more
+            text = text.replace("<script", f'<script nonce="{nonce}"')
+            text = text.replace('e.type="module"', f'e.nonce="{nonce}";e.type="module"')
+        return text

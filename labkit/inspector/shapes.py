@@ -85,7 +85,8 @@ def thinned(shape: Shape, grid: float) -> Shape:
         return shape
     faces = np.unique(became[shape.faces][solid], axis=0)
     used, faces = np.unique(faces, return_inverse=True)
-    return shape._replace(vertices=middles[used], faces=faces.reshape(-1, 3))
+    faces = faces.reshape(-1, 3).astype(np.int32)
+    return shape._replace(vertices=middles[used], faces=faces)
 
 
 def _joined(parts: list[tuple[Array, Faces]]) -> tuple[Array, Faces]:
