@@ -21,7 +21,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: capstone fresh help test soak report lint docs site oracle figures notebook
+.PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -40,6 +40,9 @@ week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one
 
 capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
+
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+	@$(PY) scripts/proof.py $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
@@ -65,7 +68,7 @@ run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbe
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
-grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
+grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
 	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 

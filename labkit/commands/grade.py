@@ -5,6 +5,7 @@
     python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
+    python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
@@ -39,6 +40,7 @@ from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
+from labkit.proof.class_pages import write_pages
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -80,6 +82,7 @@ def parse() -> argparse.Namespace:
         help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
+    add("--proof", action="store_true", help="a page to show for each, of the week")
     add("--again", action="store_true", help="grade those too that did not change")
     add(
         "--i-know-them",
@@ -186,6 +189,8 @@ def main() -> int:
     if several:
         write(out, as_csv(week))
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+    if options.proof:
+        prove(week, out.parent / "proof", options.processes)
     tell(tally, week, out)
     return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
 
@@ -222,6 +227,15 @@ def grade_day(
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
+
+
+def prove(week: Week, folder: Path, at_once: int) -> None:
+    """Write each student's page to show; say who has none, and why."""
+    pages = write_pages(week.students, week.days[-1].week.number, folder, at_once)
+    without = [(student, why) for student, why in pages if why]
+    print(f"pages to show: {len(week.students) - len(without):,} in {shown(folder)}")
+    for student, why in without:
+        print(cli.wrapped(f"{student.name}: {why}", "  "))
 
 
 def tell(tally: Tally, week: Week, out: Path) -> None:

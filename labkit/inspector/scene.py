@@ -42,7 +42,7 @@ class ArmScene:
             arm: what to draw.
         """
         self.arm = arm
-        _set_stage(server)
+        set_stage(server)
         self.triads = {
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
@@ -131,7 +131,7 @@ class ArmScene:
             self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
 
 
-def _set_stage(server: viser.ViserServer) -> None:
+def set_stage(server: viser.ViserServer) -> None:
     """Set camera, backdrop and floor."""
     # viser lights with a photograph of a sky and casts shadows: on a computer without a
     # GPU half a minute before the first picture, and a sixth of the frames.
