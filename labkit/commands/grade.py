@@ -24,11 +24,14 @@ import contextlib
 import datetime
 import os
 import re
+import subprocess
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from labkit.base import cli
+from labkit.base import cli, git
 from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
@@ -40,7 +43,9 @@ from labkit.grade.week import STATES, Week, as_csv
 from labkit.lesson.day import Day, all_days, find_day
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.paths import ROOT, menagerie_root, shown
+
+OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
 def parse() -> argparse.Namespace:
@@ -78,7 +83,22 @@ def parse() -> argparse.Namespace:
         help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
-    add("--again", action="store_true", help="grade those too that did not change")
+    add(
+        "--again",
+        nargs="?",
+        const="",
+        metavar="FOLDER,...",
+        help="grade those too that did not change: everybody, or only who asks",
+    )
+    add(
+        "--keep",
+        choices=("best", "last"),
+        default="last",
+        help="which of somebody's results counts; default: last",
+    )
+    add("--kit", metavar="TAG", help="grade with the kit as it was at a tag or commit")
+    add("--frozen", action="store_true", help="another version's results stay")
+    add("--anonymous", action="store_true", help="write a table without names, too")
     add(
         "--i-know-them",
         action="store_true",
@@ -164,6 +184,8 @@ class Tally:
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
+    if options.kit:
+        return with_kit(options.kit)
     days = chosen(options.day)
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
@@ -181,6 +203,39 @@ def main() -> int:
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
     tell(tally, week, out)
     return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
+
+
+def with_kit(tag: str) -> int:
+    """Run the same command with the kit as it was at a tag; return its exit code."""
+    folder = kit_at(tag)
+    words = sys.argv[1:]
+    at = next(i for i, word in enumerate(words) if word.partition("=")[0] == "--kit")
+    del words[at : at + (1 if "=" in words[at] else 2)]
+    command = [sys.executable, str(folder / "scripts" / "grade_class.py"), *words]
+    places = {"PYTHONPATH": str(folder), "MENAGERIE_ROOT": str(menagerie_root())}
+    return subprocess.call([*command, "--frozen"], env={**os.environ, **places})
+
+
+def kit_at(tag: str) -> Path:
+    """Return a folder with the kit as it was at a tag, made where it is not there.
+
+    Raises:
+        Robo47Error: there is no such commit, or git cannot write it.
+    """
+    found = git.run("rev-parse", "-q", "--verify", f"{tag}^{{commit}}", **OF_KIT)
+    commit = found.stdout.strip()
+    folder = ROOT / ".robo47" / "kits" / commit[:12]
+    if found.returncode or not commit:
+        raise Robo47Error(f"the kit has no tag {tag}; those it has: git tag")
+    if not (folder / ".git").exists():
+        add = ("worktree", "add", "-q", "-f", "--detach", str(folder), commit)
+        git.run("worktree", "prune", **OF_KIT)
+        git.run(*add, **OF_KIT)
+    # whole, also where a run was killed amid it
+    made = git.run("reset", "-q", "--hard", commit, folder=folder, seconds=60)
+    if made.returncode:
+        raise Robo47Error(f"the kit at {tag} cannot be written: {made.stderr}")
+    return folder
 
 
 def grade_day(
@@ -205,11 +260,16 @@ def grade_day(
             print(
                 f"kit: {version()}; fresh inputs for everybody: --seed {journal.seed}"
             )
-        room = Classroom(week.students, [day], journal, options.again, tally.notes)
+        again = options.again and options.again.split(",")
+        again = () if again is None else (again or None)
+        room = Classroom(
+            week.students, [day], journal, again, options.frozen, options.keep
+        )
+        room.notes = tally.notes
         if options.pull and not week.days:
             room.pull()
         (course,) = room.grade(where, out.parent / "feedback")
-        write_all(course, out)
+        write_all(course, out, anonymous=options.anonymous)
     week.add(course)
     tally.add(room, course)
     counts = week.counts(day)
