@@ -124,7 +124,12 @@ def _tasks(
 def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:
     """Return the result with the words that `make check` has for it."""
     marks = [
-        Mark(r.task.id, r.verdict.status, r.verdict.mistake, _tidy(r.verdict.message))
+        Mark(
+            r.task.id,
+            r.verdict.status,
+            r.verdict.mistake,
+            _tidy(f"{r.verdict.message} {r.verdict.call}".strip()),
+        )
         for r in tasks
         if r.task.id in counted(day)
     ]
