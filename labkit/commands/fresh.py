@@ -101,5 +101,5 @@ def main() -> int:
         clock.say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = run_week(days, clone, clock)
     code = verdict(labs, [*missing, *wrong])
-    remember(sha, week, len(missing) + len(wrong))
+    remember(sha, week.number, len(missing) + len(wrong))
     return code
