@@ -21,7 +21,8 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: new author capstone fresh help test soak report lint docs site oracle figures notebook
+.PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
+.PHONY: new author
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -40,6 +41,9 @@ week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one
 
 capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
+
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
@@ -60,12 +64,12 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
 
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
-	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
+	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
 
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
-grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
+grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
 	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 

@@ -1,15 +1,22 @@
 """What every test file shares: the robot, a clean environment, and honest skips."""
 
 import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: -n 2 on two cores
+
 import shutil
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
+from unittest.mock import MagicMock
 
 import hypothesis
 import mujoco
+import numpy as np
 import pytest
 
 from labkit.figures import backends
@@ -46,6 +53,47 @@ def need(available: bool, what: str) -> None:
         if os.environ.get("ROBO47_CI"):
             pytest.fail(f"CI must provide {what}")
         pytest.skip(f"needs {what}", allow_module_level=True)
+
+
+class Answers:
+    """A student's file for a tab of the inspector: functions in place of a sandbox."""
+
+    there, version = True, 1
+
+    def __init__(self, functions):
+        from labkit.inspector.checker_calls import describe
+
+        self.functions, self.source = functions, SimpleNamespace()
+        self.source.describe = partial(describe, {})
+
+    def ask(self, questions):
+        from labkit.base.exchange import Reply
+
+        return [
+            Reply(self.functions[one.function](*one.args))
+            if one.function in self.functions
+            else Reply(kind="missing")
+            for one in questions
+        ]
+
+
+def paper(model, q, functions=None):
+    """Return a page that only listens, for a tab of the inspector.
+
+    `own` asks {name: function}, or says that there is no file; a job is done at once.
+    """
+    from labkit.inspector.own import Own
+
+    page = MagicMock(model=model, q=np.array(q, dtype=float))
+    student = None if functions is None else Answers(functions)
+    page.own.side_effect = lambda library, free=(): Own(lambda: student, library, free)
+    page.job.side_effect = lambda work, done: done(work())
+    for name in ("curve", "arrows", "lines", "label", "ghost"):
+        getattr(page.draw, name).side_effect = lambda *_, **__: MagicMock()
+    page.html.side_effect = lambda *text: MagicMock()
+    page.animate.side_effect = lambda *_, **__: MagicMock(running=False)
+    page.pose.return_value = panda.arm(model).at(page.q[:7]).T_world_ee.copy()
+    return page
 
 
 def load_script(path):

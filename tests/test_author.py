@@ -13,7 +13,7 @@ from labkit.lesson.day import all_days, find_day
 
 pytestmark = pytest.mark.kit
 NEW, AUTHOR = "scripts/new_day.py", "scripts/author_day.py"
-WEEK = "w2-trial"
+WEEK = "w9-trial"
 
 
 def run_in(kit, *command):
@@ -33,7 +33,7 @@ def run_in(kit, *command):
 def made(tmp_path_factory):
     """Return a copy of the kit with a new day 46, in a week of its own."""
     kit = tmp_path_factory.mktemp("author") / "kit"
-    skipped = shutil.ignore_patterns(".*", "_site", "*node_modules", "w[2-9]*", "work")
+    skipped = shutil.ignore_patterns(".*", "_site", "*node_modules", "work")
     shutil.copytree(ROOT, kit, ignore=skipped)
     done = run_in(kit, NEW, "46", WEEK, "trial")
     assert done.returncode == 0, done.stderr
@@ -44,10 +44,12 @@ def made(tmp_path_factory):
 def kit(made):
     """Return that copy, put back afterwards."""
     before = made.parent / "before"
+    readme = (made / "README.md").read_text()
     shutil.copytree(made / WEEK, before)
     yield made
     shutil.rmtree(made / WEEK)
     before.rename(made / WEEK)
+    (made / "README.md").write_text(readme)
 
 
 def test_a_new_day_is_all_as_it_must_be(kit):
@@ -56,7 +58,7 @@ def test_a_new_day_is_all_as_it_must_be(kit):
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("PASS") == 7
     assert (
-        "| [46: Trial](w2-trial/docs/day46-lab.md) |" in (kit / "README.md").read_text()
+        "| [46: Trial](w9-trial/docs/day46-lab.md) |" in (kit / "README.md").read_text()
     )
 
 
@@ -83,7 +85,7 @@ def test_a_second_day_of_a_week_is_listed_and_no_longer_announced(kit):
     done = run_in(kit, "scripts/build_docs.py", "--day", "46")
     readme = kit / WEEK / "README.md"
     assert "| 47: The end | | not written yet | |" in readme.read_text(), done.stderr
-    assert run_in(kit, NEW, "47", "2", "end").returncode == 0
+    assert run_in(kit, NEW, "47", "9", "end").returncode == 0
     assert "days = [46, 47]" in manifest.read_text()
     assert "The end" not in manifest.read_text()
     assert "[47: End](docs/day47-lab.md)" in readme.read_text()
@@ -108,11 +110,11 @@ FUNCTION, LAB = f"{WEEK}/day46/reach.py", f"{WEEK}/src/day46_trial.py"
             f"{WEEK}/docs/day46-lab.md",
             "(0.913 m",
             "(0.9 m",
-            "test_day46.py:19: AssertionError",
+            "test_day46.py:19: ",
         ),
         (f"{WEEK}/docs/day46.md", "### planar arm", "### arm", "section 'planar arm'"),
         (f"{WEEK}/day46/day.toml", 'id = "46.1"', 'id = "45.1"', "id 45.1 is not one"),
-        (f"{WEEK}/week.toml", "days", "day", "w2-trial/week.toml: "),
+        (f"{WEEK}/week.toml", "days", "day", "w9-trial/week.toml: "),
     ],
 )
 def test_what_is_wrong_is_told_with_its_file_and_no_traceback(

@@ -106,9 +106,9 @@ class Row:
 
     # What a day's file says.
 
-    def inputs(self, draw: Callable[[np.random.Generator], Iterable[Any]]) -> Any:
+    def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
-        self._draw = lambda rng: list(draw(rng))
+        self._draw = draw
         return draw
 
     def wrong(

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import processes
-from labkit.base.exchange import CHANNEL, EndedError, LoadError
+from labkit.base.exchange import CHANNEL, EndedError, LoadError, stopped
 from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
 
@@ -90,7 +90,7 @@ class Process:
             if message.get("loaded") is not True:
                 from labkit.sandbox import messages  # NumPy, after the start
 
-                raise LoadError(messages.read(message))
+                raise LoadError(*messages.read([message]) or [stopped(CHANNEL)])
         except EndedError as error:
             raise LoadError(error.reply) from None
 

@@ -17,8 +17,10 @@ import time
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from labkit.base.exchange import (
+    CHANNEL,
     EndedError,
     Exchange,
     Limits,
@@ -182,15 +184,17 @@ class Session:
         Returns:
             One reply per question; "stopped" from where the session ended.
         """
-        replies: list[Reply] = []
+        came: list[dict[str, Any]] = []
         if self._ended is None:
             self._process.ask(messages.pack(questions, self._robots))
-        while len(replies) < len(questions) and self._ended is None:
+        while len(came) < len(questions) and self._ended is None:
             try:
-                message = self._process.next(seconds)
-                replies.append(messages.read(message, self._limits.numbers))
+                came.append(self._process.next(seconds))
             except (EndedError, FaultError) as error:
                 self._end(str(error))
+        replies = messages.read(came, self._limits.numbers)
+        if len(replies) < len(came):
+            self._end(CHANNEL)
         missing = len(questions) - len(replies)
         return replies + [self._ended] * missing if self._ended else replies
 
@@ -232,18 +236,22 @@ class _Rounds:
         self, process: Process, asked: list[Exchange], into: dict[Exchange, Reply]
     ) -> None:
         """Take the replies of one round."""
+        came: list[dict[str, Any]] = []
         for exchange in asked:
             task = exchange.question.task
             started, waited = time.monotonic(), process.waited
             left = self.deadline + waited - started
             try:
-                message = process.next(min(self.call[task], self.spare[task], left))
-                into[exchange] = messages.read(message, self.numbers)
+                came.append(process.next(min(self.call[task], self.spare[task], left)))
             except EndedError as error:
                 late = time.monotonic() > self.deadline + process.waited
                 self.ended = exchange, stopped(TOO_LONG) if late else error.reply
                 break
             self.spare[task] -= time.monotonic() - started - (process.waited - waited)
+        found = messages.read(came, self.numbers)
+        into.update(zip(asked, found, strict=False))
+        if len(found) < len(came):
+            self.ended = asked[len(found)], stopped(CHANNEL)
 
     def fill(self, needs: Mapping[str, Iterable[str]]) -> None:
         """Fill in what was answered twice, and what is not asked again."""

@@ -107,3 +107,20 @@ def unpack_value(packed: Any, most: int = LARGEST) -> Any:
     if isinstance(parts, list) and len(parts) <= PARTS:
         return tuple(unpack_array(part, most) for part in parts)
     raise ValueError("not a packed value")
+
+
+def unpack_values(some: list[Any], most: int) -> list[Any]:
+    """Return each value, or the ValueError that says why it is none.
+
+    Returns:
+        One per value, up to the first that only a forger writes.
+    """
+    found: list[Any] = []
+    for packed in some:
+        try:
+            found.append(unpack_value(packed, most))
+        except ValueError as error:
+            found.append(error)
+        except Exception:
+            break
+    return found
