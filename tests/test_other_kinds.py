@@ -13,6 +13,7 @@ from labkit.judge import (
     Mask,
     Matrix,
     Pixels,
+    Robot,
     Scalar,
     Vector,
     Waypoints,
@@ -99,6 +100,23 @@ class TestSizes:
         questions = stacked(round_of(ask).main)
         assert judged(ask, slip.redo(*questions)).mistake == "sorted-first"
         assert judged(ask, right(ask)[0]).status == "passed"
+
+
+def test_robots_of_a_row_may_differ_and_be_all_that_is_asked():
+    def shorter(model):
+        model.body_pos[:] *= 0.5
+
+    robots = [Robot(), Robot(change=shorter), Robot("panda")]
+    ask = Ask(
+        lambda rng: [(robot,) for robot in robots],
+        Vector((2,)),
+        truth=InTurn(lambda model: [model.nq, np.abs(model.body_pos).sum()]),
+        fresh=0,
+    )
+    answers = right(ask)[0]
+    assert answers[:, 0].tolist() == [7, 7, 9]
+    assert answers[0, 1] == pytest.approx(2 * answers[1, 1])
+    assert judged(ask, answers).status == "passed"
 
 
 class TestCovariance:
