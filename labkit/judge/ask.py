@@ -34,7 +34,7 @@ NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Robot:
     """A model as an argument: student code gets plain data that reads like an MjModel.
 
@@ -294,8 +294,12 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     and arrays of several sizes, are an array (n,) of them.
     """
     columns = list(zip(*(e.question.args for e in exchanges), strict=True))
-    shared = [len(set(map(id, column))) == 1 for column in columns]
-    alone = all(isinstance(column[0], Robot | Path) for column in columns)
+    special = [isinstance(column[0], Robot | Path) for column in columns]
+    alone = all(special)
+    shared = [
+        one and all(argument == column[0] for argument in column)
+        for one, column in zip(special, columns, strict=True)
+    ]
     pairs = zip(columns, shared, strict=True)
     return tuple(_column(column, one and not alone) for column, one in pairs)
 
