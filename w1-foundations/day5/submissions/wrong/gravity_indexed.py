@@ -1,4 +1,4 @@
-# task 5.5: one-number-as-gain
+# task 5.4: one-number-as-gain
 # kp[i], which one number does not have.
 import numpy as np
 

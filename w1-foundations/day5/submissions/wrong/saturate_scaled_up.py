@@ -1,4 +1,4 @@
-# task 5.8: not-finite
+# task 5.7: not-finite
 # The worst joint to its limit, always.
 import numpy as np
 

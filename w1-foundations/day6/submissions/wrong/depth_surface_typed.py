@@ -1,4 +1,4 @@
-# task 6.8: docstrings-numbers
+# task 6.5: docstrings-numbers
 # The docstring's surface.
 
 
