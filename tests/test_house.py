@@ -21,6 +21,7 @@ FLOORS = [
     "labkit.fresh",
     "labkit.grade",
     "labkit.proof",
+    "labkit.author",
     "labkit.setup",
     "labkit.commands",
 ]
