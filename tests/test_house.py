@@ -20,6 +20,7 @@ FLOORS = [
     "labkit.site",
     "labkit.fresh",
     "labkit.grade",
+    "labkit.proof",
     "labkit.setup",
     "labkit.commands",
 ]

@@ -150,13 +150,16 @@ BAD[3] = [1.0, -1.0]
         ({"q_start": [0] * 6}, r"q_start has shape \(6,\)"),
         ({"T_goal": np.ones((4, 4))}, "T_goal is not a pose"),
         ({"screws": [PANDA]}, "one arm, many targets"),
-        ({"M": np.full((4, 4), np.nan)}, "M holds a number that is not finite"),
+        (
+            {"M_home": np.full((4, 4), np.nan)},
+            "M_home holds a number that is not finite",
+        ),
     ],
 )
 def test_what_does_not_fit_is_named(change, words):
     good = {
         "screws": PANDA,
-        "M": np.eye(4),
+        "M_home": np.eye(4),
         "T_goal": np.eye(4),
         "q_start": READY,
         "limits": np.tile([-1.0, 1.0], (7, 1)),

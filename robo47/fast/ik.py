@@ -55,7 +55,7 @@ class _Problem:
 
 def solve_ik(
     screws: ArrayLike,
-    M: ArrayLike,
+    M_home: ArrayLike,
     T_goal: ArrayLike,
     q_start: ArrayLike,
     limits: ArrayLike,
@@ -68,7 +68,7 @@ def solve_ik(
 
     Args:
         screws: space screws (omega; v) of one arm, (n, 6).
-        M: `T_world_ee` at q = 0, (4, 4).
+        M_home: `T_world_ee` at q = 0, (4, 4).
         T_goal: targets, `T_world_ee`, (..., 4, 4).
         q_start: where to start, radians (metres for slides), (..., n); what is outside
             the limits is brought to the nearest limit first.
@@ -83,7 +83,7 @@ def solve_ik(
         ValueError: wrong shape, a non-finite number, no screw, not a pose, or a lower
             limit above its upper one.
     """
-    S, M, T, q, low, high = _checked(screws, M, T_goal, q_start, limits)
+    S, M_home, T, q, low, high = _checked(screws, M_home, T_goal, q_start, limits)
     lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
     T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
     q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
@@ -92,18 +92,18 @@ def solve_ik(
         part = slice(first, first + CHUNK)
         goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))
         start = np.clip(q[part].T, low, high)
-        out[part] = _solve(_Problem(S, M, goals, low, high), start).T
+        out[part] = _solve(_Problem(S, M_home, goals, low, high), start).T
     return out.reshape(*lead, len(S))
 
 
 def reached(
-    screws: ArrayLike, M: ArrayLike, T_goal: ArrayLike, q: ArrayLike
+    screws: ArrayLike, M_home: ArrayLike, T_goal: ArrayLike, q: ArrayLike
 ) -> np.ndarray:
     """Return whether q brings the end effector to its target, to 1e-8.
 
     Args:
         screws: space screws (omega; v), (n, 6).
-        M: `T_world_ee` at q = 0, (4, 4).
+        M_home: `T_world_ee` at q = 0, (4, 4).
         T_goal: targets, (..., 4, 4).
         q: what `solve_ik` returned, (..., n).
 
@@ -113,7 +113,7 @@ def reached(
     Raises:
         ValueError: as `solve_ik`.
     """
-    e = pose_error(fk_space(screws, M, q), T_goal)
+    e = pose_error(fk_space(screws, M_home, q), T_goal)
     return np.linalg.norm(e, axis=-1) < REACHED
 
 
@@ -271,12 +271,12 @@ def _nearest(
 
 
 def _checked(
-    S: ArrayLike, M: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
+    S: ArrayLike, M_home: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
 ) -> tuple[Array, ...]:
-    S, M = checks.screws(S, "screws"), checks.pose(M, "M")
-    if S.ndim != 2 or M.ndim != 2:
+    S, M_home = checks.screws(S, "screws"), checks.pose(M_home, "M_home")
+    if S.ndim != 2 or M_home.ndim != 2:
         raise ValueError(
-            f"screws has shape {S.shape} and M {M.shape}; expected (n, 6) and (4, 4): "
+            f"screws has shape {S.shape} and M_home {M_home.shape}; expected (n, 6) "
             "one arm, many targets"
         )
     limits = checks.array(limits, "limits", (len(S), 2))
@@ -285,4 +285,4 @@ def _checked(
         i = int(np.argmax(bad))
         raise ValueError(f"limits[{i}] is {limits[i].tolist()}; expected low <= high")
     T, q = checks.pose(T, "T_goal"), checks.array(q, "q_start", (len(S),))
-    return S, M, T, q, low, high
+    return S, M_home, T, q, low, high
