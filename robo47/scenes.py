@@ -111,6 +111,12 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
     return panda.load("panda_nohand", drive=drive, meshes=meshes, edit=edit)
 
 
+def hang_kilogram(spec: mujoco.MjSpec) -> None:
+    """Hang a ball of 1 kg on the end of the arm without a hand; an `edit` of it."""
+    ball = {"mass": 1.0, "inertia": [1e-4, 1e-4, 1e-4], "explicitinertial": True}
+    spec.body("attachment").add_body(name="load", **ball)
+
+
 def on_table(xy: ArrayLike, name: str) -> Array:
     """Return a place for the cube, (2,), after checking that the table is under it.
 

@@ -14,11 +14,10 @@ pytest.importorskip("viser", reason="the extra view")
 from conftest import ROOT
 from labkit.base.git import History
 from labkit.grade.roster import Student
-from labkit.lesson.day import find_day
+from labkit.lesson.day import days_of, find_day
 from labkit.proof import facts, page
 from labkit.proof.class_pages import write_pages
 from labkit.proof.pick import Picked, pick
-from labkit.report.week_labs import days_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
 

@@ -143,7 +143,7 @@ def behind_wall(
         lab: the complete one, whose functions have the same arguments.
         budget: of calls and seconds.
     """
-    session = sandbox.session(script, ROBOTS, library_of(day))
+    session = sandbox.session(script, ROBOTS, library_of(day), limits=day.limits)
     return {
         name: _asked(session, task.id, getattr(lab, name), budget)
         for task in day.tasks

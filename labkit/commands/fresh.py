@@ -23,8 +23,9 @@ from labkit.fresh import FRESH
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
-from labkit.lesson.day import Day, chosen_day
-from labkit.report.week_labs import Ran, days_of, run_labs, week_of
+from labkit.lesson.day import Day, chosen_week, days_of
+from labkit.lesson.week import find_week
+from labkit.report.week_labs import Ran, run_labs
 
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
@@ -81,11 +82,11 @@ def remember(sha: str, wrong: int, missing: int) -> None:
 def main() -> int:
     """Clone, set up, run, compare."""
     parser = cli.parser(__doc__)
-    add = parser.add_argument
-    add("week", type=int, nargs="?", help="default: the one begun last")
-    add("--quick", action="store_true", help="no environment of its own")
+    cli.add_week(parser)
+    quick = "no environment of its own"
+    parser.add_argument("--quick", action="store_true", help=quick)
     options = parser.parse_args()
-    week = week_of(chosen_day(None)) if options.week is None else options.week
+    week = chosen_week(options.week, options.day)
     sha, clock = head_of(), Clock()
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
@@ -93,7 +94,7 @@ def main() -> int:
     ) as folder:
         root = Path(folder).resolve() / "clone"
         clone_commit(sha, root)
-        days = days_of(week, root)
+        days = days_of(find_week(week.number, root))
         missing = findings(days, root)
         clock.say(f"cloned {sha[:7]}")
         with cli.busy("setting it up, half a minute at most"):

@@ -17,10 +17,10 @@ from pathlib import Path
 from labkit.base import cli, store
 from labkit.base.git import GitError
 from labkit.fresh import FRESH
-from labkit.lesson.day import chosen_day
+from labkit.lesson.day import chosen_week, days_of
+from labkit.lesson.week import Week
 from labkit.proof import facts, page
 from labkit.proof.pick import pick
-from labkit.report.week_labs import days_of, week_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
@@ -38,8 +38,7 @@ def main() -> int:
     if not options.out.parent.is_dir():
         folder = shown(options.out.parent.absolute())
         raise Robo47Error(f"{folder} is no folder; choose another place with --out")
-    begun, week = time.monotonic(), options.week
-    week = week_of(chosen_day(None)) if week is None else week
+    begun, week = time.monotonic(), chosen_week(options.week)
     try:
         clone = facts.open_clone(options.of or ROOT, options.name, own=not options.of)
         proof = found(week, clone)
@@ -52,11 +51,11 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def found(week: int, clone: facts.Clone) -> page.Proof:
+def found(week: Week, clone: facts.Clone) -> page.Proof:
     """Check a week's days, run its labs and the capstone.
 
     Raises:
-        Robo47Error: no such week, or nothing of it is begun.
+        Robo47Error: nothing of it is begun.
     """
     days = days_of(week)
     with ExitStack() as stack:

@@ -4,6 +4,7 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest.
 """
 
+import contextlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,15 +15,19 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question
+from labkit.judge.compare import as_one_size, difference
+from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
 from robo47.checks import Array
 
-Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+Parts = tuple[Array, ...]
+Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
+NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -123,8 +128,9 @@ class Ask:
 
     Attributes:
         inputs: from a seeded generator to the arguments of every call: the case of the
-            docstring first, drawn ones last, all calls' arguments of the same shapes.
-            Round what is drawn (`draw.rounded`), so that a student can type it.
+            docstring first, drawn ones last. What is random is an argument: noise is
+            drawn here. Round what is drawn (`draw.rounded`), so that a student can
+            type it. Arrays of bools and of whole numbers stay what they are.
         kind: of the answer; a tuple of kinds where the function returns a tuple.
         truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
             takes them; an oracle, never the lab script.
@@ -174,6 +180,23 @@ class Ask:
         own = self.mistakes() if callable(self.mistakes) else self.mistakes
         return list(own)
 
+    @cached_property
+    def draws(self) -> int:
+        """How often inputs are drawn anew."""
+        *_, last = self.inputs(np.random.default_rng(SEED))
+        size = sum(map(np.size, last))
+        draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
+        return (draws if self.truth else 1) if self.fresh else 0
+
+    @cached_property
+    def edges(self) -> list[tuple[Any, ...]]:
+        """Calls with the edge values of every argument, where one answer is right."""
+        found: dict[str, tuple[Any, ...]] = {}
+        for i in range(self.draws if self.truth else 0):
+            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
+            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
+        return [call for call in found.values() if _well_posed(self, call)]
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -183,7 +206,7 @@ class Asked:
         function: its name.
         ask: its row.
         main: the questions that are the same at every check.
-        fresh: drawn anew.
+        fresh: edge values, and those that are drawn anew.
         held_out: per entry of `ask.held_out`.
         probes: those of `ask.probe`.
     """
@@ -211,29 +234,46 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
         seed: of the fresh inputs; nobody should know it beforehand.
     """
 
-    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
-        calls = inputs(np.random.default_rng(seed))
+    def exchanges(calls: Iterable[Sequence[Any]]) -> list[Exchange]:
         return [Exchange(Question(task, function, tuple(args))) for args in calls]
 
-    main = make(ask.inputs)
-    size = sum(np.size(arg) for arg in main[-1].question.args)
-    draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
-    draws = (draws if ask.truth else 1) if ask.fresh else 0
-    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(draws))
+    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
+        return exchanges(inputs(np.random.default_rng(seed)))
+
+    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(ask.draws))
     return Asked(
         function,
         ask,
-        main,
-        list(chain.from_iterable(drawn)),
+        make(ask.inputs),
+        [*exchanges(ask.edges), *chain.from_iterable(drawn)],
         [make(held.inputs) for held in ask.held_out],
         make(ask.probe.inputs) if ask.probe else [],
+    )
+
+
+def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
+    """Return whether a call has one right answer, whatever its last digits are."""
+    assert ask.truth is not None
+    columns = [_column((arg,)) for arg in call]
+    answers = []
+    for nudge in (0.0, NUDGE, -NUDGE):
+        near = [c + nudge if isinstance(c, np.ndarray) else c for c in columns]
+        with contextlib.suppress(ValueError, ArithmeticError, np.linalg.LinAlgError):
+            answers.append(parts(ask.truth(*near)))
+        if not answers:
+            return False
+    return all(
+        bool(np.all(np.abs(one - first) <= ask.near * kind.scale))
+        for some in answers
+        for one, first, kind in zip(some, answers[0], ask.kinds, strict=True)
     )
 
 
 def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     """Return all questions' arguments, one array (n, ...) per argument.
 
-    A robot is one model for all of them, and a path one path.
+    A robot is one model for all of them, and a path one path. Arguments of several
+    sizes are an array (n,) of arrays.
     """
     columns = zip(*(exchange.question.args for exchange in exchanges), strict=True)
     return tuple(_column(column) for column in columns)
@@ -245,7 +285,12 @@ def _column(column: tuple[Any, ...]) -> Any:
         return first.model
     if isinstance(first, Path):
         return first.pairs
-    return np.array(column, dtype=np.float64)
+    if len({np.shape(one) for one in column}) > 1:  # of several sizes
+        found = np.empty(len(column), dtype=object)
+        found[:] = column
+        return found
+    whole = np.array(column)
+    return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 
 def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:
@@ -261,6 +306,28 @@ def held_out_answers(
     function = held.mistaken or held.truth or ask.truth
     assert function is not None
     return parts(function(*stacked(exchanges)))
+
+
+def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
+    """Return per call the largest difference of an entry, in units of its scale."""
+    trios = zip(S, T, ask.kinds, strict=True)
+    return np.max(
+        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
+    )
+
+
+def off_by(ask: Ask, S: Parts, T: Parts) -> float:
+    """Return the largest difference of any entry, in units of its scale."""
+    return float(gaps(ask, S, T).max())
+
+
+def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
+    """Return the first part of an answer that is wrong, or the one furthest off."""
+    off = [
+        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
+        for s, t, kind in zip(S, T, ask.kinds, strict=True)
+    ]
+    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
 
 
 def parts(answers: Any) -> tuple[Array, ...]:

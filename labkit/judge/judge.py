@@ -13,13 +13,17 @@ from labkit.judge.ask import (
     Asked,
     Case,
     HeldOut,
+    gaps,
     held_out_answers,
     in_words,
+    off_by,
     parts,
     right_answers,
     stacked,
+    worst_part,
 )
-from labkit.judge.compare import difference, matches
+from labkit.judge.compare import as_one, difference, largest, matches
+from labkit.judge.failing import failing_call, for_fresh
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 
@@ -37,10 +41,21 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
+    verdict = _judge(asked, source, names)
+    if verdict.status == "passed":
+        return verdict
+    found = failing_call(asked, names)
+    measured = verdict.measured + found.whole
+    return replace(verdict, call=found.says, measured=measured)
+
+
+def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
+    if size := problems.of_another_size(asked):
+        return Verdict("wrong", *size)
+    if state := problems.kept_state(asked, source):
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
         if asked.ask.accept:
@@ -62,7 +77,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
-    return _second_look(asked, measured, names)
+    return _second_look(asked, S, measured)
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -103,32 +118,7 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
     return found or near_miss.explain(S[i], T[i])
 
 
-def _for_fresh(asked: Asked, S: Parts | Finding, names: Sequence[str]) -> Finding:
-    """Return what is wrong with answers to inputs that are not always asked."""
-    right = "Right for the inputs that are always asked, but not for fresh ones"
-    if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right}. {S.message}")
-    T = right_answers(asked.ask, asked.fresh)
-    gap = gaps(asked.ask, S, T)
-    i, part = int(np.argmax(gap)), worst_part(asked.ask, S, T)
-    wrong = gap > asked.ask.near
-    mine, its = S[part][i], T[part][i]
-    at = np.unravel_index(int(np.argmax(np.abs(mine - its))), mine.shape)
-    where = f"entry {list(map(int, at))} is" if at else "it is"
-    given = in_words(asked.fresh[i].question, names)
-    says = f"{right}, {int(wrong.sum())} of {len(wrong)}"
-    says += f": for {given}" if 0 < len(given) <= 90 else ": for one of them"
-    says += f" {where} {mine[at]:.6g}, and {its[at]:.6g} is right."
-    if not wrong.all():
-        return Finding(
-            "some-inputs", f"{says} Some inputs take another way through your function."
-        )
-    return Finding("looked-up", f"{says} The answers do not come from the inputs.")
-
-
-def _second_look(
-    asked: Asked, measured: tuple[str, ...], names: Sequence[str]
-) -> Verdict:
+def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask, note = asked.ask, ""
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
@@ -137,9 +127,13 @@ def _second_look(
         S = problems.read(replies(asked.fresh), ask, "")
         off = np.inf
         if not isinstance(S, Finding):
-            off = off_by(ask, S, right_answers(ask, asked.fresh))
+            gap = gaps(ask, S, right_answers(ask, asked.fresh))
+            off, lines = float(gap.max()), _counted(ask, gap, "with fresh inputs")
+            measured += lines[1:]
         if off > ask.near:
-            return Verdict("wrong", *_for_fresh(asked, S, names), measured)
+            if np.isfinite(off):  # of the others only that they are right
+                measured = (measured[1], *lines)
+            return Verdict("wrong", *for_fresh(asked, main, S), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         if _found(held, ask, exchanges):
             if held.status != "passed":
@@ -165,16 +159,14 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
-    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
     wrong: list[tuple[Question, Finding]] = []
-    for question, row in zip(questions, zip(*columns, strict=True), strict=True):
-        answer = row[0] if len(row) == 1 else row
+    for question, answer in zip(questions, problems.answers(asked), strict=True):
         args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
         if why := ask.accept(*args, answer):
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((question, found))
     if not wrong:
-        return _second_look(asked, (), names)
+        return _second_look(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     question, found = wrong[0]
@@ -201,20 +193,31 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
 def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
     ask = case.ask
     gap = gaps(ask, S, T)
-    lines = [
-        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
-        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)}",
-    ]
+    lines = list(_counted(ask, gap, "that are always asked"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
     return (*lines, *(ask.measured(case) if ask.measured else ()))
 
 
+def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
+    """Return how far off calls are, and how many are right.
+
+    Args:
+        ask: the row of the function.
+        gap: per call, as `gaps` has it.
+        which: calls these are.
+    """
+    return (
+        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
+    )
+
+
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
+    if found := redone(ask, case.arguments, S, T) or _nothing_there(ask, S):
         return found
     if found := _not_finite(S, case.given):
         return _and_the_finite(found, case, S, T)
@@ -248,7 +251,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = _where(kind, S[i], T[i], case.given, ask.tolerance)
+        where = near_miss.in_common(S[i], T[i])
+        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -292,15 +296,16 @@ def _made_again(
     redo = mistake.redo
     if not isinstance(redo, InTurn):
         return parts(redo(*arguments))
-    finite = [np.abs(s[np.isfinite(s)]) for s in S]
-    largest = [x.max(initial=k.scale) for x, k in zip(finite, ask.kinds, strict=True)]
+    pairs = zip(S, ask.kinds, strict=True)
+    scales = [k.scale * max(1.0, largest(s, k.scale)) for s, k in pairs]
     found: list[Parts] = []
     for i in reversed(range(len(S[0]))):
         found.append(parts(redo.nth(i, arguments)))
-        for s, a, size in zip(S, found[-1], largest, strict=False):
-            if not matches(s[i : i + 1], a[None], size):
+        for s, a, scale, k in zip(S, found[-1], scales, ask.kinds, strict=False):
+            one, again = as_one([s[i], a])
+            if not k.fits(a.shape) or not matches(one[None], again[None], scale):
                 return ()
-    return tuple(map(np.array, zip(*reversed(found), strict=True)))
+    return tuple(map(as_one, zip(*reversed(found), strict=True)))
 
 
 def redone(
@@ -324,31 +329,8 @@ def redone(
     return None
 
 
-def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
-    """Return per call the largest difference of an entry, in units of its scale."""
-    gaps = [
-        difference(s.reshape(len(s), -1), t.reshape(len(t), -1)) / kind.scale
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return np.max(gaps, axis=0)
-
-
-def off_by(ask: Ask, S: Parts, T: Parts) -> float:
-    """Return the largest difference of any entry, in units of its scale."""
-    return float(gaps(ask, S, T).max())
-
-
-def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
-    """Return the first part of an answer that is wrong, or the one furthest off."""
-    off = [
-        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
-
-
-def _nothing_there(S: Parts) -> Finding | None:
-    if any(part.any() for part in S):
+def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
+    if any(part.any() for part in S) or not all(kind.empty for kind in ask.kinds):
         return None
     return Finding(
         "all-zeros",
@@ -382,8 +364,7 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
 
 
 def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
-    flat = difference(S.reshape(len(S), -1), T.reshape(len(T), -1))
-    wrong = flat > near * kind.scale
+    wrong = difference(S, T, kind.scale) > near
     if wrong.all():
         return ""
     right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"

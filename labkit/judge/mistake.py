@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from labkit.judge.compare import as_one
+
 # Words that are symbols of a formula; those of one letter but "a" are, too.
 SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
            "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
@@ -33,6 +35,7 @@ class Verdict:
         wrong_calls: places of the main questions with a wrong answer, where neither a
             named mistake nor anything else says more than by how much.
         function: that was judged.
+        call: the call that failed, in a line, with theirs and the right answer.
     """
 
     status: str
@@ -42,6 +45,7 @@ class Verdict:
     follows: str = ""
     wrong_calls: tuple[int, ...] = ()
     function: str = ""
+    call: str = ""
 
 
 @dataclass(frozen=True)
@@ -95,8 +99,8 @@ class InTurn:
         n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
         answers = [self.nth(i, columns) for i in range(n)]
         if isinstance(answers[0], tuple):
-            return tuple(map(np.array, zip(*answers, strict=True)))
-        return np.array(answers)
+            return tuple(map(as_one, zip(*answers, strict=True)))
+        return as_one(answers)
 
     def nth(self, i: int, columns: Sequence[Any]) -> Any:
         """Return the answer to one question; it gets arrays of its own."""

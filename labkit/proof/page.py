@@ -16,7 +16,7 @@ from labkit.check.lab_run import TRIALS
 from labkit.inspector.recording import ALLOWED
 from labkit.proof.facts import Clone, DayFacts, Number
 from labkit.proof.pick import Picked, film
-from labkit.report.week_labs import name_of, week_of
+from labkit.report.week_labs import name_of
 
 STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
@@ -90,9 +90,8 @@ def render(proof: Proof) -> str:
 
 
 def _week(days: Sequence[DayFacts]) -> str:
-    day = days[0].day
-    topic = day.folder.name.partition("-")[2].replace("-", " ")
-    return escape(f"week {week_of(day)}, {topic}")
+    heading = days[0].day.week.heading
+    return escape(heading[0].lower() + heading[1:])
 
 
 def _about(proof: Proof) -> str:
