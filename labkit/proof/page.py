@@ -85,7 +85,7 @@ def render(proof: Proof) -> str:
     )
     if proof.picked.result is None:
         return page
-    played = escape(film(proof.picked.result, "The pick", nonce))
+    played = escape(film(proof.picked.result).page("The pick", nonce))
     return page.replace(place, played, 1)
 
 
