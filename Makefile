@@ -10,6 +10,7 @@ endif
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the last day that you began.
 ON_DAY = $(if $(DAY),--day $(DAY))
+ON_WEEK = $(WEEK) $(ON_DAY)
 # A script's exit code 1 is "not yet", which is no error of make's.
 NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
 # A picture needs no page in the browser.
@@ -20,7 +21,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: update start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: capstone fresh help test soak report lint docs site oracle figures notebook
+.PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -28,8 +29,8 @@ help: ## this list
 	@sed -n 's/^\([a-z0-9%-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | sed 's/%/1/' \
 	  | awk -F'|' '{printf "%-18s %s\n", $$1, $$2}'
 	@echo
-	@echo "DAY=2 names a day; without it: the last one that you began. ARGS='...' passes"
-	@echo "options on: make day1 ARGS=--no-log"
+	@echo "DAY=2 names a day, WEEK=1 a week; without it: the last one that you began."
+	@echo "ARGS='...' passes options on: make day1 ARGS=--no-log"
 
 day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, log it
 	@$(PY) scripts/run_day.py $* --kit $(ARGS)
@@ -38,10 +39,13 @@ week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one
 	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
 
 capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
-	@$(PY) scripts/capstone.py $(ARGS) $(NOT_YET)
+	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
+
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+	@$(PY) scripts/proof.py $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
-	@$(PY) scripts/fresh.py $(ARGS) $(NOT_YET)
+	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
 view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --screenshot
 	@$(PY) scripts/view_panda.py $(DAY) $(ARGS)
@@ -59,7 +63,7 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
 
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
-	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
+	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
 
 update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
 	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
@@ -67,9 +71,9 @@ update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=http
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
-grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
+grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
-	clones? make grade ROOT=../class))" $(ON_DAY) $(ARGS)
+	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)

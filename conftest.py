@@ -5,10 +5,14 @@ import shutil
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import hypothesis
 import mujoco
+import numpy as np
 import pytest
 
 from labkit.figures import backends
@@ -42,6 +46,47 @@ def need(available: bool, what: str) -> None:
         if os.environ.get("ROBO47_CI"):
             pytest.fail(f"CI must provide {what}")
         pytest.skip(f"needs {what}", allow_module_level=True)
+
+
+class Answers:
+    """A student's file for a tab of the inspector: functions in place of a sandbox."""
+
+    there, version = True, 1
+
+    def __init__(self, functions):
+        from labkit.inspector.checker_calls import describe
+
+        self.functions, self.source = functions, SimpleNamespace()
+        self.source.describe = partial(describe, {})
+
+    def ask(self, questions):
+        from labkit.base.exchange import Reply
+
+        return [
+            Reply(self.functions[one.function](*one.args))
+            if one.function in self.functions
+            else Reply(kind="missing")
+            for one in questions
+        ]
+
+
+def paper(model, q, functions=None):
+    """Return a page that only listens, for a tab of the inspector.
+
+    `own` asks {name: function}, or says that there is no file; a job is done at once.
+    """
+    from labkit.inspector.own import Own
+
+    page = MagicMock(model=model, q=np.array(q, dtype=float))
+    student = None if functions is None else Answers(functions)
+    page.own.side_effect = lambda library, free=(): Own(lambda: student, library, free)
+    page.job.side_effect = lambda work, done: done(work())
+    for name in ("curve", "arrows", "lines", "label", "ghost"):
+        getattr(page.draw, name).side_effect = lambda *_, **__: MagicMock()
+    page.html.side_effect = lambda *text: MagicMock()
+    page.animate.side_effect = lambda *_, **__: MagicMock(running=False)
+    page.pose.return_value = panda.arm(model).at(page.q[:7]).T_world_ee.copy()
+    return page
 
 
 def load_script(path):
@@ -81,6 +126,20 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+def kit_folders() -> list[str]:
+    """Return the names of the folders that a clone needs to run."""
+    from labkit.lesson.week import weeks
+
+    return ["robo47", "labkit", "scripts", "metrics", *(w.folder.name for w in weeks())]
+
+
+def write_week(folder: Path, *days: int) -> None:
+    """Write the manifest of a week with these days, as the folder's name has it."""
+    number, _, name = folder.name[1:].partition("-")
+    text = f'number = {number}\nname = "{name}"\ntitle = "t"\ndays = {[*days]}\n'
+    (folder / "week.toml").write_text(text, "utf-8")
 
 
 def environment_of(clone: Path) -> dict[str, str]:
@@ -124,8 +183,8 @@ def clone(tmp_path):
     """
     copy = tmp_path / "clone"
     copy.mkdir()
-    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
-        skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
+    skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
+    for name in kit_folders():
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     from labkit import log
     from labkit.lesson.day import find_day
@@ -140,10 +199,14 @@ def clone(tmp_path):
 @pytest.fixture
 def one_day(clone):
     """Return that copy with its first day alone: the labs of a week take seconds."""
-    from labkit.lesson.day import all_days
+    from labkit.lesson.week import weeks
 
-    for day in all_days(clone)[1:]:
-        shutil.rmtree(day.own)
+    first, *others = weeks(clone)
+    for week in others:
+        shutil.rmtree(week.folder)
+    for number in first.days[1:]:
+        shutil.rmtree(first.folder / f"day{number}")
+    write_week(first.folder, first.days[0])
     return clone
 
 
@@ -217,10 +280,10 @@ def ask(student):
     from labkit.base.exchange import Exchange, Question, replies
     from labkit.sandbox.sandbox import Sandbox
 
-    def run(code, *questions, library=None, needs=None):
+    def run(code, *questions, library=None, needs=None, limits=None):
         asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
-            sandbox.run(student(code), asked, library, needs)
+            sandbox.run(student(code), asked, library, needs, limits=limits)
         return replies(asked)
 
     return run

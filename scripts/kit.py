@@ -54,12 +54,19 @@ def run(name):
 
 def explain(kind, error, trace):
     """Say in a few lines what ended a script, where a traceback would not help."""
-    if issubclass(kind, KeyboardInterrupt):
+    if interrupted(error):
         end(130, "\nstopped")
     found = own_bug(kind, error, trace)
     if found:
         end(1, *found)
     explain_gl(kind, error, trace)
+
+
+def interrupted(error):
+    """Return whether Ctrl-C led to it; MuJoCo's import makes an ImportError of that."""
+    while error and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def own_bug(kind, error, trace):
@@ -105,7 +112,7 @@ def explain_gl(kind, error, trace):
     end(2, says.format(chosen))
 
 
+sys.excepthook = explain
 if not here():
     go_on()
 os.environ.pop("ROBO47_HANDED_ON", None)  # programs that we start may hand on too
-sys.excepthook = explain

@@ -3,8 +3,15 @@
 import numpy as np
 
 from labkit.base.exchange import Reply
-from labkit.judge.ask import held_out_answers, make_round, parts, right_answers
+from labkit.judge.ask import (
+    held_out_answers,
+    make_round,
+    parts,
+    right_answers,
+    stacked,
+)
 from labkit.judge.judge import judge
+from labkit.judge.mistake import InTurn
 
 FRESH_SEED = 4711
 NONE = Reply(kind="TypeError", error="no such argument")
@@ -20,11 +27,29 @@ def right(ask):
     return right_answers(ask, round_of(ask).main)
 
 
-def replies_of(values):
-    """Return replies with these answers, per part (n, ...), twice the same."""
+def sizes_of(ask, exchanges):
+    """Return the shapes of the right answers where they follow the question, or []."""
+    if not isinstance(ask.truth, InTurn) or all(None not in k.shape for k in ask.kinds):
+        return []
+    arguments = stacked(exchanges)
+    each = [parts(ask.truth.nth(i, arguments)) for i in range(len(exchanges))]
+    return [[np.shape(part) for part in one] for one in each]
+
+
+def cut(answer, shape):
+    """Return an answer without what filled it up to the size of the largest."""
+    return answer[tuple(map(slice, shape))]
+
+
+def replies_of(values, sizes=()):
+    """Return replies with these answers, per part (n, ...), twice the same.
+
+    Where their size follows the question it is `sizes`.
+    """
     columns = parts(values) if isinstance(values, tuple) else (np.asarray(values),)
     found = []
-    for row in zip(*columns, strict=True):
+    for i, row in enumerate(zip(*columns, strict=True)):
+        row = [cut(x, sizes[i][k]) for k, x in enumerate(row)] if sizes else row
         value = row[0] if len(row) == 1 else tuple(np.asarray(part) for part in row)
         value = np.asarray(value) if len(row) == 1 else value
         found.append(Reply(value=value, again=value))
@@ -39,7 +64,8 @@ def answered(exchanges, replies):
 
 def judged(ask, values, source=""):
     """Return the verdict on main answers; all further questions are answered right."""
-    return judged_replies(ask, replies_of(values), source)
+    sizes = sizes_of(ask, round_of(ask).main)
+    return judged_replies(ask, replies_of(values, sizes), source)
 
 
 def judged_replies(ask, replies, source=""):
@@ -47,11 +73,13 @@ def judged_replies(ask, replies, source=""):
     asked = round_of(ask)
     answered(asked.main, replies)
     if asked.fresh:
-        answered(asked.fresh, replies_of(right_answers(ask, asked.fresh)))
+        sizes = sizes_of(ask, asked.fresh)
+        answered(asked.fresh, replies_of(right_answers(ask, asked.fresh), sizes))
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         answers = [NONE] * len(exchanges)
         if not held.mistaken:
-            answers = replies_of(held_out_answers(held, ask, exchanges))
+            sizes = sizes_of(ask, exchanges)
+            answers = replies_of(held_out_answers(held, ask, exchanges), sizes)
         answered(exchanges, answers)
     answered(asked.probes, [NONE] * len(asked.probes))
     return judge(asked, source)

@@ -10,6 +10,7 @@ from conftest import ROOT, kits_worksheet
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days
+from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.library import library_of
 
@@ -58,9 +59,17 @@ class TestManifest:
         assert len(questions) == day.questions
 
     def test_the_guide_explains_every_term_of_the_worksheet(self, day):
+        """A term, or two that people confuse: "screw axis or twist"."""
         guide = (day.folder / day.guide).read_text("utf-8")
-        terms = re.findall(r"^- \*\*(.+?)\*\*: ", guide, re.MULTILINE)
-        assert [term.lower() for term in terms] == [t.lower() for t in day.terms]
+        words = {word.lower() for word in re.findall(r"\*\*(.+?)\*\*", guide)}
+        asked = {word.lower() for term in day.terms for word in term.split(" or ")}
+        assert asked <= words
+
+    def test_the_lab_measures_what_the_worksheet_lets_predict(self, day):
+        rows = predictions(kits_worksheet(day).replace("*(your prediction)*", "?"))
+        lab = day.source.read_text("utf-8")
+        assert rows
+        assert set(re.findall(r'lab\.measured\(\s*"(.+?)"', lab)) <= set(rows)
 
     def test_the_library_of_earlier_days_holds_no_answer_of_this_one(self, day):
         assert not {f"robo47.{name}" for name in day.library} & set(library_of(day))
@@ -99,7 +108,7 @@ def code_of(path):
 
 
 def test_the_machine_names_no_day():
-    words = re.compile(r"\bday[1-7]\b|day[1-7]_|compose_fk|link4_to_world")
+    words = re.compile(r"\bday\d+\b|day\d+_|compose_fk|link4_to_world")
     named = [
         f"{path.relative_to(ROOT)}: {line.strip()}"
         for path in sorted((*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/**/*.py")))

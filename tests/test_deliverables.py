@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conftest import empty_worksheet
+from conftest import empty_worksheet, write_week
 from labkit import log as metrics
 from labkit.handin import check_deliverables, item_names
 from labkit.handin.figure import FlawError, read_png
@@ -73,6 +73,7 @@ def clone(tmp_path):
             place = week / path.relative_to(kit.folder)
             place.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(path, place)
+    write_week(week, 1)
     (copy / "metrics").mkdir()
     (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
     (week / kit.figure).unlink(missing_ok=True)

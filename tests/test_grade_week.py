@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from conftest import ROOT, environment_of
+from conftest import ROOT, environment_of, write_week
 
 pytestmark = pytest.mark.kit
 SCRIPT = "scripts/grade_class.py"
@@ -25,9 +25,10 @@ SCRIPTS = {
 def kit(tmp_path_factory):
     """Return a copy of the kit with day 1 and the toy day in it, and no other."""
     copy = tmp_path_factory.mktemp("kit") / "clone"
-    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
+    for name in ("robo47", "labkit", "scripts", "metrics", "w1-foundations"):
         skipped = shutil.ignore_patterns("__pycache__", "work", "day[2-9]")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+    write_week(copy / "w1-foundations", 1)
     shutil.copytree(TOY, copy / "w9-toy")
     return copy
 

@@ -21,6 +21,7 @@ FLOORS = [
     "labkit.fresh",
     "labkit.grade",
     "labkit.update",
+    "labkit.proof",
     "labkit.setup",
     "labkit.commands",
 ]

@@ -137,3 +137,15 @@ def test_a_broken_environment_does_not_go_in_circles(bare, tmp_path):
     done = bare(tmp_path / "scripts" / "check_day.py", "1")
     assert done.returncode == 1
     assert "not set up completely. Run `make setup`" in done.stderr
+
+
+def test_ctrl_c_while_mujoco_is_imported_is_one_word(tmp_path):
+    script = tmp_path / "lab.py"
+    script.write_text(
+        f"import sys; sys.path.insert(0, {str(ROOT / 'scripts')!r}); import kit\n"
+        "raise ImportError('initialization failed') from KeyboardInterrupt()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (130, "\nstopped\n")

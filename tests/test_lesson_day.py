@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+from conftest import write_week
 from labkit.lesson.day import (
     Metric,
     all_days,
@@ -27,6 +28,7 @@ def edited(tmp_path, *changes):
     path = tmp_path / "w1-x" / "day1" / "day.toml"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, "utf-8")
+    write_week(tmp_path / "w1-x", 1)
     return path
 
 
@@ -46,6 +48,7 @@ def edited(tmp_path, *changes):
         (("drawings = 3", "drawing = 3"), "worksheet: no entry is called drawing"),
         (('id = "1.4"', "id = 1.4"), "expected a text"),
         (("[[metrics]]", "[[metrics"), "cannot be read"),
+        (('read = "Lab', 'seconds = 61\nread = "Lab'), "a grader gives 60 at"),
         (("number = 1", "number = 2"), "number is 2, but the folder is day1"),
         (('read = "Lab', 'without = ["x"]\nread = "Lab'), "no entry is called without"),
     ],
@@ -71,6 +74,7 @@ def test_a_broken_manifest_costs_its_own_day_alone(tmp_path):
     edited(tmp_path)
     (tmp_path / "w1-x" / "day2").mkdir()
     (tmp_path / "w1-x" / "day2" / "day.toml").write_text("number = ")
+    write_week(tmp_path / "w1-x", 1, 2)
     assert find_day(1, tmp_path).title == DAY.title
     with pytest.raises(Robo47Error, match=r"day2/day\.toml cannot be read"):
         find_day(2, tmp_path)
@@ -81,6 +85,7 @@ def test_two_weeks_may_not_have_the_same_day(tmp_path):
     other = tmp_path / "w2-y" / "day1" / "day.toml"
     other.parent.mkdir(parents=True)
     other.write_text(TEXT)
+    write_week(tmp_path / "w2-y", 1)
     with pytest.raises(Robo47Error, match="two days 1"):
         find_day(1, tmp_path)
 
@@ -91,6 +96,7 @@ def test_the_day_begun_last_is_the_default(tmp_path):
     second = tmp_path / "w1-x" / "day2" / "day.toml"
     second.parent.mkdir()
     second.write_text("")
+    write_week(tmp_path / "w1-x", 1, 2)
     assert day_numbers(tmp_path) == [1, 2]
     assert started_day(tmp_path) == 1
     work = tmp_path / "w1-x" / "work"

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from conftest import write_week
 from labkit.lesson.day import Metric
 from labkit.log.header import LINE
 from labkit.log.rows import encode, normalise
@@ -234,6 +235,8 @@ def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
     assert thresholds(tmp_path) == {}
     manifest = tmp_path / "w1-x" / "day1" / "day.toml"
     manifest.parent.mkdir(parents=True)
+    manifest.write_text("")
+    write_week(tmp_path / "w1-x", 1)
     for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
         with pytest.raises(Robo47Error, match=r"day\.toml"):

@@ -3,8 +3,7 @@
 import pytest
 
 from labkit.lesson import originals
-from labkit.lesson.day import find_day
-from labkit.report.week_labs import days_of
+from labkit.lesson.day import days_of, find_day
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -118,7 +117,7 @@ def test_the_week_is_one_table_of_numbers_and_limits(run_in, day):
     head, *lines, end = done.stdout.splitlines()
     assert head.split() == ["day", "whose", "check", "number", "limit"]
     assert end == f"PASS  1 lab, {len(lines)} numbers within their limits"
-    assert len(lines) == sum(len(one.metrics) for one in days_of(1, day.folder.parent))
+    assert len(lines) == sum(len(one.metrics) for one in days_of(day.week))
     assert all("kit's" in line and line.endswith("PASS") for line in lines)
     assert max(map(len, done.stdout.splitlines())) <= 80
     assert log.read_bytes() == before, "a look at the week is no record"

@@ -12,7 +12,7 @@ import sys
 
 import pytest
 
-from conftest import ROOT, environment_of
+from conftest import ROOT, environment_of, kit_folders
 
 pytestmark = pytest.mark.kit
 TOY = ROOT / "tests" / "toyday" / "w9-toy"
@@ -22,7 +22,7 @@ TOY = ROOT / "tests" / "toyday" / "w9-toy"
 def kit(tmp_path_factory):
     """Return a copy of the kit with the toy day in it."""
     copy = tmp_path_factory.mktemp("kit") / "clone"
-    for name in ("robo47", "labkit", "scripts", "w1-foundations", "metrics"):
+    for name in kit_folders():
         skipped = shutil.ignore_patterns("__pycache__", "work")
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     shutil.copytree(TOY, copy / "w9-toy")

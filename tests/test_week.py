@@ -14,13 +14,13 @@ from test_report import MEASURE, dom
 
 from labkit.base import store
 from labkit.check.journal import Met
-from labkit.lesson.day import Metric, find_day
+from labkit.lesson.day import Metric, days_of, find_day
 from labkit.lesson.marks import Writers, file_mark, marks_of
+from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
-from labkit.report.week_labs import days_of, name_of, week_of
-from robo47.errors import Robo47Error
+from labkit.report.week_labs import name_of
 
 pytestmark = pytest.mark.kit
 
@@ -51,12 +51,6 @@ def facts(day, **changed):
         Met("1.8", "chain-reversed", "still there"),
     ]
     return replace(DayFacts(day, [number], 7, 8, 8, 9, 200, 4, met), **changed)
-
-
-def test_a_week_has_the_days_of_its_folder(day, clone):
-    assert {week_of(one) for one in days_of(1, clone)} == {1}
-    with pytest.raises(Robo47Error, match="no week 99 yet; the kit has: 1"):
-        days_of(99, clone)
 
 
 def test_a_number_is_called_by_its_check_and_by_its_metric_where_there_are_two(day):
@@ -241,7 +235,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
         facts(
             d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15, 3) for m in d.metrics]
         )
-        for d in days_of(1)
+        for d in days_of(find_week(1))
     ]
     text = week_page.render(week, "of my log")
     box = "getBoundingClientRect()"

@@ -59,6 +59,13 @@ def parser(about: str | None) -> argparse.ArgumentParser:
     )
 
 
+def add_week(it: argparse.ArgumentParser) -> None:
+    """Add the number of a week, and --day: the week that has it."""
+    says = "default: the one begun last"
+    it.add_argument("week", type=int, nargs="?", help=says)
+    it.add_argument("--day", type=day, metavar="N", help="the week of this day")
+
+
 def add_log(it: argparse.ArgumentParser) -> None:
     """Add --file: which log."""
     it.add_argument(

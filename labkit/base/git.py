@@ -50,12 +50,14 @@ class History:
         readable: whether there is a repository that git can read.
         commit: its hash; "" where there is no commit yet.
         committed: the time that its author gave it, seconds since 1970, or None.
+        author: the name that its author gave; anybody can type any.
         blobs: hash of each wanted file in it, by path.
     """
 
     readable: bool
     commit: str = ""
     committed: int | None = None
+    author: str = ""
     blobs: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, name: str, data: bytes | None) -> bool:
@@ -102,7 +104,7 @@ def read_history(
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
     blobs = {name: facts.split()[2] for facts, _, name in entries if name}
-    return History(True, commit, _time(text), blobs)
+    return History(True, commit, _time(text), _author(text), blobs)
 
 
 def before(clone: Path, moment: int) -> tuple[str, int]:
@@ -335,6 +337,14 @@ def _time(commit: str) -> int | None:
             if seconds.isdecimal() and len(seconds) < 12:
                 return int(seconds) if int(seconds) < YEAR_2100 else None
     return None
+
+
+def _author(commit: str) -> str:
+    """Return who a commit's text says wrote it, without the address."""
+    for line in commit.partition("\n\n")[0].splitlines():
+        if line.startswith("author "):
+            return line.removeprefix("author ").rpartition("<")[0].strip()
+    return ""
 
 
 def _blob_hash(data: bytes, digits: int) -> str:

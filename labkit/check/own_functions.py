@@ -1,6 +1,6 @@
-"""A student's own functions of all days, each replaced by the library's where it fails.
+"""A student's own functions of a week, each replaced by the library's where it fails.
 
-    mine = load()
+    mine = load()               of the last week that has a capstone and is begun
     mine.functions.solve_ik     the student's, if `make check` passes it
     mine.yours, mine.total      how many are theirs: "yours: 61 of 66"
 
@@ -8,16 +8,18 @@ The files run in this process, as `make run` runs them: they are the student's o
 their own machine. Whether a function passes is the checker's word, in its sandbox.
 """
 
+import importlib
 import sys
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
+from typing import Any
 
 from labkit.check import states
 from labkit.check.tasks import check_tasks
-from labkit.lesson.day import Day, all_days
+from labkit.lesson.day import Day, days_of, find_day, started_day
+from labkit.lesson.week import Week, weeks
 from labkit.sandbox.sandbox import Sandbox
-from robo47 import capstone
+from robo47.errors import Robo47Error
 
 
 @dataclass
@@ -25,7 +27,7 @@ class Mine:
     """The week's functions, and whose they are.
 
     Attributes:
-        functions: by name, ready for `capstone.pick`.
+        functions: by name, ready for the capstone's `pick`.
         yours: names that are the student's own.
         replaced: (day, name, why) of those that are the library's.
     """
@@ -40,18 +42,57 @@ class Mine:
         return len(self.yours) + len(self.replaced)
 
 
-def load(days: Iterable[Day] | None = None) -> Mine:
-    """Return the student's functions of some days, by default of all.
+def capstone_week() -> Week:
+    """Return the week whose capstone is meant where none is named: the last begun.
+
+    Raises:
+        Robo47Error: no week has one.
+    """
+    having = [week for week in weeks() if week.capstone]
+    if not having:
+        raise Robo47Error("no week has a capstone")
+    begun = [w for w in having if w.number <= find_day(started_day()).week.number]
+    return (begun or having)[-1]
+
+
+def capstone_of(week: Week) -> Any:
+    """Return the module of a week's capstone.
+
+    Raises:
+        Robo47Error: it has none; names the weeks that have.
+    """
+    if not week.capstone:
+        having = ", ".join(str(w.number) for w in weeks() if w.capstone)
+        raise Robo47Error(
+            f"week {week.number} has no capstone yet; weeks with one: {having}"
+        )
+    return importlib.import_module(f"robo47.{week.capstone}")
+
+
+def load(week: Week | None = None) -> Mine:
+    """Return the student's functions that a week's capstone is made of.
+
+    A name belongs to the day that the capstone's USES has it under: another day's
+    function of that name takes no part.
 
     Args:
-        days: whose files in `work/` are loaded.
+        week: whose; by default as `capstone_week`.
+
+    Raises:
+        Robo47Error: the week has no capstone.
     """
+    week = week or capstone_week()
+    capstone = capstone_of(week)
+    owner = {name: day for day, names in capstone.USES.items() for name in names}
+    earlier = [find_day(n) for n in sorted(set(capstone.USES) - set(week.days))]
     mine = Mine(capstone.library())
-    for day in all_days() if days is None else days:
+    for day in [*earlier, *days_of(week)]:
         why = statuses(day)
         module = _module(day) if "passed" in why.values() else None
         for task in day.tasks:
             for name in task.functions:
+                if owner.get(name, day.number) != day.number:
+                    continue
                 own = getattr(module, name, None)
                 if why[task.id] == "passed" and own is not None:
                     setattr(mine.functions, name, own)

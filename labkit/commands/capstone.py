@@ -1,6 +1,7 @@
 """The capstone of the week: the arm picks the cube up, with your own functions.
 
     make capstone                       one cube, your functions of all days
+    make capstone WEEK=1                of this week; default: the last begun
     make capstone ARGS=--all            twenty random cubes
     make capstone ARGS=--kit            the library's functions alone
     make capstone ARGS=--ablations      what mistakes do, in a table
@@ -21,7 +22,8 @@ from tqdm import tqdm
 
 from labkit.base import cli
 from labkit.check import own_functions
-from robo47 import capstone
+from labkit.lesson.day import chosen_week
+from labkit.lesson.week import Week
 from robo47.capstone.phases import Result
 from robo47.errors import Robo47Error
 
@@ -35,6 +37,7 @@ UNITS = f"{'':26}{'mm':>8}{'mrad':>9}{'mm':>8}{'s':>7}{'of max':>8}{'of max':>7}
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
+    cli.add_week(parser)
     add = parser.add_argument
     add("--all", action="store_true", help="twenty random cubes")
     add("--kit", action="store_true", help="the library's functions")
@@ -44,13 +47,13 @@ def parse() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def chosen(kit_only: bool) -> Any:
+def chosen(week: Week, kit_only: bool) -> Any:
     """Return the functions to do it with, having said whose they are."""
     if kit_only:
         print("functions: the library's")
-        return capstone.library()
+        return own_functions.capstone_of(week).library()
     with cli.busy("checking your functions"):
-        own = own_functions.load()
+        own = own_functions.load(week)
     print(f"yours: {len(own.yours)} of {own.total}")
     for (day, why), count in Counter((d, w) for d, _, w in own.replaced).items():
         names = [name for d, name, w in own.replaced if (d, w) == (day, why)]
@@ -67,7 +70,7 @@ def row(name: str, result: Result) -> str:
     )
 
 
-def pick(fns: Any, *where: Any, **options: Any) -> Result:
+def pick(capstone: Any, fns: Any, *where: Any, **options: Any) -> Result:
     """Pick once; a function that stops is told in a line.
 
     Raises:
@@ -91,22 +94,22 @@ def verdict(failed: int, count: int) -> int:
     return cli.conclude(not failed, f"{count - failed} of {count} placed within 10 mm")
 
 
-def all_cubes(fns: Any) -> int:
+def all_cubes(capstone: Any, fns: Any) -> int:
     """Pick twenty random cubes."""
     print(f"\n{HEAD}\n{UNITS}")
     failed = 0
     for seed in tqdm(range(CUBES), "cubes", leave=False, disable=None):
-        result = pick(fns, *capstone.random_task(seed))
+        result = pick(capstone, fns, *capstone.random_task(seed))
         failed += result.failed
         tqdm.write(row(f"cube {seed + 1}", result), file=sys.stdout)
     return verdict(failed, CUBES)
 
 
-def ablations(fns: Any) -> int:
+def ablations(capstone: Any, fns: Any) -> int:
     """Show what a mistake does: most of them still place the cube."""
     print(f"\n{HEAD}\n{UNITS}")
     for name, (changed, speed) in capstone.ablations(fns).items():
-        print(row(name, pick(changed, speed=speed)), flush=True)
+        print(row(name, pick(capstone, changed, speed=speed)), flush=True)
     print("Placed is no proof: look at the joints and the line.")
     return cli.EXIT_OK
 
@@ -114,12 +117,18 @@ def ablations(fns: Any) -> int:
 def main() -> int:
     """Do what was asked for."""
     options = parse()
-    fns = chosen(options.kit)
+    named = options.week is not None or options.day is not None
+    week = (
+        chosen_week(options.week, options.day)
+        if named
+        else own_functions.capstone_week()
+    )
+    capstone, fns = own_functions.capstone_of(week), chosen(week, options.kit)
     if options.all:
-        return all_cubes(fns)
+        return all_cubes(capstone, fns)
     if options.ablations:
-        return ablations(fns)
-    result = pick(fns)
+        return ablations(capstone, fns)
+    result = pick(capstone, fns)
     print()
     for (name, begins), ends in zip(
         result.phases, [b for _, b in result.phases[1:]] + [result.seconds], strict=True

@@ -10,7 +10,7 @@ A document asks for an output between two comments:
     <!-- end -->
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the table of a week's days, from their manifests:
+the table of a week's days, from their manifests (`w*`: of every week):
 
     <!-- days: w1-foundations -->
     <!-- end -->
@@ -23,15 +23,17 @@ import re
 import shlex
 import subprocess
 import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
 from labkit.base import blocks, cli
-from labkit.lesson.day import all_days
+from labkit.lesson.day import days_of
+from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
-DOCUMENTS += [*sorted((ROOT / "w1-foundations").rglob("*.md"))]
+DOCUMENTS += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -49,7 +51,7 @@ def output_of(command: str) -> str:
     words[:1] = known[words[0]]
     done = subprocess.run(
         words,
-        cwd=ROOT / "w1-foundations" if words[1].startswith("src/") else ROOT,
+        cwd=_folder_of(words[1]),
         env={**os.environ, "COLUMNS": "80"},
         capture_output=True,
         text=True,
@@ -60,6 +62,12 @@ def output_of(command: str) -> str:
     if done.returncode not in (0, *([1] if "check_day" in command else [])):
         raise Robo47Error(f"`{command}` failed: {done.stderr.strip()[-300:]}")
     return done.stdout
+
+
+def _folder_of(script: str) -> Path:
+    """Return where a command runs: a lab's in its week's folder."""
+    found = (w.folder for w in weeks() if script.startswith("src/"))
+    return next((folder for folder in found if (folder / script).is_file()), ROOT)
 
 
 def wanted(request: str) -> str:
@@ -92,20 +100,22 @@ def same(old: str, new: str) -> bool:
     )
 
 
-def days_table(week: str, folder: Path) -> str:
+def days_table(wanted: str, folder: Path) -> str:
     """Return the table of a week's days, with links from a folder.
 
     Args:
-        week: the name of its folder.
+        wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
     lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
-    for day in all_days():
-        if day.folder.name == week:
+    for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
+        for day in days_of(week):
             guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
             title = f"[{day.number}: {day.title}]({guide})"
             command = f"`make day{day.number}`"
             lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
+        for soon in week.soon:
+            lines.append(f"| {soon.number}: {soon.title} | | not written yet | |")
     return "\n".join(lines) + "\n"
 
 
@@ -128,8 +138,8 @@ def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
         body = f"```text\n{wanted(request).rstrip()}\n```\n"
         return renewed(request, old, body)
 
-    def days(week: str, old: str) -> str:
-        return renewed(week, old, days_table(week, folder))
+    def days(request: str, old: str) -> str:
+        return renewed(request, old, days_table(request, folder))
 
     return blocks.refill(document, {"run": run, "days": days}), drifted
 

@@ -10,19 +10,22 @@ numbers are compared with the rows that you committed. Nothing is logged.
 Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
 """
 
+import datetime
 import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.base.processes import sweep
 from labkit.base.words import count
+from labkit.fresh import FRESH
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
-from labkit.lesson.day import Day, chosen_day
-from labkit.report.week_labs import Ran, days_of, run_labs, week_of
+from labkit.lesson.day import Day, chosen_week, days_of
+from labkit.lesson.week import find_week
+from labkit.report.week_labs import Ran, run_labs
 
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
@@ -69,14 +72,20 @@ def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
     return cli.conclude(True, says)
 
 
+def remember(sha: str, week: int, wrong: int) -> None:
+    """Keep the result: `make proof` shows it for as long as the commit is the last."""
+    when = datetime.date.today().isoformat()
+    store.write(FRESH, {"commit": sha, "week": week, "wrong": wrong, "date": when})
+
+
 def main() -> int:
     """Clone, set up, run, compare."""
     parser = cli.parser(__doc__)
-    add = parser.add_argument
-    add("week", type=int, nargs="?", help="default: the one begun last")
-    add("--quick", action="store_true", help="no environment of its own")
+    cli.add_week(parser)
+    quick = "no environment of its own"
+    parser.add_argument("--quick", action="store_true", help=quick)
     options = parser.parse_args()
-    week = week_of(chosen_day(None)) if options.week is None else options.week
+    week = chosen_week(options.week, options.day)
     sha, clock = head_of(), Clock()
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
@@ -84,11 +93,13 @@ def main() -> int:
     ) as folder:
         root = Path(folder).resolve() / "clone"
         clone_commit(sha, root)
-        days = days_of(week, root)
+        days = days_of(find_week(week.number, root))
         missing = findings(days, root)
         clock.say(f"cloned {sha[:7]}")
         with cli.busy("setting it up, half a minute at most"):
             clone = set_up(root, anew=not options.quick)
         clock.say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = run_week(days, clone, clock)
-    return verdict(labs, [*missing, *wrong])
+    code = verdict(labs, [*missing, *wrong])
+    remember(sha, week, len(missing) + len(wrong))
+    return code

@@ -2,9 +2,10 @@
 
     python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python3 scripts/grade_class.py CLONES --day 1-7      a week; or --day all
+    python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
+    python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
@@ -40,7 +41,9 @@ from labkit.grade.package import version
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
-from labkit.lesson.day import Day, all_days, find_day
+from labkit.lesson.day import Day, all_days, days_of, find_day
+from labkit.lesson.week import find_week
+from labkit.proof.class_pages import write_pages
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
@@ -53,7 +56,8 @@ def parse() -> argparse.Namespace:
     parser = cli.parser(__doc__)
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
-    add("--day", default="1", metavar="N|N-M|all", help="default: 1")
+    add("--day", metavar="N|N-M|all", help="default: 1")
+    add("--week", type=int, metavar="N", help="all days of this week")
     add(
         "--out",
         type=Path,
@@ -83,6 +87,7 @@ def parse() -> argparse.Namespace:
         help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
+    add("--proof", action="store_true", help="a page to show for each, of the week")
     add(
         "--again",
         nargs="?",
@@ -135,12 +140,17 @@ def admit(options: argparse.Namespace) -> None:
         )
 
 
-def chosen(text: str) -> list[Day]:
-    """Return the days that "2", "1-7" or "all" means.
+def chosen(text: str | None, week: int | None = None) -> list[Day]:
+    """Return the days that "2", "1-7" or "all" means, or a week.
 
     Raises:
-        Robo47Error: it means none.
+        Robo47Error: it means none, or both are given.
     """
+    if week is not None:
+        if text:
+            raise Robo47Error("--day and --week: name one of the two")
+        return days_of(find_week(week))
+    text = text or "1"
     if text == "all":
         return all_days()
     span = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
@@ -186,7 +196,7 @@ def main() -> int:
     options = parse()
     if options.kit:
         return with_kit(options.kit)
-    days = chosen(options.day)
+    days = chosen(options.day, options.week)
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"
@@ -201,6 +211,8 @@ def main() -> int:
     if several:
         write(out, as_csv(week))
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+    if options.proof:
+        prove(week, out.parent / "proof", options.processes)
     tell(tally, week, out)
     return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
 
@@ -275,6 +287,15 @@ def grade_day(
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
+
+
+def prove(week: Week, folder: Path, at_once: int) -> None:
+    """Write each student's page to show; say who has none, and why."""
+    pages = write_pages(week.students, week.days[-1].week.number, folder, at_once)
+    without = [(student, why) for student, why in pages if why]
+    print(f"pages to show: {len(week.students) - len(without):,} in {shown(folder)}")
+    for student, why in without:
+        print(cli.wrapped(f"{student.name}: {why}", "  "))
 
 
 def tell(tally: Tally, week: Week, out: Path) -> None:

@@ -19,13 +19,13 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.check import states
-from labkit.lesson.day import Day, all_days, chosen_day, find_day
+from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
+from labkit.lesson.week import Week
 from labkit.log.progress import watched
 from labkit.log.scan import scan
 from labkit.report import page
 from labkit.report.series import Report, collect, thresholds
-from labkit.report.week_labs import week_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -44,11 +44,12 @@ def main() -> int:
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
-    week = week_of(chosen_day(None)) if whole else None
+    week = chosen_week(None) if whole else None
+    number = week.number if week else None
     checked: dict[int | None, str] = {}
     if mine:
         checked |= {day.number: last_check(day) for day in days}
-    write(out / "report.html", page.render(report, heading, week, checked).encode())
+    write(out / "report.html", page.render(report, heading, number, checked).encode())
     if week is not None:
         write_week(report, heading, out, week, args.file)
     print(
@@ -65,15 +66,15 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path, week: int, log: Path) -> None:
+def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
-    from labkit.report.week_labs import days_of
 
     series = {(one.day, one.check, one.metric): one for one in report.series}
     facts = [facts_of(day, series) for day in days_of(week)]
-    write(out / f"report-week{week}.html", week_page.render(facts, heading).encode())
+    page = week_page.render(facts, heading)
+    write(out / f"report-week{week.number}.html", page.encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
         for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}")

@@ -42,15 +42,14 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
     from labkit.inspector.arm import Arm
     from labkit.inspector.serve import Show, serve
 
-    about = panda.describe(entry)
-    print(about, flush=True)
+    print(panda.describe(entry), flush=True)
+    about = ""
     if files.panda_folder() is None:
-        missing = (
+        about = (
             "The robot's meshes are not here: simple shapes are drawn, with the same "
             "frames (python3 scripts/fetch_menagerie.py fetches them)"
         )
-        print(missing)
-        about = f"{about}. {missing}"
+        print(about)
     arm = Arm(panda.load(entry), panda.END_FRAME[entry])
     arm.move(arm.named_q[start])
     dressed = functools.partial(panda.load, entry, meshes=True)

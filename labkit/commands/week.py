@@ -14,8 +14,9 @@ from tqdm import tqdm
 
 from labkit.base import cli
 from labkit.base.words import count, number_of
+from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.marks import writers_of
-from labkit.report.week_labs import Ran, days_of, name_of, run_labs
+from labkit.report.week_labs import Ran, name_of, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit", "")
@@ -68,13 +69,13 @@ def verdict(labs: Sequence[Ran], failed: int) -> int:
 def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
-    parser.add_argument("week", type=int, nargs="?", default=1, help="default: 1")
+    cli.add_week(parser)
     parser.add_argument("--kit", action="store_true", help="the kit's labs alone")
     parser.add_argument(
         "--no-log", action="store_true", help="as the labs have it; a week never logs"
     )
     options = parser.parse_args()
-    days = days_of(options.week)
+    days = days_of(chosen_week(options.week, options.day))
     running = run_labs(days, kits=options.kit)
     labs = list(tqdm(running, "labs", len(days), leave=False, disable=None))
     print(as_table([line for ran in labs for line in lines_of(ran)]))

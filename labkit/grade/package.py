@@ -21,6 +21,7 @@ from robo47.paths import ROOT
 _DECIDES = (
     "robo47/**/*.py",
     "labkit/**/*.py",
+    "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
     "w*/src/*.py",

@@ -59,7 +59,7 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
         raise Robo47Error(
             f"{shown(root)} is no folder; expected one that holds a clone per student"
         )
-    if (root / "w1-foundations").is_dir():
+    if any(root.glob("w*/day*/day.toml")):
         raise Robo47Error(
             f"{shown(root)} is itself a clone; give the folder that holds the clones"
         )

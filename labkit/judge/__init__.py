@@ -3,7 +3,8 @@
     row         a day's file on one function: inputs, right answer, mistakes
     ask         a function's row: inputs, truth, kind of answer, mistakes; its questions
     kinds       what kind of thing an answer is, which decides the words
-                (matrix_kinds: Jacobians and others; rigid_kinds: rotations, poses)
+                (matrix_kinds: Jacobians, covariances; rigid_kinds: rotations, poses;
+                other_kinds: counts, yes or no, paths, pixels, images)
     draw        inputs for questions
     problems    did an answer come back, of the right shape and type? If not, the words
     mistake     a mistake that has a name, and the same mistake made on purpose
@@ -20,18 +21,24 @@ What is special about a day stands in the day's own folder.
 
 from labkit.judge.ask import Ask, Case, HeldOut, Probe, Robot, Slip
 from labkit.judge.kinds import Points, Scalar, Twist, Vector, Wrench
-from labkit.judge.matrix_kinds import Jacobian, Matrix, Symmetric
+from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
+from labkit.judge.other_kinds import Count, Image, Mask, Pixels, Waypoints
 from labkit.judge.rigid_kinds import Pose, Rotation
 
 __all__ = [
     "Ask",
     "Case",
+    "Count",
+    "Covariance",
     "Finding",
     "HeldOut",
+    "Image",
     "Jacobian",
+    "Mask",
     "Matrix",
     "Mistake",
+    "Pixels",
     "Points",
     "Pose",
     "Probe",
@@ -43,5 +50,6 @@ __all__ = [
     "Twist",
     "Vector",
     "Verdict",
+    "Waypoints",
     "Wrench",
 ]

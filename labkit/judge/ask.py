@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question
-from labkit.judge.compare import difference
+from labkit.judge.compare import as_one_size, difference
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
@@ -23,7 +23,7 @@ from robo47 import panda
 from robo47.checks import Array
 
 Parts = tuple[Array, ...]
-Inputs = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
@@ -128,8 +128,9 @@ class Ask:
 
     Attributes:
         inputs: from a seeded generator to the arguments of every call: the case of the
-            docstring first, drawn ones last, all calls' arguments of the same shapes.
-            Round what is drawn (`draw.rounded`), so that a student can type it.
+            docstring first, drawn ones last. What is random is an argument: noise is
+            drawn here. Round what is drawn (`draw.rounded`), so that a student can
+            type it. Arrays of bools and of whole numbers stay what they are.
         kind: of the answer; a tuple of kinds where the function returns a tuple.
         truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
             takes them; an oracle, never the lab script.
@@ -182,7 +183,8 @@ class Ask:
     @cached_property
     def draws(self) -> int:
         """How often inputs are drawn anew."""
-        size = sum(np.size(arg) for arg in self.inputs(np.random.default_rng(SEED))[-1])
+        *_, last = self.inputs(np.random.default_rng(SEED))
+        size = sum(map(np.size, last))
         draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
         return (draws if self.truth else 1) if self.fresh else 0
 
@@ -191,8 +193,8 @@ class Ask:
         """Calls with the edge values of every argument, where one answer is right."""
         found: dict[str, tuple[Any, ...]] = {}
         for i in range(self.draws if self.truth else 0):
-            calls = self.inputs(Edges(np.random.PCG64([SEED, i])))[-self.fresh :]
-            found |= {repr(call): tuple(call) for call in calls}
+            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
+            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
         return [call for call in found.values() if _well_posed(self, call)]
 
 
@@ -270,7 +272,8 @@ def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
 def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     """Return all questions' arguments, one array (n, ...) per argument.
 
-    A robot is one model for all of them, and a path one path.
+    A robot is one model for all of them, and a path one path. Arguments of several
+    sizes are an array (n,) of arrays.
     """
     columns = zip(*(exchange.question.args for exchange in exchanges), strict=True)
     return tuple(_column(column) for column in columns)
@@ -282,7 +285,12 @@ def _column(column: tuple[Any, ...]) -> Any:
         return first.model
     if isinstance(first, Path):
         return first.pairs
-    return np.array(column, dtype=np.float64)
+    if len({np.shape(one) for one in column}) > 1:  # of several sizes
+        found = np.empty(len(column), dtype=object)
+        found[:] = column
+        return found
+    whole = np.array(column)
+    return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 
 def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:
@@ -302,11 +310,10 @@ def held_out_answers(
 
 def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
-    gaps = [
-        difference(s.reshape(len(s), -1), t.reshape(len(t), -1)) / kind.scale
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return np.max(gaps, axis=0)
+    trios = zip(S, T, ask.kinds, strict=True)
+    return np.max(
+        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
+    )
 
 
 def off_by(ask: Ask, S: Parts, T: Parts) -> float:

@@ -1,8 +1,10 @@
 """How far apart two sets of answers are, as a number and in words."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from labkit.judge.matrices import transposed
 from robo47 import se3
@@ -12,28 +14,62 @@ MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
 
 
-def difference(a: Array, b: Array) -> Array:
-    """Return the largest difference of any entry per case, (n,); one NaN is inf."""
+def gap(a: Array, b: Array) -> Array:
+    """Return how far apart entries are, (n, ...); one NaN is inf."""
     with np.errstate(invalid="ignore"):
         alike = (a == b) | (np.isnan(a) & np.isnan(b))  # inf equals inf, NaN NaN
-        gap = np.where(alike, 0.0, np.abs(a - b))
-    return (
-        np.nan_to_num(gap, nan=np.inf, posinf=np.inf).reshape(len(gap), -1).max(axis=1)
-    )
+        apart = np.where(alike, 0.0, np.abs(a - b))
+    return np.nan_to_num(apart, nan=np.inf, posinf=np.inf)
 
 
-def matches(a: Array, b: Array, scale: float = 1.0) -> bool:
+def difference(a: Array, b: Array, scale: float | Array = 1.0) -> Array:
+    """Return the largest difference of any entry per case, (n,); one NaN is inf.
+
+    Args:
+        a: (n, ...).
+        b: the same.
+        scale: what it is measured in: a number, or an array with one for each entry.
+    """
+    return (gap(a, b) / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
+
+
+def matches(a: Array, b: Array, scale: float | Array = 1.0) -> bool:
     """Return whether a is b at every case, within rounding of b's largest entry.
 
     Args:
         a: (n, ...).
         b: the same.
-        scale: what an entry is like, where b's are all small.
+        scale: what an entry is like, where b's are all small; as in `difference`.
     """
     if a.shape != b.shape:
         return False
-    finite = np.abs(b[np.isfinite(b)])
-    return bool(difference(a, b).max() <= MATCHES * max(scale, finite.max(initial=0.0)))
+    size = largest(b, scale)
+    return bool(difference(a, b, scale).max(initial=0.0) <= MATCHES * max(1.0, size))
+
+
+def largest(a: Array, scale: float | Array = 1.0) -> float:
+    """Return the largest finite entry, in units of a scale."""
+    sizes = np.abs(a / np.asarray(scale))
+    return float(sizes[np.isfinite(sizes)].max(initial=0.0))
+
+
+def as_one(some: Sequence[ArrayLike]) -> Array:
+    """Return arrays as one, (n, ...); smaller ones are filled up with zeros."""
+    arrays = [np.asarray(one, dtype=np.float64) for one in some]
+    sizes = zip(*(one.shape for one in arrays), strict=True)  # refuses other depths
+    whole = np.zeros((len(arrays), *map(max, sizes)))
+    for at, one in enumerate(arrays):
+        place: tuple[Any, ...] = (at, *map(slice, one.shape))
+        whole[place] = one
+    return whole
+
+
+def as_one_size(a: Array, b: Array) -> tuple[Array, Array]:
+    """Return two arrays (n, ...) with the smaller one filled up with zeros."""
+    if a.shape == b.shape:
+        return a, b
+    both = as_one([a, b])
+    return both[0], both[1]
 
 
 def rigid(M: Array) -> bool:

@@ -18,7 +18,7 @@ from labkit.judge.ask import (
     right_answers,
     worst_part,
 )
-from labkit.judge.compare import difference
+from labkit.judge.compare import as_one_size, difference
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
@@ -87,7 +87,8 @@ def _wrong(
     i, part = int(np.argmax(gap)), worst_part(ask, S, T)
     if gap[i] <= ask.tolerance:
         return None
-    mine, its, question = S[part][i], T[part][i], exchanges[i].question
+    mine, its = (some[i] for some in as_one_size(S[part], T[part]))
+    question = exchanges[i].question
     apart = np.nan_to_num(np.abs(mine - its), nan=np.inf)
     at = np.unravel_index(int(np.argmax(apart)), mine.shape)
     place = f"[{part}]" if len(S) > 1 else ""

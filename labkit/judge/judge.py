@@ -22,7 +22,7 @@ from labkit.judge.ask import (
     stacked,
     worst_part,
 )
-from labkit.judge.compare import difference, matches
+from labkit.judge.compare import as_one, difference, largest, matches
 from labkit.judge.failing import failing_call, for_fresh
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
@@ -53,7 +53,9 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if state := problems.kept_state(replies([*asked.main, *asked.fresh])):
+    if size := problems.of_another_size(asked):
+        return Verdict("wrong", *size)
+    if state := problems.kept_state(asked, source):
         return Verdict("wrong", *state)
     with np.errstate(all="ignore"):  # whatever the student's numbers lead to
         if asked.ask.accept:
@@ -157,10 +159,8 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
-    columns = [np.concatenate(pair) for pair in zip(S, fresh, strict=True)]
     wrong: list[tuple[Question, Finding]] = []
-    for question, row in zip(questions, zip(*columns, strict=True), strict=True):
-        answer = row[0] if len(row) == 1 else row
+    for question, answer in zip(questions, problems.answers(asked), strict=True):
         args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
         if why := ask.accept(*args, answer):
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
@@ -217,7 +217,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    if found := redone(ask, case.arguments, S, T) or _nothing_there(S):
+    if found := redone(ask, case.arguments, S, T) or _nothing_there(ask, S):
         return found
     if found := _not_finite(S, case.given):
         return _and_the_finite(found, case, S, T)
@@ -251,7 +251,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = _where(kind, S[i], T[i], case.given, ask.tolerance)
+        where = near_miss.in_common(S[i], T[i])
+        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -295,15 +296,16 @@ def _made_again(
     redo = mistake.redo
     if not isinstance(redo, InTurn):
         return parts(redo(*arguments))
-    finite = [np.abs(s[np.isfinite(s)]) for s in S]
-    largest = [x.max(initial=k.scale) for x, k in zip(finite, ask.kinds, strict=True)]
+    pairs = zip(S, ask.kinds, strict=True)
+    scales = [k.scale * max(1.0, largest(s, k.scale)) for s, k in pairs]
     found: list[Parts] = []
     for i in reversed(range(len(S[0]))):
         found.append(parts(redo.nth(i, arguments)))
-        for s, a, size in zip(S, found[-1], largest, strict=False):
-            if not matches(s[i : i + 1], a[None], size):
+        for s, a, scale, k in zip(S, found[-1], scales, ask.kinds, strict=False):
+            one, again = as_one([s[i], a])
+            if not k.fits(a.shape) or not matches(one[None], again[None], scale):
                 return ()
-    return tuple(map(np.array, zip(*reversed(found), strict=True)))
+    return tuple(map(as_one, zip(*reversed(found), strict=True)))
 
 
 def redone(
@@ -327,8 +329,8 @@ def redone(
     return None
 
 
-def _nothing_there(S: Parts) -> Finding | None:
-    if any(part.any() for part in S):
+def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
+    if any(part.any() for part in S) or not all(kind.empty for kind in ask.kinds):
         return None
     return Finding(
         "all-zeros",
@@ -362,8 +364,7 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
 
 
 def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
-    flat = difference(S.reshape(len(S), -1), T.reshape(len(T), -1))
-    wrong = flat > near * kind.scale
+    wrong = difference(S, T, kind.scale) > near
     if wrong.all():
         return ""
     right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"

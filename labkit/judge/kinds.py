@@ -7,11 +7,12 @@ are stacked, (n, *shape); S is the student's, T the right one.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from labkit.judge.compare import (
-    difference,
+    gap,
     matches,
     millimetres,
     say_factor,
@@ -43,21 +44,32 @@ class Kind:
     """Any array of numbers; the base of the others.
 
     Attributes:
-        shape: of one answer.
+        shape: of one answer; None is a size that the question decides.
         unit: of its entries, "" where they have none.
-        scale: what an entry is like; errors are judged in units of it.
+        scale: what an entry is like; errors are judged in units of it. An array, (m, n)
+            say, gives each entry a weight of its own.
         called: what it is in a sentence, "the torque"; used where a tuple has several.
     """
 
-    shape: tuple[int, ...] = ()
+    shape: tuple[int | None, ...] = ()
     unit: str = ""
-    scale: float = 1.0
+    scale: Any = 1.0
     called: str = ""
+    empty = True  # whether an answer that is all 0 looks like one that was never filled
 
     @property
     def expected(self) -> str:
         """What is expected, with its article: "a 4x4 matrix"."""
-        return f"an array of shape {self.shape}"
+        return f"an array of shape {self.shape}".replace("None", "any")
+
+    def fits(self, shape: tuple[int, ...]) -> bool:
+        """Return whether an answer may have a shape."""
+        pairs = zip(shape, self.shape, strict=False)
+        return len(shape) == len(self.shape) and all(n in (m, None) for m, n in pairs)
+
+    def plain(self, answer: Array) -> Array:
+        """Return an answer without differences that make none."""
+        return answer
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
@@ -69,9 +81,11 @@ class Kind:
 
     def apart(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst, in words; "0" for rounding."""
-        worst = float(difference(S, T).max())
+        off = gap(S, T)
+        scale = np.broadcast_to(self.scale, off.shape)
+        at = np.unravel_index(np.argmax(off / scale), off.shape)
         entry = " in one entry" if self.shape else ""
-        return say_value(worst, self.unit, self.scale, entry)
+        return say_value(float(off[at]), self.unit, float(scale[at]), entry)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -105,7 +119,7 @@ class Vector(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        return f"a vector of {self.shape[0]} numbers"
+        return f"a vector of {self.shape[0]} numbers".replace(" of None numbers", "")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         return (
@@ -155,7 +169,7 @@ class _Halves(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         first, second = (
-            float(np.abs(S[:, half] - T[:, half]).max()) / self.scale
+            float((np.abs(S - T) / self.scale)[:, half].max())
             for half in (slice(0, 3), slice(3, 6))
         )
         if found := one_factor(self, S, T):
@@ -249,5 +263,5 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     )
 
 
-def _with_an_axis(shape: tuple[int, ...]) -> set[tuple[int, ...]]:
+def _with_an_axis(shape: tuple[int | None, ...]) -> set[tuple[int | None, ...]]:
     return {(*shape, 1), (1, *shape)}

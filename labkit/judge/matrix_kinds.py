@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.judge.compare import difference
+from labkit.judge.compare import difference, gap
 from labkit.judge.kinds import NEAR, NEGATED, TRUNCATED, Kind, one_factor
 from labkit.judge.matrices import transposed
 from labkit.judge.mistake import Finding, Mistake
@@ -30,11 +30,11 @@ class Matrix(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        m, n = self.shape
+        m, n = (n or "any" for n in self.shape)
         return f"a {m}x{n} matrix"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        square = self.shape[0] == self.shape[1]
+        square = self.shape[0] == self.shape[1] is not None
         return (TRANSPOSED, NEGATED, TRUNCATED) if square else (NEGATED, TRUNCATED)
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
@@ -66,9 +66,9 @@ class Jacobian(Matrix):
         return (swapped, NEGATED, TRUNCATED)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        gap = np.abs(S - T).max(axis=0) > NEAR * self.scale
-        bad = np.flatnonzero(gap.any(axis=0))
-        rows = gap.any(axis=1)
+        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        bad = np.flatnonzero(wrong.any(axis=0))
+        rows = wrong.any(axis=1)
         where = (
             ""
             if rows.all() or (rows[:3].any() and rows[3:].any())
@@ -97,16 +97,17 @@ class Symmetric(Matrix):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         skew = float(np.abs(S - transposed(S)).max())
-        if skew > NEAR * self.scale:
+        if float(difference(S, transposed(S), self.scale).max()) > NEAR:
             return Finding(
                 "not-symmetric",
                 f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
                 f"off by up to {self.apart(S, T)}.",
             )
-        diagonal = np.eye(self.shape[0], dtype=bool)
-        if difference(S[:, ~diagonal], T[:, ~diagonal]).max() <= NEAR * self.scale:
+        off = gap(S, T) / self.scale
+        diagonal = np.eye(S.shape[-1], dtype=bool)
+        if off[:, ~diagonal].max(initial=0.0) <= NEAR:
             says = "Only the diagonal is wrong"
-        elif difference(S[:, diagonal], T[:, diagonal]).max() <= NEAR * self.scale:
+        elif off[:, diagonal].max() <= NEAR:
             says = "The diagonal is right, the rest is not"
         else:
             return super().what_is_wrong(S, T)
@@ -116,6 +117,42 @@ class Symmetric(Matrix):
         sym = 0.5 * (S + transposed(S))
         least = np.linalg.eigvalsh(sym).min() if np.isfinite(S).all() else np.nan
         return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
+
+
+INVERSE = Mistake(
+    "inverse",
+    "it is the inverse, which says how much is known; a covariance says how little",
+    lambda P: np.linalg.inv(P),
+    "its inverse",
+)
+ROOTS = Mistake(
+    "sigma-for-variance",
+    "its entries are sigma, and a covariance holds sigma squared",
+    lambda P: np.sign(P) * np.sqrt(np.abs(P)),
+    "the root of each entry",
+)
+
+
+@dataclass(frozen=True)
+class Covariance(Symmetric):
+    """A covariance, compared up to what rounding leaves of its symmetry."""
+
+    def plain(self, answer: Array) -> Array:  # noqa: D102
+        skew = np.abs(answer - answer.T) / self.scale
+        return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        return (INVERSE, ROOTS, NEGATED, TRUNCATED)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0
+        if one_factor(self, S, T) or least >= -NEAR * np.max(self.scale):
+            return super().what_is_wrong(S, T)
+        return Finding(
+            "not-positive",
+            f"It has a negative eigenvalue ({least:.3g}), so it is no covariance; off "
+            f"by up to {self.apart(S, T)}.",
+        )
 
 
 def few_entries(
@@ -129,8 +166,8 @@ def few_entries(
         T: the right ones.
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
-    gap = np.abs(S - T)
-    rows, columns = np.nonzero(gap.max(axis=0) > NEAR * kind.scale)
+    apart = np.abs(S - T)
+    rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
     if not len(rows):
         return None
     one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
@@ -150,6 +187,6 @@ def few_entries(
         return None
     return Finding(
         "few-entries-off",
-        f"All entries are right but {where}: up to {gap.max():.2g} off. Look there for "
-        "a wrong sign, letter or factor.",
+        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
+        "for a wrong sign, letter or factor.",
     )

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from labkit.judge.compare import as_one
+
 # Words that are symbols of a formula; those of one letter but "a" are, too.
 SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
            "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
@@ -97,8 +99,8 @@ class InTurn:
         n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
         answers = [self.nth(i, columns) for i in range(n)]
         if isinstance(answers[0], tuple):
-            return tuple(map(np.array, zip(*answers, strict=True)))
-        return np.array(answers)
+            return tuple(map(as_one, zip(*answers, strict=True)))
+        return as_one(answers)
 
     def nth(self, i: int, columns: Sequence[Any]) -> Any:
         """Return the answer to one question; it gets arrays of its own."""

@@ -1,16 +1,18 @@
 """What keeps replies from being judged: no answer, a wrong shape, memory, state."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Reply
-from labkit.judge.ask import Ask
+from labkit.base.exchange import Reply, replies
+from labkit.judge.ask import Ask, Asked, parts, stacked
+from labkit.judge.compare import as_one
 from labkit.judge.kinds import Kind
-from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.mistake import Finding, InTurn, Verdict
+from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
@@ -148,21 +150,64 @@ def read(
             return row
         for column, part in zip(columns, row, strict=True):
             column.append(part)
-    return tuple(np.stack(column).astype(np.float64) for column in columns)
+    return tuple(map(as_one, columns))
 
 
-def kept_state(replies: Sequence[Reply]) -> Finding | None:
+def answers(asked: Asked) -> Iterator[Any]:
+    """Yield the answers to all questions, none of them filled up: what `accept` takes.
+
+    Args:
+        asked: questions whose replies `read` has read.
+    """
+    for reply in replies([*asked.main, *asked.fresh]):
+        row = _parts(reply.value, asked.ask.kinds)
+        parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
+        yield parts[0] if len(parts) == 1 else tuple(parts)
+
+
+def of_another_size(asked: Asked) -> Finding | None:
+    """Return that answers have not the size that their questions ask for, if so."""
+    truth, kinds = asked.ask.truth, asked.ask.kinds
+    if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
+        return None
+    arguments = stacked(asked.main)
+    for i, exchange in enumerate(asked.main):
+        right, value = (
+            parts(truth.nth(i, arguments)),
+            exchange.reply and exchange.reply.value,
+        )
+        answers: Any = value if len(kinds) > 1 else (value,)
+        for T, S in zip(right, answers, strict=True):
+            if np.shape(S) != T.shape:
+                says = f"It returns shape {np.shape(S)} where {T.shape} is right"
+                return Finding(
+                    "shape", f"{says}, in call {i + 1} of {len(asked.main)}."
+                )
+    return None
+
+
+def kept_state(asked: Asked, source: str = "") -> Finding | None:
     """Return that a function keeps something between its calls, if it does.
 
     Args:
-        replies: to questions that were asked twice, apart from each other.
+        asked: questions that were asked twice, apart from each other.
+        source: the student's file.
     """
-    differ = [reply for reply in replies if _differs(reply)]
+    replied = replies([*asked.main, *asked.fresh])
+    differ = [reply for reply in replied if _differs(reply)]
+    code = "\n".join(function_lines(source, asked.function)[2])
+    if differ and re.search(r"\brandom\b|\brng\b|\bdefault_rng\b", code):
+        return Finding(
+            "draws-itself",
+            "The same input gave two different answers when it was asked twice, and "
+            "it draws random numbers itself: what is random is an argument here, so "
+            "that a run can be repeated. Draw in main(), and hand it over.",
+        )
     if differ:
         return Finding(
             "kept-between-calls",
             "The same input gave two different answers when it was asked twice, for "
-            f"{len(differ)} of {len(replies)} inputs: something is kept between calls "
+            f"{len(differ)} of {len(replied)} inputs: something is kept between calls "
             "(a default argument such as T=np.eye(4), a matrix or list at the top of "
             "the file, the last call's input). Make it anew in the function.",
         )
@@ -260,10 +305,10 @@ def _array(value: object, kind: Kind) -> Array | Finding:
     if array.dtype.kind not in "fiub":
         says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
         return Finding("not-numbers", f"{says} numbers.")
-    if array.shape != kind.shape:
+    if not kind.fits(array.shape):
         text = f"It returns shape {array.shape}; expected is {kind.expected}"
-        if str(kind.shape) not in text.partition(";")[2]:
+        if None not in kind.shape and str(kind.shape) not in text.partition(";")[2]:
             text += f", shape {kind.shape}"
         reason = kind.why_shape(array.shape)
         return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
-    return array
+    return kind.plain(array)

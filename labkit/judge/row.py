@@ -19,13 +19,13 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
+import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
-
-import numpy as np
 
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
@@ -33,6 +33,7 @@ from labkit.judge.mistake import InTurn, Mistake
 from labkit.lesson import folder
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 Code = Callable[..., Any]
 REDONE = "the answer with this mistake"
@@ -101,9 +102,9 @@ class Row:
 
     # What a day's file says.
 
-    def inputs(self, draw: Callable[[np.random.Generator], Iterable[Any]]) -> Any:
+    def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
-        self._draw = lambda rng: list(draw(rng))
+        self._draw = draw
         return draw
 
     def wrong(
@@ -252,13 +253,25 @@ class Row:
         more = dict(self.more)
         if "held_out" in more:
             more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
-        truth = None if "accept" in more else InTurn(self.truth)
+        truth = None if "accept" in more else _Answered(self.truth, self._fault)
+        if "accept" in more:
+            more["accept"] = _told(more["accept"], self._fault)
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
             Mistake(way.slug, way.says, InTurn(way.code), way.redone, way.reached)
             for way in self.named
         ]
         return Ask(
             self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
+        )
+
+    def _fault(self, what: str, error: BaseException) -> Robo47Error:
+        """Return an author's error: file, line and what to do."""
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        where = f"{shown(Path(last.filename))}, line {last.lineno}"
+        return Robo47Error(
+            f"day{self._day.number}/{self.function}.py: its {what} stops with "
+            f"{type(error).__name__}: {error} ({where}). It has to take all that "
+            "@row.inputs yields, and any answer"
         )
 
     def _keep(self, way: Way) -> Code:
@@ -313,6 +326,30 @@ def _library_function(day: Day, function: str) -> Code:
         f"day{day.number}/{function}.py: the day's library has no {function}; "
         "say truth=... in its Row"
     )
+
+
+class _Answered(InTurn):
+    """The truth: where it has no answer to a question, its author is told."""
+
+    def __init__(self, function: Code, fault: Code) -> None:
+        super().__init__(function)
+        self.fault = fault
+
+    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+        try:
+            return super().nth(i, columns)
+        except ValueError as error:
+            raise self.fault("truth", error.__cause__ or error) from None
+
+
+def _told(accept: Code, fault: Code) -> Code:
+    def call(*args: Any) -> Any:
+        try:
+            return accept(*args)
+        except Exception as error:
+            raise fault("accept", error) from None
+
+    return call
 
 
 def _one_by_one(held: HeldOut) -> HeldOut:

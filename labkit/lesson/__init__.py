@@ -1,5 +1,6 @@
 """Days: each is one folder, `w*/dayN/`, that the machine reads by path.
 
+    week       its manifest, week.toml: its days, in order, and what is to come
     day        its manifest, day.toml: tasks, hints, deliverables, limits
     table      a dataclass filled from a TOML table
     marks      which file wrote a row of the log

@@ -39,6 +39,8 @@ def kits(file: str, function: str) -> Callable[..., Any]:
 
 def borrowed_tasks(day: Day, text: str) -> list[Task]:
     """Return the tasks of which a student's file borrows a function."""
+    if MARK not in text:
+        return []
     return [
         task
         for task in day.tasks

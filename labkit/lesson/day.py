@@ -15,9 +15,14 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from labkit.base.exchange import NUMBERS, Limits
 from labkit.lesson.table import entry, fill
+from labkit.lesson.week import Week, find_week, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
+
+# What a grader's machine gives a task at most, whatever its manifest asks for.
+MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,9 @@ class Task:
     needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
     optional: bool = False  # a side quest: no part of what is handed in or graded
     was: tuple[str, ...] = ()  # ids and names of functions that it had before
+    seconds: float = 10.0  # for all its calls; one may take a third of it
+    memory: float = 1.0  # GB
+    numbers: int = NUMBERS  # in one answer
 
 
 @dataclass(frozen=True)
@@ -134,6 +142,21 @@ class Day:
         return next(some, self)
 
     @property
+    def week(self) -> Week:
+        """The week that it belongs to."""
+        return load_week(self.folder)
+
+    @property
+    def limits(self) -> Limits:
+        """What the code of its tasks may take."""
+        return Limits(
+            {task.id: task.seconds for task in self.tasks},
+            max(task.memory for task in self.tasks),
+            max(task.numbers for task in self.tasks),
+            self.week.extras,
+        )
+
+    @property
     def files(self) -> dict[str, str]:
         """What it hands in: paths from the clone's top, by what they are."""
         week = self.folder.name
@@ -198,7 +221,7 @@ def day_numbers(root: Path = ROOT) -> list[int]:
     """Return the numbers of all days that have a manifest, in order.
 
     Args:
-        root: the clone; its manifests are `w*/dayN/day.toml`.
+        root: the clone; its weeks name their days.
     """
     return sorted(_manifests(root))
 
@@ -210,6 +233,15 @@ def all_days(root: Path = ROOT) -> list[Day]:
         Robo47Error: a manifest is not right.
     """
     return [load_day(path) for _, path in sorted(_manifests(root).items())]
+
+
+def days_of(week: Week) -> list[Day]:
+    """Return the days of a week, in order.
+
+    Raises:
+        Robo47Error: a manifest is not right.
+    """
+    return [load_day(path) for path in week.manifests.values()]
 
 
 def find_day(number: int, root: Path = ROOT) -> Day:
@@ -231,9 +263,13 @@ def find_day(number: int, root: Path = ROOT) -> Day:
 
 def started_day(root: Path = ROOT) -> int:
     """Return the latest day that the student has a script of, else the first."""
-    numbers = day_numbers(root)
-    started = [n for n in numbers if any(root.glob(f"w*/work/day{n}_*.py"))]
-    return max(started, default=min(numbers, default=1))
+    manifests = _manifests(root)
+    started = [
+        number
+        for number, manifest in manifests.items()
+        if any((manifest.parent.parent / "work").glob(f"day{number}_*.py"))
+    ]
+    return max(started, default=min(manifests, default=1))
 
 
 def chosen_day(number: int | None, task_id: str | None = None) -> Day:
@@ -256,6 +292,21 @@ def chosen_day(number: int | None, task_id: str | None = None) -> Day:
             "name one of the two"
         )
     return of_task
+
+
+def chosen_week(number: int | None, day: int | None = None) -> Week:
+    """Return the week that a command line means.
+
+    Args:
+        number: of the week; None where none was typed: that of the day.
+        day: its number; None where none was typed: the day begun last.
+
+    Raises:
+        Robo47Error: no such week or day.
+    """
+    if number is not None:
+        return find_week(number)
+    return find_day(started_day() if day is None else day).week
 
 
 def day_of(script: Path) -> Day:
@@ -327,6 +378,10 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
         id = task.id
         if not re.fullmatch(rf"{day.number}\.\d+", id):
             yield f", tasks {id}: id {id} is not one of day {day.number}"
+        for name, most in MOST.items():
+            if not 0 < getattr(task, name) <= most:
+                asked = f"{name} is {getattr(task, name)}"
+                yield f", tasks {id}: {asked}; a grader gives {most:,.0f} at most"
         if id in earlier:
             yield f": two tasks have the id {id}"
         for need in [n for n in task.needs if n not in earlier]:
@@ -339,11 +394,9 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
 
 def _manifests(root: Path) -> dict[int, Path]:
     found: dict[int, Path] = {}
-    for path in sorted(root.glob("w*/day*/day.toml")):
-        if number := re.fullmatch(r"day(\d+)", path.parent.name):
-            other = found.setdefault(int(number[1]), path)
+    for week in weeks(root):
+        for number, path in week.manifests.items():
+            other = found.setdefault(number, path)
             if other != path:
-                raise Robo47Error(
-                    f"two days {number[1]}: {shown(other)}, {shown(path)}"
-                )
+                raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
     return found

@@ -31,8 +31,8 @@ def fill(kind: Any, table: dict[str, Any], where: str, **given: Any) -> Any:
     """Return a dataclass with the entries of a table.
 
     Args:
-        kind: its fields are texts, numbers, bools, tuples of texts, and tuples of
-            dataclasses, whose tables are called by their `id` or their place.
+        kind: its fields are texts, numbers, bools, tuples of texts or whole numbers,
+            and tuples of dataclasses, whose tables are called by their `id` or place.
         table: as tomllib reads it.
         where: what to call it in an error.
         given: fields that are no entries.
@@ -74,17 +74,18 @@ def _read(value: Any, name: str, kind: Any, least: int, where: str) -> Any:
         value = _right(value, name, parts[0] if parts else kind, where)
         return float(value) if float in (kind, *parts) else value
     tables = dataclasses.is_dataclass(parts[0])
-    right: Any = dict if tables else str
+    right: Any = dict if tables else parts[0]
     found = _right([] if tables and value is None else value, name, list, where)
     if len(found) < least:
         size = "is empty" if tables else f"has {len(found)} entries; expected {least}"
         raise Robo47Error(f"{where}: {name} {size}")
     for one in found:
-        if not isinstance(one, right) or not (tables or one.strip()):
-            what = "table" if tables else "text"
+        blank = isinstance(one, str) and not one.strip()
+        if not isinstance(one, right) or isinstance(one, bool) or blank:
+            what = _EXPECTED[right].partition(" ")[2]
             raise Robo47Error(f"{where}: {name} holds {one!r}, not a {what}")
     if not tables:
-        return tuple(" ".join(one.split()) for one in found)
+        return tuple(" ".join(o.split()) if isinstance(o, str) else o for o in found)
     names = (f"{where}, {name} {t.get('id', i)}" for i, t in enumerate(found, 1))
     return tuple(fill(parts[0], *pair) for pair in zip(found, names, strict=True))
 

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import processes
-from labkit.lesson.day import Day, Metric, all_days
+from labkit.lesson.day import Day, Metric
 from labkit.log import read_rows
 from labkit.log.rows import Row
-from robo47.errors import Robo47Error
-from robo47.paths import ROOT
 
 Key = tuple[str, str]  # of a number: its check and its metric
 
@@ -48,30 +46,6 @@ class Ran:
         """Return a number that was recorded, or None."""
         row = self.rows.get((metric.check, metric.metric))
         return None if row is None else float(str(row["value"]))
-
-
-def week_of(day: Day) -> int:
-    """Return the number of a day's week, by the name of its folder."""
-    digits = day.folder.name.removeprefix("w").partition("-")[0]
-    return int(digits) if digits.isdecimal() else 0
-
-
-def days_of(week: int, root: Path = ROOT) -> list[Day]:
-    """Return the days of a week, in order.
-
-    Args:
-        week: its number.
-        root: the clone.
-
-    Raises:
-        Robo47Error: the kit has no such week.
-    """
-    days = all_days(root)
-    found = [day for day in days if week_of(day) == week]
-    if not found:
-        known = ", ".join(map(str, sorted({week_of(day) for day in days})))
-        raise Robo47Error(f"there is no week {week} yet; the kit has: {known}")
-    return found
 
 
 def name_of(day: Day, metric: Metric) -> str:

@@ -8,7 +8,7 @@ from labkit.base.words import number_of
 from labkit.check.journal import Met
 from labkit.lesson.day import Day
 from labkit.report.week_facts import DayFacts, Number
-from labkit.report.week_labs import name_of, week_of
+from labkit.report.week_labs import name_of
 
 STYLE = """
 body { max-width: 980px; }
@@ -65,10 +65,8 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
 
 
 def title_of(facts: Sequence[DayFacts]) -> str:
-    """Return "Week 1: foundations", by the name of the week's folder."""
-    day = facts[0].day
-    topic = day.folder.name.partition("-")[2].replace("-", " ")
-    return escape(f"Week {week_of(day)}: {topic}")
+    """Return "Week 1: foundations"."""
+    return escape(facts[0].day.week.heading)
 
 
 def minutes_in_words(minutes: int | None) -> str:

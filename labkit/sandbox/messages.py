@@ -1,6 +1,7 @@
 """Messages between the checker and the sandbox: request, questions, replies."""
 
 import base64
+import contextlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from pathlib import Path as File
@@ -9,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import CHANNEL, MOST, EndedError, Path, Question, Reply
+from labkit.base.exchange import MOST, NUMBERS, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.sandbox.inside import wire
@@ -80,23 +81,33 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
         elif isinstance(arg, int | float):
             packed[key] = {"number": arg}
     plain = {key: arg for key, arg in args.items() if key not in packed}
-    packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    try:
+        packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    except wire.UnsendableError as error:
+        asked = ", ".join(sorted({one.function for one in questions}))
+        raise Robo47Error(f"a question to {asked} holds {error}") from None
     return [
         {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
         for one in questions
     ]
 
 
-def read(message: dict[str, Any]) -> Reply:
-    """Return a message as a reply, believing nothing in it.
+def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
+    """Return messages as replies, believing nothing in them.
 
-    Raises:
-        EndedError: somebody forged it.
+    Args:
+        came: as they came.
+        most: numbers in an answer.
+
+    Returns:
+        One per message, up to the first that somebody forged.
     """
-    try:
-        return _reply(message)
-    except Exception:  # a forged message can be anything
-        raise EndedError(CHANNEL) from None
+    values = wire.unpack_values([message.get("value") for message in came], most)
+    found: list[Reply] = []
+    with contextlib.suppress(Exception):  # a forged message can be anything
+        for message, value in zip(came, values, strict=False):
+            found.append(_reply(message, value))
+    return found
 
 
 @lru_cache(8)  # a class is asked with the same few robots
@@ -177,13 +188,12 @@ def _facts() -> dict[str, Any]:
     }
 
 
-def _reply(message: dict[str, Any]) -> Reply:
+def _reply(message: dict[str, Any], value: Any) -> Reply:
+    """Return a message as a reply; its value is a ValueError where it is none."""
     if message.get("missing"):
         return Reply(kind="missing")
-    try:
-        value = wire.unpack_value(message.get("value"))
-    except ValueError as error:
-        return Reply(error=f"it returned {visible(error)}", kind="unsendable")
+    if isinstance(value, ValueError):
+        return Reply(error=f"it returned {visible(value)}", kind="unsendable")
     if (largest := _largest(value)) > HUGE:
         says = f"it returns numbers as large as {largest:.0e}"
         return Reply(error=says, kind="huge")

@@ -7,10 +7,11 @@ the file; a link to a folder leads to nothing, and the build says so.
 
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from labkit.lesson.day import all_days
+from labkit.lesson.day import days_of
+from labkit.lesson.week import weeks
 from robo47.paths import ROOT
 
 DOCUMENTS = (
@@ -54,7 +55,7 @@ def lay_out(folder: Path, repository: Path = ROOT) -> None:
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         home.write("\n".join(_contents(pages)))
     shutil.copy(repository / "site" / "arm.md", folder / "arm.md")
-    for _, modules in MODULES:
+    for _, modules in _modules():
         for module in modules:
             _write(folder / "library" / f"{module}.md", _reference(module))
 
@@ -96,22 +97,30 @@ def _reference(module: str) -> str:
     )
 
 
+def _modules() -> Iterator[tuple[str, Sequence[str]]]:
+    """Yield the library's modules by what they are about, then a later week's."""
+    yield from MODULES
+    named = {module for _, modules in MODULES for module in modules}
+    for week in weeks():
+        new = [m for day in days_of(week) for m in day.library if m not in named]
+        if new:
+            yield week.heading, new
+
+
 def _contents(pages: set[Path]) -> Iterator[str]:
     """Yield the table of contents, which the site's margin shows."""
-    days: dict[str, list[str]] = {}
-    for day in all_days():
-        week = day.folder.name
-        days.setdefault(week, []).extend([day.guide, day.worksheet])
     yield from _tree("", ["arm"])
-    for week, named in days.items():
-        own = [f"{week}/{name.removesuffix('.md')}" for name in map(str, named)]
-        rest = [p for p in pages if p.parts[0] == week and _bare(p) not in own]
-        readme = f"{week}/README"
+    found = {week.folder.name: week for week in weeks()}
+    for name, week in found.items():
+        named = [page for day in days_of(week) for page in (day.guide, day.worksheet)]
+        own = [f"{name}/{page.removesuffix('.md')}" for page in filter(None, named)]
+        rest = [p for p in pages if p.parts[0] == name and _bare(p) not in own]
+        readme = f"{name}/README"
         more = sorted({_bare(p) for p in rest} - {readme})
-        yield from _tree(f"Week {week[1:].partition('-')[0]}", [readme, *own, *more])
-    for title, modules in MODULES:
+        yield from _tree(f"Week {week.number}", [readme, *own, *more])
+    for title, modules in _modules():
         yield from _tree(title, [f"library/{module}" for module in modules])
-    apart = [p for p in pages if p.parts[0] not in days and p.as_posix() != HOME]
+    apart = [p for p in pages if p.parts[0] not in found and p.as_posix() != HOME]
     yield from _tree("Teaching and making", sorted(map(_bare, apart)))
 
 

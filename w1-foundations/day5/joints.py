@@ -10,6 +10,7 @@ JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 TORQUE = Vector((7,), "Nm", scale=10.0, names=JOINTS)
 ANGLE = Vector((7,), "rad", names=JOINTS)
 ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn
 
 
 def one_gain(inputs, gains="kp and kd are", lab="KP and KD are"):
@@ -49,7 +50,7 @@ def errors(rng):
 def far(rng):
     """Return errors beyond half a turn in some joints, on both sides."""
     e, ed = errors(rng)
-    return e + 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0]), ed
+    return e + BEYOND, ed
 
 
 def stiff(rng):
@@ -59,10 +60,13 @@ def stiff(rng):
 
 def springs(rng):
     """Return errors and gains; the second errors are beyond half a turn."""
-    yield 0.1 * ONE, 0.0 * ONE, np.full(7, 100.0), np.full(7, 20.0)
-    yield *far(rng), *stiff(rng)
-    for _ in range(9):
-        yield *errors(rng), *stiff(rng)
+    ranges = (-0.3, 0.3), (-2, 2), (50, 600), (5, 50)
+    e, ed, kp, kd = (draw.numbers(rng, *ends, 10, 7) for ends in ranges)
+    e[0] += BEYOND
+    return [
+        (0.1 * ONE, 0.0 * ONE, np.full(7, 100.0), np.full(7, 20.0)),
+        *zip(e, ed, kp, kd, strict=True),
+    ]
 
 
 def springs_of_one_gain(rng):

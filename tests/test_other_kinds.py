@@ -1,0 +1,257 @@
+"""Weights and sizes of answers; covariances, counts, masks, paths, pixels, images."""
+
+import numpy as np
+import pytest
+from judged import judged, judged_replies, right, round_of
+
+from labkit.base.exchange import Reply
+from labkit.judge import (
+    Ask,
+    Count,
+    Covariance,
+    Image,
+    Mask,
+    Matrix,
+    Pixels,
+    Scalar,
+    Vector,
+    Waypoints,
+)
+from labkit.judge.ask import stacked
+from labkit.judge.judge import judge
+from labkit.judge.mistake import InTurn, Mistake
+
+NUMBERS = np.random.default_rng(3)
+
+
+def asked(kind, answers, **more):
+    """Return a row whose right answers are these."""
+    rights = dict(enumerate(answers))
+    calls = [(float(i),) for i in rights]
+    truth = InTurn(lambda i: rights[int(i)])
+    return Ask(lambda rng: calls, kind, truth=truth, fresh=0, **more)
+
+
+def told(kind, answers, given):
+    """Return the verdict on answers, one per question."""
+    ask = asked(kind, answers)
+    replies = [Reply(value=np.asarray(one), again=np.asarray(one)) for one in given]
+    return judged_replies(ask, replies)
+
+
+class TestWeights:
+    WEIGHTS = np.array([[1.0, 1e6], [1e-6, 1.0]])
+    RIGHT = WEIGHTS * NUMBERS.uniform(1.0, 2.0, (6, 2, 2))
+    KIND = Matrix((2, 2), scale=WEIGHTS)
+
+    def off(self, row, column, by):
+        wrong = self.RIGHT.copy()
+        wrong[:, row, column] += by * NUMBERS.uniform(1.0, 2.0, 6)
+        return judged(asked(self.KIND, self.RIGHT), wrong)
+
+    def test_each_entry_is_judged_by_its_own(self):
+        assert self.off(0, 1, 1e-4).status == "passed"  # 1e-10 of a million
+        assert self.off(0, 1, 1e3).mistake == "few-entries-off"
+        found = self.off(1, 0, 1e-9)  # a thousandth of a millionth
+        assert found.mistake == "few-entries-off"
+        assert "[1, 0]" in found.message
+
+    def test_a_mistake_is_named_in_the_small_entry_too(self):
+        slip = Mistake("small-doubled", "s", lambda i: self.RIGHT * [[1, 1], [2, 1]])
+        ask = asked(self.KIND, self.RIGHT, mistakes=[slip])
+        assert judged(ask, self.RIGHT * [[1, 1], [2, 1]]).mistake == "small-doubled"
+        assert judged(ask, self.RIGHT * [[1, 1], [3, 1]]).mistake != "small-doubled"
+
+
+class TestSizes:
+    """Questions of several sizes in one row, and answers that follow them."""
+
+    def row(self, kind, truth, **more):
+        def inputs(rng):
+            return [(rng.uniform(1.0, 2.0, n),) for n in (2, 5, 3, 4)]
+
+        return Ask(inputs, kind, truth=InTurn(truth), **more)
+
+    def test_a_number_of_vectors_of_any_length(self):
+        ask = self.row(Scalar(), np.sum)
+        assert judged(ask, right(ask)[0]).status == "passed"
+        wrong = judged(ask, right(ask)[0] * [1, 2, 1, 1])
+        assert "right for 3 of 4 inputs" in wrong.message
+
+    def test_an_answer_as_long_as_its_question(self):
+        ask = self.row(Vector((None,)), np.cumsum, fresh=0)
+        questions = [exchange.question.args[0] for exchange in round_of(ask).main]
+
+        def verdict(function):
+            given = map(function, questions)
+            return judged_replies(ask, [Reply(value=x, again=x) for x in given])
+
+        assert verdict(np.cumsum).status == "passed"
+        assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
+        short = verdict(lambda x: np.cumsum(x)[:-1])
+        assert short.mistake == "shape"
+        assert "shape (1,) where (2,) is right, in call 1 of 4" in short.message
+        assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
+
+    def test_a_mistake_is_made_again_in_every_size(self):
+        slip = Mistake("sorted-first", "s", InTurn(lambda x: np.cumsum(np.sort(x))))
+        ask = self.row(Vector((None,)), np.cumsum, mistakes=[slip])
+        questions = stacked(round_of(ask).main)
+        assert judged(ask, slip.redo(*questions)).mistake == "sorted-first"
+        assert judged(ask, right(ask)[0]).status == "passed"
+
+
+class TestCovariance:
+    A = NUMBERS.normal(size=(6, 3, 3))
+    RIGHT = A @ A.transpose(0, 2, 1) + np.eye(3)
+
+    @pytest.mark.parametrize(
+        ("change", "slug"),
+        [
+            (np.linalg.inv, "inverse"),
+            (lambda P: np.sign(P) * np.sqrt(np.abs(P)), "sigma-for-variance"),
+            (lambda P: np.triu(P), "not-symmetric"),
+            (lambda P: P - 9.0 * np.eye(3), "not-positive"),
+            (lambda P: 2.0 * P, "one-factor-off"),
+        ],
+    )
+    def test_is_told_what_it_is_instead(self, change, slug):
+        verdict = told(Covariance((3, 3)), self.RIGHT, change(self.RIGHT))
+        assert verdict.mistake == slug
+
+    def test_is_compared_up_to_its_symmetry(self):
+        skew = 1e-6 * np.array([[0, 1, 2], [-1, 0, 3], [-2, -3, 0]])
+        assert (
+            told(Covariance((3, 3)), self.RIGHT, self.RIGHT + skew).status == "passed"
+        )
+        assert told(Matrix((3, 3)), self.RIGHT, self.RIGHT + skew).status == "close"
+
+
+COUNTS = np.array([62, 43, 10, 7])
+
+
+@pytest.mark.parametrize(
+    ("given", "slug", "says"),
+    [
+        (COUNTS, "", ""),
+        ([61, 43, 10, 7], "miscounted", "61 where 62 is right. It is right for 3 of 4"),
+        (COUNTS - 0.5, "not-whole", "It is 61.5; a whole number is expected"),
+        (-COUNTS, "miscounted", "-62 where 62"),  # no talk of signs
+        ([0, 0, 0, 0], "ignores-its-input", "same"),  # nor of arrays never filled
+    ],
+)
+def test_a_count_is_a_whole_number(given, slug, says):
+    verdict = told(Count(), COUNTS, given)
+    assert verdict.mistake == slug
+    assert says in verdict.message
+
+
+MASKS = NUMBERS.uniform(size=(6, 8)) < 0.4
+ONE_EACH = np.arange(8) == np.arange(6)[:, None]
+
+
+@pytest.mark.parametrize(
+    ("given", "slug", "says"),
+    [
+        (MASKS, "", ""),
+        (MASKS.astype(int), "", ""),
+        (~MASKS, "inverted", "True and False are swapped"),
+        (np.ones_like(MASKS), "ignores-its-input", "does not depend on it"),
+        (MASKS | ONE_EACH, "too-often-true", "Of 48 it is True"),
+        (MASKS & ~ONE_EACH, "too-seldom-true", "it is False"),
+        (MASKS * 0.5, "not-true-or-false", "0.5; True or False, in shape (8,), is"),
+    ],
+)
+def test_a_mask_says_which_way_it_is_wrong(given, slug, says):
+    verdict = told(Mask((8,)), MASKS, given)
+    assert verdict.mistake == slug
+    assert says in verdict.message
+
+
+def test_a_yes_or_no_is_a_mask_of_one():
+    yes = [True, False, True, False]
+    assert told(Mask(), yes, yes).status == "passed"
+    assert told(Mask(), yes, [False, True, False, True]).mistake == "inverted"
+
+
+def test_a_path_of_any_length_is_accepted_by_a_property():
+    def accept(start, goal, path):
+        if (
+            len(path) < 2
+            or not (path[0] == start).all()
+            or not (path[-1] == goal).all()
+        ):
+            return "It does not lead from the start to the goal."
+        return None
+
+    def inputs(rng):
+        return [(rng.normal(size=2), rng.normal(size=2)) for _ in range(4)]
+
+    ask = Ask(inputs, Waypoints((None, 2)), accept=accept)
+
+    def verdict(path):
+        exchanges = round_of(ask)
+        for i, one in enumerate(exchanges.exchanges):
+            x = path(i, *one.question.args)
+            one.reply = Reply(value=x, again=x)
+        return judge(exchanges)
+
+    straight = verdict(lambda i, a, b: np.linspace(a, b, 3 + i))
+    assert straight.status == "passed"
+    back = verdict(lambda i, a, b: np.linspace(b, a, 3 + i))
+    assert back.mistake == "not-accepted"
+    assert "For 6 of 6 inputs" in back.message
+    flat = verdict(lambda i, a, b: np.concatenate([a, b]))
+    assert "a row of 2 numbers per way point" in flat.message
+
+
+PIXELS = NUMBERS.uniform(0.0, 300.0, (5, 8, 2))
+
+
+@pytest.mark.parametrize(
+    ("change", "slug", "says"),
+    [
+        (lambda p: p + 0.5, "shifted", "off by the same (0.5, 0.5)"),
+        (lambda p: p[..., ::-1], "row-first", "the row comes first"),
+        (lambda p: 2.0 * p, "one-factor-off", "2 times"),
+        (np.trunc, "whole-numbers", "whole numbers"),
+    ],
+)
+def test_pixels_are_told_what_happened_to_them(change, slug, says):
+    verdict = told(Pixels((8, 2)), PIXELS, change(PIXELS))
+    assert verdict.mistake == slug
+    assert says in verdict.message
+
+
+IMAGES = NUMBERS.integers(0, 255, (3, 6, 8, 3)).astype(np.uint8)
+
+
+def spotted(images):
+    spot = images.copy()
+    spot[:, 2:4, 5] //= 2
+    return spot
+
+
+@pytest.mark.parametrize(
+    ("change", "slug", "says"),
+    [
+        (lambda im: im[:, ::-1], "upside-down", "row 0"),
+        (lambda im: im[:, :, ::-1], "mirrored", "Left and right"),
+        (lambda im: im[..., ::-1], "blue-first", "red comes first"),
+        (lambda im: im.transpose(0, 2, 1, 3), "shape", "rows come first, then columns"),
+        (spotted, "pixels-off", "rows 2 to 3, columns 5 to 5"),
+    ],
+)
+def test_an_image_is_told_what_happened_to_it(change, slug, says):
+    verdict = told(Image((6, 8, 3), scale=255.0), IMAGES, change(IMAGES))
+    assert verdict.mistake == slug
+    assert says in verdict.message
+
+
+def test_who_draws_random_numbers_is_told_that_they_are_an_argument():
+    ask = asked(Scalar(), [1.0, 2.0, 3.0])
+    replies = [Reply(value=np.array(x), again=np.array(x + 0.1)) for x in right(ask)[0]]
+    draws = "def f(x):\n    return x + np.random.normal()\n"
+    assert judged_replies(ask, replies, draws).mistake == "draws-itself"
+    lab = "def f(x):\n    return x\n\n\ndef main():\n    np.random.normal()\n"
+    assert judged_replies(ask, replies, lab).mistake == "kept-between-calls"
