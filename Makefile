@@ -20,7 +20,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
+.PHONY: update start check hint borrow run doctor bench test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author
 
@@ -65,6 +65,9 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
+
+update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
+	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
 
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
