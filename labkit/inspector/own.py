@@ -45,7 +45,7 @@ class Own:
         self._free = free
         self._student = student
         self._library = library if isinstance(library, Mapping) else vars(library)
-        self._version = 0
+        self.version = 0
         self._forget()
 
     def _forget(self) -> None:
@@ -72,8 +72,8 @@ class Own:
         student = self._student()
         there = student is not None and student.there
         version = student.version if student is not None and there else -1
-        if version != self._version:
-            self._version = version
+        if version != self.version:
+            self.version = version
             self._forget()
         if student is None or not there:
             self._lent |= {name: "there is no file yet" for name, *_ in calls}

@@ -87,6 +87,7 @@ def serve(show: Show, port: int) -> int:
                 lambda: Inspector(server, show.arm, show.about, tabs, show.simple),
             )
             server.door.receive = page.receive
+            ends.callback(on_loop, server, page.opened.leave)
             print("\n".join(where_to_look(port, server)), flush=True)
             ends.callback(watch(page, show, ends).close)
             dresser = threading.Thread(target=dress, args=(page, show), daemon=True)

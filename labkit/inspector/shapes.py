@@ -97,6 +97,12 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
     return vertices.astype(np.float64), faces.reshape(-1, 3).astype(np.int32)
 
 
+def _box(size: Array) -> trimesh.Trimesh:
+    made = trimesh.creation.box(extents=2 * size)
+    made.unmerge_vertices()  # edges that are sharp
+    return made
+
+
 def _ellipsoid(size: Array) -> trimesh.Trimesh:
     made = trimesh.creation.icosphere(subdivisions=3)
     made.vertices *= size
@@ -106,7 +112,7 @@ def _ellipsoid(size: Array) -> trimesh.Trimesh:
 _PRIMITIVES: dict[mujoco.mjtGeom, Callable[[Array], trimesh.Trimesh]] = {
     mujoco.mjtGeom.mjGEOM_SPHERE: lambda s: _ellipsoid(np.full(3, s[0])),
     mujoco.mjtGeom.mjGEOM_ELLIPSOID: _ellipsoid,
-    mujoco.mjtGeom.mjGEOM_BOX: lambda s: trimesh.creation.box(extents=2 * s),
+    mujoco.mjtGeom.mjGEOM_BOX: _box,
     mujoco.mjtGeom.mjGEOM_CAPSULE: lambda s: trimesh.creation.capsule(
         radius=s[0], height=2 * s[1]
     ),
