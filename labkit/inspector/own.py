@@ -94,8 +94,8 @@ class Own:
             raise NoAnswerError(f"YOUR {name}: {problem.removeprefix(f'{name}: ')}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
-            got = " and ".join(str(np.shape(x)) for x in theirs) or "nothing"
-            raise NoAnswerError(f"YOUR {name} returned shape {got}")
+            got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
+            raise NoAnswerError(f"YOUR {name} returned {got}")
         if not all(np.isfinite(x).all() for x in theirs):
             raise NoAnswerError(f"YOUR {name} returned NaN, or a number without end")
         for mine, truth in zip(theirs, ours, strict=True):
