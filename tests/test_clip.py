@@ -106,6 +106,6 @@ def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_pat
     path = tmp_path / "cube.gif"
     clip.save_clip([Image.fromarray(grey)] * 3, path)
     with Image.open(path) as made:
-        red, green, blue = made.convert("RGB").getpixel((93, 93))
+        red, _, blue = made.convert("RGB").getpixel((93, 93))
     assert red > 180
     assert blue < 60
