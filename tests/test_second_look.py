@@ -145,3 +145,18 @@ class TestBorrowing:
         assert done.returncode == 2
         assert "no task 1.99" in done.stderr
         assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("number", [3, 4])
+def test_a_lab_is_rehearsed_with_predictions_and_without_its_side_quests(
+    tmp_path, number
+):
+    day = find_day(number)
+    script = tmp_path / day.script
+    gap = "def {}(*_):\n    raise NotImplementedError('task {}')\n"
+    optional = [task for task in day.tasks if task.optional]
+    gaps = [gap.format(name, task.id) for task in optional for name in task.functions]
+    text = day.source.read_text("utf-8").partition("def main(")[0]
+    script.write_text("\n\n".join([text, *gaps]), "utf-8")
+    with Sandbox() as sandbox:
+        assert failing_step(day, script, sandbox) == ""
