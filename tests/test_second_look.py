@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 
 from labkit.check.lab_run import failing_step
+from labkit.check.tasks import check_tasks
 from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
-from labkit.lesson.day import find_day
+from labkit.lesson.day import all_days, find_day
+from labkit.lesson.starter import make_starter
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 
@@ -160,3 +162,13 @@ def test_a_lab_is_rehearsed_with_predictions_and_without_its_side_quests(
     script.write_text("\n\n".join([text, *gaps]), "utf-8")
     with Sandbox() as sandbox:
         assert failing_step(day, script, sandbox) == ""
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")
+def test_a_starter_loads_behind_the_wall(sandbox, tmp_path, day):
+    """There the kit's library of later days and MuJoCo are no more than names."""
+    script = tmp_path / day.script
+    text = make_starter(day.source.read_text("utf-8"), day.script, day.number)
+    script.write_text(text, "utf-8")
+    first = check_tasks(day, script, sandbox, day.tasks[0].id)
+    assert [result.verdict.status for result in first] == ["todo"]
