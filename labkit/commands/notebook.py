@@ -17,6 +17,8 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -64,7 +66,9 @@ def build(day: Day) -> str:
         raise Robo47Error(
             "jupytext is not installed; run make notebook, which brings it"
         ) from None
-    source = day.source.read_text("utf-8")
+    source = read_script(day.source)
+    if is_sealed(day.source.read_text("utf-8")):  # a student edition's has no answers
+        source = make_starter(source, day.script, day.number)
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
     cells = [*head(day, tree), *library(tree, lines), *lab(day, tree, lines)]
     notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 from labkit.lesson.day import Day
+from labkit.lesson.starter import read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -57,7 +58,7 @@ def load_lab(script: Path) -> ModuleType:
     """
     module = ModuleType(script.stem)
     module.__file__ = str(script)
-    source = without_kit(script.read_text("utf-8"))
+    source = without_kit(read_script(script))
     exec(compile(source, str(script), "exec"), vars(module))
     return module
 
