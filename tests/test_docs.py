@@ -78,6 +78,7 @@ def test_the_readme_names_the_commands_that_ci_runs():
         assert command in readme
     assert "make test" in ci
     assert "make lint" in ci
+    assert "- run: .ci/run\n" in (ROOT / ".github/workflows/ci.yml").read_text("utf-8")
 
 
 def test_every_command_in_the_teachers_guide_exists(run):

@@ -22,6 +22,7 @@ FLOORS = [
     "labkit.grade",
     "labkit.update",
     "labkit.proof",
+    "labkit.author",
     "labkit.setup",
     "labkit.commands",
 ]

@@ -50,7 +50,7 @@ class Rehearsal(Lab):
         """Take what a `Lab` takes; the command line is not read."""
         self.log, self.script = False, Path(file)
         self.day, self.title = self.of, ""
-        self.failed, self.rows = [], []
+        self.failed, self.rows, self.predicted = [], [], {}
 
     of: Day
     numbers: dict[tuple[str, str], float]
