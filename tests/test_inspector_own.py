@@ -40,7 +40,9 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
 
 
 def test_without_a_file_all_is_the_librarys():
-    own = Own(lambda: None, LIBRARY)
+    student = Answers({})
+    student.there = False
+    own = Own(lambda: student, LIBRARY)
     np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
     says = "At work: the library's double (there is no file yet)"
     assert own.says() == (says, "quiet")
@@ -65,14 +67,21 @@ def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, 
 @pytest.mark.parametrize(
     ("reply", "says"),
     [
-        (Reply(kind="stopped", error="it runs on"), "YOUR double: .*did not return"),
-        (Reply(kind="ValueError", error="no", line=3), r"ValueError: no \(line 3\)"),
+        (Reply(kind="stopped", error="it runs on"), "YOUR double did not return: it"),
+        (Reply(kind="ValueError", error="no", line=3), r"YOUR double: It stops with V"),
     ],
 )
 def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
     student, own = own_of({})
     student.ask = lambda questions: [reply]
     with pytest.raises(NoAnswerError, match=says):
+        own.double(ONE)
+
+
+def test_a_file_that_is_not_asked_any_more_says_why():
+    student, own = own_of({})
+    student.problem = "double did not return. Save the file to have it asked again."
+    with pytest.raises(NoAnswerError, match=r"YOUR double did not return\. Save"):
         own.double(ONE)
 
 

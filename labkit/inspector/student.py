@@ -103,15 +103,20 @@ class Student(threading.Thread):
         """Whether there is a file."""
         return bool(self._stamp)
 
+    @property
+    def problem(self) -> str:
+        """Why the file is not asked, in a sentence; "" where it is."""
+        return self._problem
+
     def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions, now, on the caller's thread; "stopped" where it is over.
+        """Ask any functions, now, on the caller's thread; see `problem` afterwards.
 
         Args:
             questions: what to call.
         """
         with self._lock:
             if self._asker is None:
-                ended = Reply(kind="stopped", error=self._problem or "no file")
+                ended = Reply(kind="stopped", error="it is not asked")
                 return [ended] * len(questions)
             try:
                 replies = self._asker.ask(questions, seconds=ASK_SECONDS)

@@ -25,7 +25,7 @@ class Tasks(Tab):
         Args:
             standing: of every task.
         """
-        parts = [words.line(standing.headline, "tasks", standing.kind)]
+        parts = []  # the line about all of them stands on top of the panel
         for task in standing.tasks:
             mark, kind = MARKS.get(task.status, ("✗", "bad"))
             text = f"{mark} {task.id} {task.title}"

@@ -99,6 +99,13 @@ class Jacobian(Tab):
         says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
         self.least.content = words.line(says, "sigma", kind)
 
+    def lost(self) -> None:
+        """Show no columns, and no second arm."""
+        self.columns.visible = self.wrong.visible = self.ball.ball.visible = False
+        self.bars.clear()
+        self.least.content = self.numbers.content = ""
+        self.ghost.pose({})
+
     def drag(self, shown: bool) -> None:
         """Show the target where the hand is, or hide it."""
         self.target.place(self.page.pose(END))

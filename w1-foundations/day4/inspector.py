@@ -43,7 +43,7 @@ class Forces(Tab):
         page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, self.weigh, unit="")
         self.clock = page.html()
         limits = simulate.limits(self.model)[1]
-        title = "YOUR gravity_torque; marked is what holds the arm"
+        title = "gravity_torque; marked is what holds the arm"
         self.bars = page.bars(NAMES, limits, "N m", title)
         self.cells = page.html()
         radii = 0.03 * np.cbrt(self.rig.masses)  # the volume says what a link weighs
@@ -136,6 +136,12 @@ class Forces(Tab):
             "kg m2."
         )
 
+    def lost(self) -> None:
+        """Show no torques and no M."""
+        self.page.say("")
+        self.bars.clear()
+        self.cells.content = ""
+
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:
     """Return M as a table of coloured cells: blue above 0, red below, as HTML.
@@ -158,7 +164,7 @@ def heat_map(M: Array, wrong: Array | None = None) -> str:
         rows.append(f"<tr>{cells}</tr>")
     table = "".join(rows)
     style = "font:11px monospace;border-collapse:collapse"
-    title = "<b>YOUR M, kg m2</b>"
+    title = "<b>M, kg m2</b>"
     return f'<div class="r47">{title}<table style="{style}">{table}</table></div>'
 
 

@@ -47,7 +47,7 @@ class Plan(Tab):
         self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
         page.buttons([PLAY], self.press)
         self.numbers = page.html()
-        limits, title = simulate.SPEED_LIMITS, "YOUR joint speeds and their limits"
+        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
         self.bars = page.bars(JOINTS, limits, "rad/s", title)
         curves = [*JOINTS, "limit"]
         self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
@@ -119,6 +119,14 @@ class Plan(Tab):
         times = np.linspace(0.0, self.T, COUNT)
         self.plot.show(times, [*parts.T, np.ones(COUNT)])
         self.show()
+
+    def lost(self) -> None:
+        """Show no way."""
+        self.loop.stop()
+        self.ghost.pose({})
+        self.bars.clear()
+        self.plot.clear()
+        self.numbers.content = ""
 
     def at(self, share: float) -> tuple[Array, Array]:
         """Return q and qd, (7,) each, when a share of the time is over."""
@@ -198,6 +206,10 @@ class Pick(Tab):
         with week(fns) as mine:
             done = capstone.pick(mine)
             return done, f"; YOUR {mine.yours} of {mine.total} functions at work"
+
+    def lost(self) -> None:
+        """Nothing was picked."""
+        self.clock.content = ""
 
     def picked(self, found: tuple[Result, str]) -> None:
         """Replay it."""
