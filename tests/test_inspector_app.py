@@ -41,7 +41,7 @@ class Noisy(Tab):
         self.plot = page.plot(["e1"], y="error (m)")
         page.gui.add_button("viser's own")
         draw = page.draw
-        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.arrows([[[0, 0, 0], [0, 0, 1]]])
         draw.curve(np.zeros((3, 3)))
         draw.sphere([0, 0, 0], 0.1)
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 import mujoco
+import numpy as np
 from numpy.typing import ArrayLike
 
 from labkit.inspector import words
@@ -11,6 +12,7 @@ from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.own import NoAnswerError, Own
 from labkit.inspector.widgets import Widgets
+from robo47 import kinematics
 from robo47.checks import Array
 
 if TYPE_CHECKING:
@@ -46,6 +48,21 @@ class Page(Widgets):
     def pose(self, name: str) -> Array:
         """Return MuJoCo's T_world_NAME, (4, 4); "ee" is the end effector."""
         return self.arm.pose(name)
+
+    def links(self, q: ArrayLike) -> dict[str, Array]:
+        """Return where every link is at a configuration, for a ghost's `pose`.
+
+        Args:
+            q: of the seven joints, (7,); fingers stay as they are.
+        """
+        whole = self.q
+        whole[: len(np.asarray(q))] = q
+        poses = kinematics.fk_all(self.model, whole)
+        return {
+            name.removeprefix("body:"): T
+            for name, T in poses.items()
+            if name.startswith("body:link")
+        }
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser.

@@ -7,7 +7,6 @@ server's event loop. Nothing of the student's runs in this process.
 
 import contextlib
 import threading
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -186,7 +185,6 @@ class Student(threading.Thread):
             return None
         if self._asker is None or self.ghost is None:
             return Seen(q, problem=self._problem)
-        start = time.perf_counter()
         with self._lock:
             asker = self._asker
             try:
@@ -196,7 +194,7 @@ class Student(threading.Thread):
             poses, problem = found
             if not asker.alive:
                 problem = self._give_up(problem)
-        return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
+        return Seen(q, poses, problem)
 
     def _give_up(self, why: str) -> str:
         """Ask nothing more before the file is saved; return what to say meanwhile."""

@@ -13,7 +13,7 @@ from labkit.inspector import words
 from labkit.inspector.own import Own
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import control, kinematics, panda, simulate
+from robo47 import control, panda, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
@@ -212,10 +212,7 @@ class Control(Tab):
         q = self.page.q
         q[:7] = self.data.qpos[:7]
         self.page.move(q)
-        q[:7] = wanted
-        poses = kinematics.fk_all(self.page.model, q)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(wanted))
 
 
 TABS = [Control]

@@ -60,7 +60,7 @@ class Touch(Tab):
         self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
         self.drawn = Robot(page, self.robot, dressed)
         self.mass = page.draw.ellipsoid("purple")
-        self.arrow = page.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.008)
+        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
         self.target = page.draw.target(page.pose("ee"), self.drag)
         page.legend({"your pull": "red", "how heavy the hand is": "purple"})
         self.show()

@@ -16,7 +16,7 @@ from labkit.inspector.page import Page
 from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from labkit.inspector.week import week
-from robo47 import capstone, kinematics, panda, scenes, simulate, trajectory
+from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
 from robo47.checks import Array
 
@@ -136,11 +136,7 @@ class Plan(Tab):
     def show(self) -> None:
         """Show the blue arm and its speeds at the chosen moment."""
         q, qd = self.at(self.share)
-        full = self.page.q.copy()
-        full[ARM] = q
-        poses = kinematics.fk_all(self.page.model, full)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(q))
         self.bars.show(qd)
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
