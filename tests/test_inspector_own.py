@@ -98,3 +98,34 @@ def test_a_function_with_many_right_answers_is_not_compared():
     _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
     assert own.any_root(4.0) == -2.0
     assert own.says() == ("YOUR any_root", "good")
+
+
+def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
+    from labkit.inspector import week
+    from labkit.lesson.day import Day, find_day
+
+    monkeypatch.setattr(Day, "work", find_day(5).source)
+    monkeypatch.setattr(week, "all_days", lambda: [find_day(5)])
+    monkeypatch.setattr(week, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
+        [task.id for task in day.tasks if task.id != "5.2"], "wrong"
+    ))  # fmt: skip
+    library = {"gains": None, "pd_torque": LIBRARY["double"]}
+    with week.week(library) as fns:
+        np.testing.assert_array_equal(fns.gains(20.0, 1.0), [400.0, 40.0])
+        assert fns.pd_torque is LIBRARY["double"]  # the file's is wrong
+        assert (fns.yours, fns.total) == (1, 2)
+        with pytest.raises(NoAnswerError, match="YOUR gains: TypeError"):
+            fns.gains(ONE)
+
+
+def test_what_an_answer_says_cannot_become_part_of_the_page():
+    from labkit.inspector import words
+
+    student, own = own_of({})
+    evil = "<img src=x onerror=alert(1)>"
+    student.ask = lambda questions: [Reply(kind="ValueError", error=evil)]
+    with pytest.raises(NoAnswerError) as said:
+        own.double(ONE)
+    shown = words.judged(str(said.value), "whose", "bad")
+    assert "<img" not in shown
+    assert "&lt;img" in shown

@@ -8,11 +8,11 @@ import mujoco
 
 from labkit.base.exchange import Reply
 from labkit.check.tasks import TaskResult, check_tasks
-from labkit.inspector.student import Asker, Source
+from labkit.inspector.student import Source
 from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.library import library_of
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, Session
 
 
 def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
@@ -24,7 +24,7 @@ def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
         sandbox: kept open as long as the page.
     """
 
-    def opened(script: Path) -> Asker:
+    def opened(script: Path) -> Session:
         return sandbox.session(script, [model], library_of(day))
 
     tasks = {name: task.id for task in day.tasks for name in task.functions}

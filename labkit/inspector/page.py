@@ -15,6 +15,8 @@ from labkit.inspector.widgets import Widgets
 from robo47 import kinematics
 from robo47.checks import Array
 
+SLOW = 1.5  # times slower than real time, which is said
+
 if TYPE_CHECKING:
     from labkit.inspector.app import Inspector
 
@@ -72,10 +74,6 @@ class Page(Widgets):
         """
         self.host.move(q)
 
-    def undo(self) -> None:
-        """Take the last move back; several times, one by one."""
-        self.host.undo()
-
     def light(
         self, chosen: str | None = None, shown: Collection[str] | None = None
     ) -> None:
@@ -91,10 +89,6 @@ class Page(Widgets):
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
         self.host.panel.solid.visible = False
-
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through points, (n, 3)."""
-        self.host.scene.trace(origins)
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the end of the panel what the colours in the scene mean.
@@ -140,6 +134,9 @@ class Page(Widgets):
         def told(seconds: float) -> bool | None:
             more = step(seconds)
             self._ended(None)
+            if made.slow > SLOW and seconds > 1.0:
+                says = f"slow motion: 1 s of it takes {made.slow:.1f} s here"
+                self.say(f"{says}; your functions are asked as fast as they answer")
             return more
 
         made = Animation(told if work else step, hz, self._ended, work)

@@ -10,31 +10,18 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
+from labkit.sandbox.sandbox import Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
-
-
-class Asker(Protocol):
-    """A student's file, loaded: `sandbox.Session`, or a test's fake."""
-
-    @property
-    def alive(self) -> bool:
-        """Whether it still answers."""
-
-    def ask(self, questions: Sequence[Question], seconds: float) -> list[Reply]:
-        """Return one reply per question."""
-
-    def close(self) -> None:
-        """End it."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +36,7 @@ class Source:
     """
 
     script: Path
-    open: Callable[[Path], Asker]
+    open: Callable[[Path], Session]
     explain: Callable[[Path, Reply], str]
     describe: Callable[[str, Reply], str]
 
@@ -83,7 +70,7 @@ class Student(threading.Thread):
         self.ended = False
         self.version = 0  # of the file: another one after each save
         self._lock = threading.RLock()  # a session answers one thread at a time
-        self._asker: Asker | None = None
+        self._asker: Session | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
         self._problem = ""
 
@@ -204,7 +191,7 @@ class Student(threading.Thread):
 
 
 def poses_of(
-    asker: Asker, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
+    asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
     """Return the poses that a student's function gives, and the first problem or "".
 

@@ -18,6 +18,7 @@ NAMES = [f"joint{i}" for i in range(1, JOINTS + 1)]
 LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
 FORCE, PUSHED = np.array([0.0, 10.0, 0.0]), 0.5  # newtons in the world; seconds
 HZ, RATE = 25.0, 100.0  # of the picture; of the controller
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
 
@@ -85,7 +86,8 @@ class Forces(Tab):
         """Return a share of the student's gravity torque, or none."""
         if self.falls:
             return np.zeros(JOINTS)
-        return self.share * self.own.gravity_torque(*self.pulled(q))
+        wanted = self.share * self.own.gravity_torque(*self.pulled(q))
+        return np.clip(wanted, -HUGE, HUGE)
 
     def pulled(self, q: Array) -> tuple[Array, ...]:
         """Return what gravity_torque is given at q."""

@@ -26,6 +26,7 @@ LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
 JOINTS = [f"joint{i}" for i in range(1, 8)]
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 Law = Callable[..., Array]
 
@@ -170,7 +171,8 @@ class Control(Tab):
             ref = reference(self.since / RATE, self.swing)
             q, qd = data.qpos[:7].copy(), data.qvel[:7].copy()
             wanted = self.law(self.own, self.arm, q, qd, ref, self)
-            data.ctrl[:7] = self.own.saturate(wanted, self.limits)
+            given = self.own.saturate(wanted, self.limits)
+            data.ctrl[:7] = np.clip(given, -HUGE, HUGE)
             mujoco.mj_step(model, data, self.each)
             self.asked = [*self.asked[-49:], wanted]
             self.since += 1

@@ -79,7 +79,7 @@ class Plan(Tab):
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
         self.share = min(seconds / self.T, 1.0)
-        self.slider.set(self.share)
+        self.slider.value = self.share
         self.show()
         return self.share < 1.0
 
@@ -188,7 +188,7 @@ class Pick(Tab):
         """Have the cube picked, or stop."""
         self.loop.stop()
         if name == PICK:
-            says = "the simulation runs: some seconds"
+            says = "the simulation runs: some seconds, of all days up to a minute"
             self.clock.content = words.line(says, "clock", "quiet")
             self.page.say("")
             self.page.job(self.pick, self.picked)
