@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from labkit.base import cli
+from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
-from labkit.inspector import native_viewer
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
 from robo47.checks import Array
@@ -96,7 +96,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     if path.exists():
         raise Robo47Error(f"{shown(path)} is there already; name another file")
     try:
-        from labkit.inspector.film import film
+        from labkit.commands.film import film
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "
