@@ -236,7 +236,7 @@ def kit_at(tag: str) -> Path:
     """
     found = git.run("rev-parse", "-q", "--verify", f"{tag}^{{commit}}", **OF_KIT)
     commit = found.stdout.strip()
-    folder = store.path_of(f"kits/{commit[:12]}")
+    folder = store.path_of("kits") / commit[:12]
     if found.returncode or not commit:
         raise Robo47Error(f"the kit has no tag {tag}; those it has: git tag")
     if not (folder / ".git").exists():

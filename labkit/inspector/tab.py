@@ -138,7 +138,9 @@ def day_tabs(day: Day) -> DayTabs:
         raise Robo47Error(
             f"{where} does not load: {type(error).__name__}: {error}"
         ) from error
-    ghost, tabs = getattr(module, "GHOST", None), list(getattr(module, "TABS", []))
+    ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
+    if not isinstance(tabs, list | tuple):
+        raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")
     if ghost is not None and not isinstance(ghost, Ghost):
         raise Robo47Error(f"{where}: GHOST is not a labkit.inspector.ghost.Ghost")
     for tab in tabs:
@@ -146,4 +148,4 @@ def day_tabs(day: Day) -> DayTabs:
             raise Robo47Error(
                 f"{where}: {tab!r} in TABS is not a class of labkit.inspector.tab.Tab"
             )
-    return DayTabs(ghost, tabs)
+    return DayTabs(ghost, list(tabs))

@@ -155,6 +155,32 @@ def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
     assert ends[2] > 3 * ends[1]
 
 
+def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):
+    G = lab.spatial_inertia(1.0, np.array([1.0, 0, 0]), np.zeros((3, 3)))
+    V = np.array([0.0, 0, 1, 0, 0, 0])
+    assert_same(G @ V, [0, 0, 1, 0, 1, 0], 0.0)
+    assert_same(-lab.ad(V).T @ G @ V, [0, 0, 0, -1, 0, 0], 0.0)
+    for words in ("is (0, 0, 1; 0, 1, 0)", "as (0, 0, 0; -1, 0, 0)"):
+        assert words in SENTENCES
+    # The law behind it: G rides on its link, so its rate is -ad(V)^T G - G ad(V).
+    V, h = np.random.default_rng(2).normal(size=6), 1e-6
+    X = np.eye(6) - h * lab.ad(V)  # takes what rides on the link back by h
+    rate = (X.T @ G @ X - G) / h
+    assert_same(rate, -lab.ad(V).T @ G - G @ lab.ad(V), 1e-4)
+
+
+def test_two_coriolis_matrices_give_one_torque_and_one_of_them_a_skew_rest(arm):
+    code = re.search(r"```python\n(q, qd, h.*?)```", GUIDE, re.S)[1]
+    rows = []
+    space = {"READY_Q": lab.READY_Q, "arm": arm, "np": np}
+    exec(code, {**space, "print": lambda *numbers: rows.append(numbers)})
+    for torque, power, _ in rows:
+        assert torque < 1e-9
+        assert abs(power) < 1e-12
+    assert rows[0][2] < 1e-12
+    assert f"symmetric part of up to {rows[1][2]:.2f} kg m²/s" in SENTENCES
+
+
 def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
     model = panda.load("panda_nohand", drive="torque")
     q, h = verify.random_q(model, 20, seed=1), model.opt.timestep

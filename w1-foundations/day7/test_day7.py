@@ -95,7 +95,7 @@ def test_step_1s_two_mistakes():
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
     assert says("with 6 and 10 swapped s still ends at 1, but at a speed of 8 / T")
-    assert says("sd is 1.3230 in place of 0.6615. Without the clip s is 1.2207")
+    assert says("sd is 1.3230 instead of 0.6615. Without the clip s is 1.2207")
     assert says("by 22 % of the way")
 
 

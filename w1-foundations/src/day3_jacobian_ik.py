@@ -238,7 +238,6 @@ def main() -> int:
     tau = verify.each(joint_torques, J_space, T[:, :3, 3], F)
     lab.check("joint_torques - MuJoCo's", tau - verify.mujoco_push(model, q, F))
     tau = joint_torques(J_space[1], T[1, :3, 3], DOWN)
-    lab.show("Pushing down with 10 N at ready costs the motors, N m", tau, 3)
     lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
     off = verify.off_null_vector(null_step, J_mujoco[1:])
     lab.check("null_step - the part along the null vector", off)

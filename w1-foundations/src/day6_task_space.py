@@ -183,6 +183,8 @@ def press(lab: Lab, at: list[hand.State]) -> None:
     stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
     for name, felt in (("soft", soft), ("stiff", stiff)):
         print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
+    lab.measured("force of the soft arm, told to go 50 mm into a table, N", soft[-1])
+    lab.measured("force of the stiff arm, the model file's servos, N", stiff[-1])
     lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
 
 
@@ -245,6 +247,7 @@ def main() -> int:
     lab.show("pushed with 10 N and 1 N m; predicted, rad and m", PUSH / K)
     moved = hand.rest_after(model, soft_hand(arm, READY_Q), PUSH, RATE)
     lab.show("where the hand came to rest", moved)
+    lab.measured("way of a hand on 400 N/m, pushed with 10 N, mm", 1e3 * moved[3])
     lab.record("push_predicted", moved - PUSH / K, label="largest difference")
 
     lab.step("5. Pressing on a table, with a force that was chosen")
