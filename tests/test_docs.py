@@ -7,6 +7,7 @@ import pytest
 
 from conftest import ROOT, kits_worksheet, need
 from labkit.lesson.day import all_days, find_day
+from robo47 import __version__
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
@@ -99,3 +100,10 @@ def test_every_command_in_the_teachers_guide_exists(run):
 def test_no_document_holds_an_empty_output():
     for path in DOCUMENTS:
         assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", path.read_text("utf-8"))
+
+
+def test_what_github_shows_says_what_the_kit_is():
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    assert f"\nversion: {__version__}\n" in citation
+    form = (ROOT / ".github/ISSUE_TEMPLATE/checker-misled-me.yml").read_text("utf-8")
+    assert "make check TASK=1.4 ARGS=--json" in form
