@@ -64,6 +64,12 @@ class TestManifest:
         asked = {word.lower() for term in day.terms for word in term.split(" or ")}
         assert asked <= words
 
+    def test_the_guides_parts_take_the_minutes_that_the_day_is_planned_for(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        table = guide.partition("| part | minutes |\n")[2].partition("\n\n")[0]
+        parts = re.findall(r"\| (\d+) \|$", table, re.MULTILINE)
+        assert sum(map(int, parts)) == day.minutes
+
     def test_the_lab_measures_what_the_worksheet_lets_predict(self, day):
         rows = predictions(kits_worksheet(day).replace("*(your prediction)*", "?"))
         lab = day.source.read_text("utf-8")

@@ -1,5 +1,6 @@
 """Documents: outputs come from runs, numbers in sentences are recomputed."""
 
+import importlib.util
 import json
 import re
 import shutil
@@ -96,6 +97,32 @@ def test_every_command_in_the_teachers_guide_exists(run):
     named = {option for line in lines for option in re.findall(r"--[a-z]+", line)}
     assert named >= {"--pull", "--deadline", "--dask"}
     assert {option for option in named if option not in known} == set()
+
+
+def formulas(path):
+    """Return what stands between dollars in a document, without its code."""
+    text = re.sub(r"```.*?```|`[^`]*`", "", path.read_text("utf-8"), flags=re.DOTALL)
+    return re.findall(r"\$\$(.+?)\$\$|\$(.+?)\$", text, re.DOTALL)
+
+
+@pytest.mark.parametrize("path", [p for p in DOCUMENTS if "$" in p.read_text("utf-8")],
+                         ids=lambda p: p.name)  # fmt: skip
+def test_formulas_are_in_a_dialect_that_github_and_the_site_read(path):
+    """The site's reader takes \\tfrac12 for the fraction 12 over what follows."""
+    found = [block or inline for block, inline in formulas(path)]
+    for formula in found:
+        assert not re.search(r"°|\\[td]?frac\s*\w", formula), formula
+        assert formula.count("{") == formula.count("}"), formula
+    if importlib.util.find_spec("docutils") is not None:  # make site brings it
+        from docutils.utils.math.latex2mathml import tex2mathml
+
+        assert all(tex2mathml(formula) for formula in found)
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
+def test_every_picture_says_in_words_what_it_shows(path):
+    text = path.read_text("utf-8")
+    assert not re.search(r"(?<!`)!\[.{0,15}\]\((?!.*jpg)", text)
 
 
 def test_no_document_holds_an_empty_output():

@@ -38,6 +38,7 @@ const query = new URLSearchParams(location.search);
 query.set("fixedDpr", "0.1");
 if (location.protocol === "http:") history.replaceState(null, "", `?${query}`);
 """
+ELSEWHERE = (0.1, -0.2, 0.3, -1.5, 0.5, 1.6, -0.7)
 SHOWN = 6e-7  # a matrix is shown with 6 decimals
 
 
@@ -572,6 +573,22 @@ def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
     page.drag(2, -30)
     page.until(lambda: page.angle(2) < angle - 0.2)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, page.angles())))
+
+
+def test_a_restart_finds_the_tab_and_the_arm_where_they_were(browser, tmp_path, model):
+    expected = truth(model, np.array(ELSEWHERE), "body:link4")
+    q = ",".join(map(str, ELSEWHERE))
+    for where in (f"?q={q}&frame=link4&tab=Order", ""):
+        server = Served("1", "--port", "0", "--simple", memory=tmp_path)
+        try:
+            page = Page(browser, server.url, where)
+            page.until(lambda page=page: page.selected("Order"))
+            page.until(lambda page=page: close(page.matrix("mujoco"), expected))
+            page.until(lambda: "tab=Order" in (tmp_path / "view.json").read_text())
+            page.tab.close()
+            assert server.press_ctrl_c() == 0
+        finally:
+            server.close()
 
 
 def test_two_browsers_see_the_same_arm(page, browser, served, model):

@@ -32,8 +32,8 @@ DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
-    """Serve the inspector until Ctrl-C."""
+def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int:
+    """Serve the inspector until Ctrl-C; without a start where it was left."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
@@ -51,9 +51,9 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
         )
         print(about)
     arm = Arm(panda.load(entry), panda.END_FRAME[entry])
-    arm.move(arm.named_q[start])
+    arm.move(arm.named_q[start or CONFIGURATIONS[0]])
     dressed = functools.partial(panda.load, entry, meshes=True)
-    return serve(Show(day, arm, about, dressed, simple), port)
+    return serve(Show(day, arm, about, dressed, simple, start is None), port)
 
 
 def native() -> int:
@@ -142,8 +142,8 @@ def parse() -> argparse.Namespace:
     add("--file", type=Path, help="with --clip: whose code, in place of your own")
     add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
     add("--port", type=port, default=8080, help="8080; 0 for any")
-    says = "ready (the labs' home_q), home (the model's own key) or zero"
-    add("--start", choices=CONFIGURATIONS, default="ready", help=says)
+    says = "ready (the labs' home_q), home (the model's own key) or zero; else where"
+    add("--start", choices=CONFIGURATIONS, help=f"{says} you left it")
     says = "which model, for --web; panda has the hand"
     add("--entry", choices=("panda_nohand", "panda"), help=says)
     return parser.parse_args()
@@ -175,7 +175,7 @@ def main() -> int:
     if options.screenshot:
         if options.entry:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
-        return screenshot(picture_of(options), options.start)
+        return screenshot(picture_of(options), options.start or CONFIGURATIONS[0])
     if options.native:
         return native()
     day = chosen_day(options.day)

@@ -11,7 +11,8 @@ from viser import uplot
 from robo47.checks import Array
 
 KEPT = 2_000  # points of a plot that is added to
-STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e")
+STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
+           "#1e2228")  # fmt: skip
 
 
 class Bars:

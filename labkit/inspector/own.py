@@ -45,7 +45,7 @@ class Own:
         self._free = free
         self._student = student
         self._library = library if isinstance(library, Mapping) else vars(library)
-        self._version = 0
+        self.version = 0
         self._forget()
 
     def _forget(self) -> None:
@@ -72,8 +72,8 @@ class Own:
         student = self._student()
         there = student is not None and student.there
         version = student.version if student is not None and there else -1
-        if version != self._version:
-            self._version = version
+        if version != self.version:
+            self.version = version
             self._forget()
         if student is None or not there:
             self._lent |= {name: "there is no file yet" for name, *_ in calls}
@@ -94,8 +94,8 @@ class Own:
             raise NoAnswerError(f"YOUR {name}: {problem.removeprefix(f'{name}: ')}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
-            got = " and ".join(str(np.shape(x)) for x in theirs) or "nothing"
-            raise NoAnswerError(f"YOUR {name} returned shape {got}")
+            got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
+            raise NoAnswerError(f"YOUR {name} returned {got}")
         if not all(np.isfinite(x).all() for x in theirs):
             raise NoAnswerError(f"YOUR {name} returned NaN, or a number without end")
         for mine, truth in zip(theirs, ours, strict=True):

@@ -73,6 +73,7 @@ class Page(Widgets):
     def hide_arm(self) -> None:
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
+        self.host.panel.solid.visible = False
 
     def trace(self, origins: Array) -> None:
         """Draw the way from the world through points, (n, 3)."""

@@ -53,7 +53,7 @@ class Panel:
         for uuid, child in list(self._children().items()):
             if uuid not in self.fixed:
                 child.remove()
-        self.frame.visible = not wide
+        self.frame.visible, self.solid.visible = not wide, True
         self.tabs.content = words.tab_row(titles, chosen)
 
     def explain(self, colours: Mapping[str, tuple[int, int, int]]) -> None:

@@ -49,7 +49,7 @@ class ArmScene:
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
@@ -81,8 +81,9 @@ class ArmScene:
             triad.place(self.arm.by_library[self.arm.names[name]])
 
     def hide(self, hidden: bool = True) -> None:
-        """Draw no arm and no frames but the world's, or draw them again."""
+        """Draw no arm and no frames, or draw them again."""
         self.hidden = hidden
+        self.world.show(not hidden, chosen=False)
         if hidden:
             self.light(None, ())
         self.update()

@@ -119,7 +119,8 @@ class Student(threading.Thread):
                 says = f"{type(error).__name__}: {error}"
                 return [Reply(kind="unsendable", error=says)] * len(questions)
             if not self._asker.alive:
-                at = next(i for i, one in enumerate(replies) if one.kind == "stopped")
+                kinds = [reply.kind for reply in replies]
+                at = kinds.index("stopped") if "stopped" in kinds else -1
                 function = questions[at].function
                 self._give_up(self.source.describe(function, replies[at]))
             return replies

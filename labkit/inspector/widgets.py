@@ -15,6 +15,7 @@ from robo47.checks import Array
 if TYPE_CHECKING:
     from labkit.inspector.app import Inspector
 
+NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
 
 
@@ -99,7 +100,7 @@ class Widgets:
         """
         # What the mouse gives are whole steps: from a whole step on, they are round.
         least, most = np.ceil(low / step) * step, np.floor(high / step) * step
-        text = f"{label} ({unit})" if unit else label
+        text = f"{label} ({unit.replace(' ', NARROW)})" if unit else label
         start = float(np.clip(start, least, most))
         handle = self.gui.add_slider(
             text, float(least), float(most), float(step), start, marks=()

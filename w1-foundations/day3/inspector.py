@@ -19,7 +19,7 @@ from .circle import Circle
 JOINTS = 7
 NEAR_SINGULAR = 0.05  # the smallest singular value that is shown in red below
 COLUMN, BALL = 0.35, 0.2  # metres drawn for 1 m/s per rad/s
-SAME = 1e-7  # of a column
+SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
 REACHED = 1e-3  # radians and metres together
 PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
@@ -84,8 +84,11 @@ class Jacobian(Tab):
         p, J, right = found
         off = np.abs(J - right).max(axis=0) > SAME
         arrows = _arrows(p, J)
-        self.columns.points = np.where(off[:, None, None], p, arrows).astype(np.float32)
-        self.wrong.points = np.where(off[:, None, None], arrows, p).astype(np.float32)
+        long = np.linalg.norm(arrows[:, 1] - p, axis=1) > SHORT
+        for drawn, some in ((self.columns, long & ~off), (self.wrong, long & off)):
+            drawn.visible = bool(some.any())
+            if some.any():
+                drawn.points = arrows[some]
         self.truth.points = _arrows(p, right)
         self.names.show(arrows[:, 1] + 0.03 * (arrows[:, 1] - p))
         self.ball.show(J[3:] @ J[3:].T, p, BALL)

@@ -24,7 +24,6 @@ KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; well above 2 OMEGA^3 the loop swings up
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of the tracking run
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])  # rad, the first error
 TRIALS, SEED = 100, 47  # random states of step 1: how many, the same at every run
-raised_cosine = references.raised_cosine(READY_Q, REACH)  # a swing in 2 s, and back
 Gain = float | np.ndarray  # one number for all joints, or (7,)
 
 
@@ -140,6 +139,11 @@ def servo_ctrl(
     # region 5.9
     return q + (tau + kd * qd) / kp
     # endregion 5.9
+
+
+def raised_cosine(t: float) -> tuple:
+    """Return q, qd and qdd of a swing by REACH in a second, and back in the next."""
+    return references.raised_cosine(READY_Q, REACH)(t)
 
 
 def springs(arm, q, qd, ref):
