@@ -21,7 +21,8 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 .PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
-.PHONY: capstone fresh help test soak report lint docs site oracle figures notebook
+.PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
+.PHONY: new author
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -40,6 +41,9 @@ week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one
 
 capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
+
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
@@ -65,7 +69,7 @@ run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbe
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
-grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,core) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
+grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
 	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 
@@ -85,7 +89,7 @@ lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
-	@$(PY) scripts/build_docs.py $(ARGS)
+	@$(PY) scripts/build_docs.py $(ON_DAY) $(ARGS)
 
 site: .venv/.ready-site site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
 	@$(PY) scripts/build_site.py $(ARGS)
@@ -99,6 +103,13 @@ figures: .venv/.ready-figures $(ROBOT) ## draw the day's picture with your funct
 
 notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook
 	@$(PY) scripts/make_notebook.py $(ON_DAY) $(ARGS)
+
+new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-autonomy NAME=me
+	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
+	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
+
+author: .venv/.ready-test .venv/.ready-notebook $(ROBOT) ## is a day that you write as it must be?
+	@$(PY) scripts/author_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)

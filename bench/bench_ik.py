@@ -9,13 +9,14 @@ import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
 from bench.timing import take_turns
 from robo47 import jacobian, panda, se3, verify
 from robo47.checks import Array
-from robo47.fast import ik
+from robo47.fast import ik, ik_one
 from robo47.panda import files
 
 N = 1000
@@ -43,18 +44,23 @@ def ours() -> Rival:
     model = panda.load("panda_nohand")
     S, M = panda.screws(model), panda.home_pose(model)
     steps = [0]
-    downhill = ik._downhill
+    many, one = ik._downhill, ik_one.Walker._downhill
 
-    def counted(problem: Any, q: Array, target: Array) -> tuple[Array, Array]:
+    def count_many(problem: Any, q: Array, target: Array) -> Any:
         steps[0] += q.shape[1]
-        return downhill(problem, q, target)
+        return many(problem, q, target)
+
+    def count_one(walker: ik_one.Walker, q: list[float]) -> Any:
+        steps[0] += 1
+        return one(walker, q)
 
     def solve(T: Array) -> tuple[Array, int]:
-        steps[0], ik._downhill = 0, counted
-        try:
+        steps[0] = 0
+        with (
+            mock.patch.object(ik, "_downhill", count_many),
+            mock.patch.object(ik_one.Walker, "_downhill", count_one),
+        ):
             q = jacobian.solve_ik(S, M, T, panda.READY_Q, model.jnt_range)
-        finally:
-            ik._downhill = downhill
         return q, steps[0]
 
     return Rival(solve)

@@ -1,14 +1,14 @@
-"""bench.png: the rivals as bars, and the two curves that should be flat or straight."""
+"""bench.png: the rivals as dots, and the two curves that should be flat or straight."""
 
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-mpl.use("Agg")
-import matplotlib.pyplot as plt
+from labkit.figures import chart
 
-OURS, OTHERS = "#0a7d5a", "#9aa5b1"
+OURS, OTHERS = chart.BLUE, chart.GREY
 
 
 def draw(results: dict[str, Any], path: Path) -> None:
@@ -18,45 +18,41 @@ def draw(results: dict[str, Any], path: Path) -> None:
         results: what bench/results.json holds; "fk" and "growth" are drawn.
         path: the PNG to write.
     """
-    plt.rcParams.update({"font.size": 11, "axes.spines.top": False})
-    plt.rcParams["axes.spines.right"] = False
-    figure, (bars, count, joints) = plt.subplots(
-        1, 3, figsize=(15, 4.6), width_ratios=(1.5, 1, 1), layout="constrained"
-    )
+    _panels(results).save(path, optimize=True)
+
+
+@chart.picture(height=8.5)
+def _panels(figure: Figure, results: dict[str, Any]) -> None:
+    above, below = figure.subfigures(2, 1, height_ratios=(1.3, 1))
     if "fk" in results:
-        _bars(bars, results["fk"]["rows"])
+        _rivals(above.subplots(), results["fk"]["rows"])
+    count, joints = below.subplots(1, 2)
     growth = results["growth"]
-    _curve(count, growth["by_count"], "configurations at once", log=True)
-    count.set_title("flat from a thousand on")
+    _curve(count, growth["by_count"], "configurations at once")
+    count.set(title="flat from 1,000 on", xscale="log", yscale="log")
     count.set_ylabel("µs per configuration")
-    _curve(joints, growth["by_joints"], "joints of the robot", log=False)
+    _curve(joints, growth["by_joints"], "joints of the robot")
     joints.set_title("straight in the joints")
     joints.set_ylim(bottom=0)
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
-def _bars(axes: plt.Axes, rows: dict[str, Any]) -> None:
+def _rivals(axes: Axes, rows: dict[str, Any]) -> None:
+    """Draw dots: on a log axis, the length of a bar would mean nothing."""
     ordered = sorted(rows.items(), key=lambda item: -item[1]["us"])
-    names = [name for name, _ in ordered]
-    us = [row["us"] for _, row in ordered]
-    colours = [OURS if name.startswith("robo47") else OTHERS for name in names]
-    axes.barh(names, us, color=colours)
-    axes.set_xscale("log")
-    axes.set_xlabel("µs per configuration (log)")
-    axes.set_title("the Panda's forward kinematics")
-    for i, value in enumerate(us):
-        axes.annotate(
-            f" {value:.2f}" if value < 10 else f" {value:.0f}", (value, i), va="center"
-        )
-    axes.set_xlim(right=max(us) * 4)
+    for i, (name, row) in enumerate(ordered):
+        ours, us = name.startswith("robo47"), row["us"]
+        axes.plot(us, i, "o" if ours else "D", color=OURS if ours else OTHERS)
+        words = f"{us:.2f}" if us < 10 else f"{us:.0f}"
+        place = {"xytext": (10, 0), "textcoords": "offset points"}
+        axes.annotate(words, (us, i), va="center", fontsize=chart.SMALL, **place)
+    axes.set_yticks(range(len(ordered)), [name for name, _ in ordered])
+    axes.grid(axis="y")
+    axes.set(xscale="log", xlabel="µs per configuration")
+    axes.set_title("forward kinematics of the Panda", loc="left")
+    axes.set_xlim(right=5 * ordered[0][1]["us"])
 
 
-def _curve(axes: plt.Axes, points: dict[str, float], label: str, *, log: bool) -> None:
-    x = [float(n) for n in points]
-    axes.plot(x, list(points.values()), "o-", color=OURS)
-    if log:
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+def _curve(axes: Axes, points: dict[str, float], label: str) -> None:
+    axes.plot([float(n) for n in points], list(points.values()), "o-", color=OURS)
     axes.set_xlabel(label)
-    axes.grid(alpha=0.3)
+    axes.grid()

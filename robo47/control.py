@@ -207,7 +207,7 @@ def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
     return np.clip(tau, -limits, limits)
 
 
-def fastest(h: ArrayLike, steps: ArrayLike = 1) -> Array:
+def stiffest_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
     """Return the largest omega of critical damping that a held torque allows.
 
     edd = -omega^2 e - 2 omega ed is computed once and held for n semi-implicit steps

@@ -25,7 +25,7 @@ from robo47.checks import Array
 from robo47.screws import ad, skew
 
 
-def spatial_inertia(m: ArrayLike, c: ArrayLike, I: ArrayLike) -> Array:  # noqa: E741
+def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
     """Return a body's 6x6 inertia about the world's origin.
 
     [[I + m [c] [c]^T, m [c]], [m [c]^T, m 1]] (Featherstone, eq. 2.63): G @ V is the
@@ -34,15 +34,15 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, I: ArrayLike) -> Array:  # noqa:
     Args:
         m: mass, kg, (...).
         c: centre of mass in the world, metres, (..., 3).
-        I: inertia about the centre of mass in world axes, kg m^2, (..., 3, 3).
+        inertia: I, about the centre of mass in world axes, kg m^2, (..., 3, 3).
 
     Returns:
         G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
     """
     m = checks.array(m, "m", ())[..., None, None]
-    C, I = skew(c), checks.array(I, "I", (3, 3))  # noqa: E741
+    C, own = skew(c), checks.array(inertia, "inertia", (3, 3))
     corner = m * C
-    around = I + corner @ np.swapaxes(C, -1, -2)
+    around = own + corner @ np.swapaxes(C, -1, -2)
     G = np.empty((*around.shape[:-2], 6, 6))
     G[..., :3, :3], G[..., :3, 3:] = around, corner
     G[..., 3:, :3], G[..., 3:, 3:] = np.swapaxes(corner, -1, -2), m * np.eye(3)

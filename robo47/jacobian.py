@@ -95,6 +95,27 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
     return adjoint(se3.inverse(T)) @ _jacobian(J_space, "J_space")
 
 
+def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
+    """Return the motors' torques with which the hand pushes with a wrench at a point.
+
+    J_site^T F: what the motors put in, tau . q_dot, comes out at the hand, F . V
+    (Modern Robotics, section 5.2).
+
+    Args:
+        J_space: from `space_jacobian`, (..., 6, n).
+        p: where the hand pushes, world coordinates, metres, (..., 3).
+        F: moment about p and force, world axes, N m and N, (..., 6).
+
+    Returns:
+        Torques, N m (forces of slides, N), (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    J, F = site_jacobian(J_space, p), checks.array(F, "F", (6,))
+    return (F[..., None, :] @ J)[..., 0, :]
+
+
 def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     """Return the damped least-squares step, J^T (J J^T + damping^2 I)^-1 e.
 

@@ -111,6 +111,12 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
     return panda.load("panda_nohand", drive=drive, meshes=meshes, edit=edit)
 
 
+def hang_kilogram(spec: mujoco.MjSpec) -> None:
+    """Hang a ball of 1 kg on the end of the arm without a hand; an `edit` of it."""
+    ball = {"mass": 1.0, "inertia": [1e-4, 1e-4, 1e-4], "explicitinertial": True}
+    spec.body("attachment").add_body(name="load", **ball)
+
+
 def on_table(xy: ArrayLike, name: str) -> Array:
     """Return a place for the cube, (2,), after checking that the table is under it.
 
@@ -158,6 +164,7 @@ def _add_table(spec: mujoco.MjSpec, height: float) -> None:
     body = spec.worldbody.add_body(name="table", pos=[*TABLE_CENTRE, height / 2.0])
     top = _box(body, "table_top", (*TABLE_HALF, height / 2.0), (0.0, 0.0, 0.0), 1.0, 3)
     top.mass = 0.0  # it cannot move; the model's mass stays the robot's
+    top.rgba = [0.80, 0.74, 0.66, 1.0]
 
 
 def _box(body, name: str, half, pos, friction: float, condim: int = 4):

@@ -7,7 +7,7 @@ omega = 0 and moves along v. Conventions:
 - Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`;
   Pinocchio, `mj_jac` and a free joint's `qvel` have v first.
 - Space screws stand in the world frame, body screws in the end effector's, both with
-  the arm at q = 0, where the end effector's pose is M = `T_world_ee`.
+  the arm at q = 0, where the end effector's pose is M (`M_home` in code).
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
@@ -174,7 +174,7 @@ def ad(V: ArrayLike) -> Array:
     return out
 
 
-def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
+def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
 
     Many configurations of one arm take one vectorised pass (`fast.exponentials`), which
@@ -182,7 +182,7 @@ def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
-        M: `T_world_ee` at q = 0, (..., 4, 4).
+        M_home: `T_world_ee` at q = 0, (..., 4, 4).
         q: joint angles in radians (metres for slides), (..., n).
 
     Returns:
@@ -192,19 +192,19 @@ def fk_space(screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
         ValueError: wrong shape, a non-finite number, no screw or not a pose.
     """
     S, q = checks.screws_and_q(screws, q)
-    M = checks.pose(M, "M")
-    if S.ndim == M.ndim == 2:
-        return exponentials.end_poses(S, M, q)
+    M_home = checks.pose(M_home, "M_home")
+    if S.ndim == M_home.ndim == 2:
+        return exponentials.end_poses(S, M_home, q)
     steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
-    return functools.reduce(np.matmul, steps) @ M
+    return functools.reduce(np.matmul, steps) @ M_home
 
 
-def body_screws(screws: ArrayLike, M: ArrayLike) -> Array:
+def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
     """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
-        M: `T_world_ee` at q = 0, (..., 4, 4).
+        M_home: `T_world_ee` at q = 0, (..., 4, 4).
 
     Returns:
         Body screws (omega; v), (..., n, 6) (Modern Robotics, section 4.1.3).
@@ -213,10 +213,10 @@ def body_screws(screws: ArrayLike, M: ArrayLike) -> Array:
         ValueError: as `fk_space`.
     """
     S = checks.screws(screws, "screws")
-    return S @ np.swapaxes(adjoint(se3.inverse(M)), -1, -2)
+    return S @ np.swapaxes(adjoint(se3.inverse(M_home)), -1, -2)
 
 
-def fk_body(body_screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
+def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     """Return the end effector's pose, M e^[B1] q1 ... e^[Bn] qn.
 
     M e^[B] = e^[Ad(M) B] M takes M from the left end to the right one, so this is
@@ -224,7 +224,7 @@ def fk_body(body_screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
 
     Args:
         body_screws: body screws (omega; v), (..., n, 6).
-        M: `T_world_ee` at q = 0, (..., 4, 4).
+        M_home: `T_world_ee` at q = 0, (..., 4, 4).
         q: joint angles in radians (metres for slides), (..., n).
 
     Returns:
@@ -234,4 +234,4 @@ def fk_body(body_screws: ArrayLike, M: ArrayLike, q: ArrayLike) -> Array:
         ValueError: as `fk_space`.
     """
     B = checks.screws(body_screws, "body_screws")
-    return fk_space(B @ np.swapaxes(adjoint(M), -1, -2), M, q)
+    return fk_space(B @ np.swapaxes(adjoint(M_home), -1, -2), M_home, q)

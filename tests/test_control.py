@@ -35,7 +35,7 @@ def test_the_tutorial_cases_of_day_5():
     assert integral == pytest.approx([0.1])
     assert acc == pytest.approx([0.2])
     assert control.saturate([100.0], [87.0]) == [87.0]
-    assert control.fastest(0.002) == pytest.approx(414.2, abs=0.05)
+    assert control.stiffest_omega(0.002) == pytest.approx(414.2, abs=0.05)
     q = np.arange(7.0)
     assert_same(control.servo_ctrl(0 * q, q, 0 * q, 4500, 450), q)
 
@@ -133,7 +133,7 @@ def test_fastest_is_where_semi_implicit_euler_stops_being_stable(h):
         step = np.array([[1 - h * h * kp, h - h * h * kd], [-h * kp, 1 - h * kd]])
         return np.abs(np.linalg.eigvals(step)).max()
 
-    limit = control.fastest(h)
+    limit = control.stiffest_omega(h)
     assert largest_eigenvalue(0.999 * limit) < 1.0 < largest_eigenvalue(1.001 * limit)
 
 
@@ -174,7 +174,7 @@ def test_many_configurations_at_once_equal_one_at_a_time():
         (lambda: control.error_response(-1.0, 1, 1), "t is -1; it must not be below 0"),
         (lambda: control.error_response(1.0, 0, 1), "omega is 0; it must be above 0"),
         (lambda: control.sag_step([0.0], [1.0], 0), "kp is 0; it must be above 0"),
-        (lambda: control.fastest(0.0), "h is 0; it must be above 0"),
+        (lambda: control.stiffest_omega(0.0), "h is 0; it must be above 0"),
         (lambda: control.saturate([1.0], -1), "limits is -1"),
         (
             lambda: control.pid_step([1.0], [0.0], [0.0], 1, 1, 1, 0.1, -1),

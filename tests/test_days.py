@@ -6,14 +6,14 @@ import inprocess
 import pytest
 from catalogue import run_as_lab
 
-from conftest import ROOT, kits_worksheet
+from conftest import ROOT, days, kits_worksheet
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
-from labkit.lesson.day import all_days
+from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.library import library_of
 
-DAYS = all_days()
+DAYS = days()
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
 
 
@@ -58,9 +58,17 @@ class TestManifest:
         assert len(questions) == day.questions
 
     def test_the_guide_explains_every_term_of_the_worksheet(self, day):
+        """A term, or two that people confuse: "screw axis or twist"."""
         guide = (day.folder / day.guide).read_text("utf-8")
-        terms = re.findall(r"^- \*\*(.+?)\*\*: ", guide, re.MULTILINE)
-        assert [term.lower() for term in terms] == [t.lower() for t in day.terms]
+        words = {word.lower() for word in re.findall(r"\*\*(.+?)\*\*", guide)}
+        asked = {word.lower() for term in day.terms for word in term.split(" or ")}
+        assert asked <= words
+
+    def test_the_lab_measures_what_the_worksheet_lets_predict(self, day):
+        rows = predictions(kits_worksheet(day).replace("*(your prediction)*", "?"))
+        lab = day.source.read_text("utf-8")
+        assert rows
+        assert set(re.findall(r'lab\.measured\(\s*"(.+?)"', lab)) <= set(rows)
 
     def test_the_library_of_earlier_days_holds_no_answer_of_this_one(self, day):
         assert not {f"robo47.{name}" for name in day.library} & set(library_of(day))

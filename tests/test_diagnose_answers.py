@@ -54,7 +54,7 @@ def test_an_answer_that_changes_when_asked_again_is_told_so():
     replies = [Reply(value=one, again=one + 1e-6) for one in T]
     verdict = judged_replies(MAKE_T, replies)
     assert verdict.mistake == "kept-between-calls"
-    assert "6 of 38" in verdict.message
+    assert "6 of 68" in verdict.message
 
 
 def test_an_error_of_the_second_time_alone_is_state_too():

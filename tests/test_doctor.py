@@ -31,6 +31,7 @@ def test_it_has_a_line_on_everything_and_no_traceback(run):
     lines = json.loads(done.stdout)
     about = [line["about"] for line in lines]
     assert about == [
+        "kit",
         "Python",
         "platform",
         "MuJoCo",
@@ -147,8 +148,8 @@ def test_a_lab_script_that_is_not_the_kits_is_told(answers):
 def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
-    assert len(lines) == 10
-    assert "ZeroDivisionError" in lines[8].found
+    assert len(lines) == 11
+    assert "ZeroDivisionError" in lines[9].found
 
 
 @pytest.mark.parametrize(

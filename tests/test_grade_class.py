@@ -548,3 +548,29 @@ def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
 
 def test_the_folder_of_the_clones_is_not_written_to(graded):
     assert not (Path(graded[0]) / "grades.csv").exists()
+
+
+def test_sixteen_copies_of_one_file_get_one_grade_and_one_failing_call(run, tmp_path):
+    """A bug that few inputs reach is found for all of them or for none."""
+    rare = "    if theta > 2.9:\n        return np.diag([-1.0, -1.0, 1.0])\n"
+    _, marker, _ = DAY.source.read_text("utf-8").partition("    # region 1.2\n")
+    text = DAY.source.read_text("utf-8").replace(marker, marker + rare)
+    for i in range(16):
+        work = tmp_path / "clones" / f"s{i:02}" / WEEK / "work"
+        work.mkdir(parents=True)
+        (work / DAY.script).write_text(f"{text}# {i}\n", "utf-8")
+    done = grade(run, tmp_path / "clones", tmp_path, "--seed", "4711")
+    table = [row.values() for row in rows(tmp_path).values()]
+    assert len({tuple(row)[3:] for row in table}) == 1  # but for id, name and folder
+    told = [path.read_text("utf-8") for path in (tmp_path / "feedback").iterdir()]
+    assert len({text.partition("\n")[2] for text in told}) == 1
+    assert "--seed 4711" in done.stdout
+    call = re.search(r"(Rz\(.+\))\[\d, \d\] is (\S+), and (\S+) is right", told[0])
+    mine = tmp_path / "clones" / "s00" / WEEK / "work" / DAY.script
+    again = run(
+        "scripts/check_day.py", "1", "--task", "1.2", "--file", mine, "--seed", "4711"
+    )
+    assert call[0] in again.stdout  # on the student's machine
+    assert float(call[2]) != pytest.approx(float(call[3]))
+    theta = float(call[1][3:-1])
+    assert theta > 2.9

@@ -170,8 +170,8 @@ def test_the_table_has_a_column_for_each_deliverable_of_the_checker(clone):
     assert tuple(item.name for item in found) == ITEMS
 
 
-def test_the_drawn_questions_depend_on_all_that_runs(monkeypatch):
-    """Else one writes the script first, and right answers for its seed in a helper."""
+def test_the_drawn_questions_are_the_same_for_everybody(monkeypatch):
+    """Else the same code gets two grades; and nobody can know the teacher's seed."""
     seeds = []
 
     def noted(day, *_, seed):
@@ -181,9 +181,16 @@ def test_the_drawn_questions_depend_on_all_that_runs(monkeypatch):
     monkeypatch.setattr(child, "check_tasks", noted)
     own = {SCRIPT: b"import helper", f"{WEEK}/work/helper.py": b"x = 1"}
     other = {**own, f"{WEEK}/work/helper.py": b"x = 2"}
-    for files in (own, own, other):
-        child.grade(Package(1, "", Handin(files)), DAY)
-    assert seeds[0] == seeds[1] != seeds[2]
+    one, two = (Package(1, "", Handin(files), seed=4711) for files in (own, other))
+    for package in (one, two):
+        child.grade(package, DAY)
+    assert seeds == [4711, 4711]
+    again = child.signed(
+        result(*["passed"] * len(DAY.tasks)), replace(one, version="0.2.0 (ff9d311)")
+    )
+    assert (again.kit, again.seed) == ("0.2.0 (ff9d311)", 4711)
+    assert 'make check DAY=1 ARGS="--seed 4711 --explain"' in again.text
+    assert one.fingerprint != replace(one, seed=4712).fingerprint
 
 
 class TestTheGrader:

@@ -20,6 +20,8 @@ FLOORS = [
     "labkit.site",
     "labkit.fresh",
     "labkit.grade",
+    "labkit.proof",
+    "labkit.author",
     "labkit.setup",
     "labkit.commands",
 ]

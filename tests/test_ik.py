@@ -60,6 +60,23 @@ def test_more_targets_than_a_chunk_have_no_seam(robot, monkeypatch):
     assert jacobian.reached(S, M, goals, q).all()
 
 
+def test_one_alone_takes_the_steps_that_it_takes_among_many(robot):
+    S, M, limits, _ = robot
+    near = READY + np.random.default_rng(8).uniform(-0.3, 0.3, (50, 7))
+    goals = screws.fk_space(S, M, np.clip(near, *limits.T))
+    together = jacobian.solve_ik(S, M, goals, READY, limits)
+    alone = [jacobian.solve_ik(S, M, goal, READY, limits) for goal in goals]
+    assert_same(alone, together, 1e-9)
+
+
+def test_targets_one_by_one_are_all_reached_wherever_they_are(robot):
+    S, M, limits, model = robot
+    goals = screws.fk_space(S, M, verify.random_q(model, 100, seed=9))
+    found = [jacobian.solve_ik(S, M, goal, READY, limits) for goal in goals]
+    assert jacobian.reached(S, M, goals, found).all()
+    assert ((found >= limits[:, 0]) & (found <= limits[:, 1])).all()
+
+
 def test_the_same_call_gives_the_same_answer(robot):
     S, M, limits, model = robot
     goals = screws.fk_space(S, M, verify.random_q(model, 30, seed=4))
@@ -133,13 +150,16 @@ BAD[3] = [1.0, -1.0]
         ({"q_start": [0] * 6}, r"q_start has shape \(6,\)"),
         ({"T_goal": np.ones((4, 4))}, "T_goal is not a pose"),
         ({"screws": [PANDA]}, "one arm, many targets"),
-        ({"M": np.full((4, 4), np.nan)}, "M holds a number that is not finite"),
+        (
+            {"M_home": np.full((4, 4), np.nan)},
+            "M_home holds a number that is not finite",
+        ),
     ],
 )
 def test_what_does_not_fit_is_named(change, words):
     good = {
         "screws": PANDA,
-        "M": np.eye(4),
+        "M_home": np.eye(4),
         "T_goal": np.eye(4),
         "q_start": READY,
         "limits": np.tile([-1.0, 1.0], (7, 1)),

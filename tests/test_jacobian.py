@@ -338,3 +338,19 @@ def test_what_does_not_fit_is_named(call, words):
     with pytest.raises(ValueError, match=words) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+def test_what_a_push_costs_is_what_mujoco_puts_in_its_place():
+    model = panda.load("panda_nohand")
+    q = verify.random_q(model, 20, seed=5)
+    F = np.random.default_rng(6).normal(size=(20, 6))
+    J = jacobian.space_jacobian(panda.screws(model), q)
+    p = verify.mujoco_poses(model, q)["site:attachment_site"][:, :3, 3]
+    tau = jacobian.joint_torques(J, p, F)
+    assert_same(tau, verify.mujoco_push(model, q, F), 1e-12)
+    # Power in is power out, and about the origin the same wrench has another moment.
+    q_dot = np.random.default_rng(7).normal(size=(20, 7))
+    V = (jacobian.site_jacobian(J, p) @ q_dot[..., None])[..., 0]
+    assert_same(np.sum(tau * q_dot, axis=1), np.sum(F * V, axis=1), 1e-12)
+    about_0 = np.hstack([F[:, :3] + np.cross(p, F[:, 3:]), F[:, 3:]])
+    assert_same(tau, jacobian.joint_torques(J, np.zeros(3), about_0), 1e-12)

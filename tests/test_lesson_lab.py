@@ -105,3 +105,38 @@ def test_a_log_that_refuses_costs_no_row_and_no_word_of_how_it_went(log, capsys)
     assert len(kept) == 3
     assert all(f"  row: {text}\n" in str(caught.value) for text in kept)
     assert "FAILED: fk by hand is 2" in capsys.readouterr().out
+
+
+@pytest.fixture
+def own(monkeypatch, tmp_path) -> Path:
+    """Return a worksheet beside a day whose script is the student's own copy."""
+    day = replace(find_day(1), folder=tmp_path, worksheet="day1.md")
+    monkeypatch.setattr("labkit.lesson.lab.day_of", lambda script: day)
+    return tmp_path / "day1.md"
+
+
+ROW = "| height of `ee`, m | {} | *(your number)* | |\n"
+
+
+def test_a_prediction_stands_beside_what_is_measured(log, own, capsys):
+    own.write_text(ROW.format("0.6, **half** a guess"))
+    lab = Lab(str(own.parent / "work" / SCRIPT.name), "A lab.")
+    lab.measured("height of ee, m", 0.59027)
+    lab.measured("nobody asked", 1.0)
+    out = capsys.readouterr().out
+    assert out == (
+        "  you predicted 0.6, **half** a guess, measured 0.5903: height of ee, m\n"
+    )
+
+
+@pytest.mark.parametrize("cell", ["*(your prediction)*", " ", "...", "-"])
+def test_without_a_prediction_nothing_is_said(log, own, capsys, cell):
+    own.write_text(ROW.format(cell))
+    Lab(str(own.parent / "work" / SCRIPT.name), "A lab.").measured("height of ee, m", 1)
+    assert capsys.readouterr().out == ""
+
+
+def test_the_kits_own_lab_knows_nobodys_predictions(log, own, capsys):
+    own.write_text(ROW.format("0.6"))
+    Lab(str(SCRIPT), "A lab.").measured("height of ee, m", 1)
+    assert capsys.readouterr().out == ""

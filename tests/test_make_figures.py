@@ -19,7 +19,7 @@ from labkit.figures import overlay, portrait
 pytestmark = pytest.mark.kit
 
 FOLDER = ROOT / "w1-foundations" / "figures"
-SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 800)}
+SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 1050)}
 
 
 @pytest.mark.parametrize("name", SIZES)

@@ -257,7 +257,10 @@ LONG[2, :3] *= 2.0
         (lambda: screws.fk_space(PANDA[0], BOOK_M, [0]), r"expected \(..., n, 6\)"),
         (lambda: screws.fk_space(PANDA, BOOK_M, [0] * 6), r"q has shape \(6,\); exp"),
         (lambda: screws.fk_space(PANDA, BOOK_M, [np.nan] * 7), "q holds a number that"),
-        (lambda: screws.fk_space(PANDA, np.ones((4, 4)), [0] * 7), "M is not a pose"),
+        (
+            lambda: screws.fk_space(PANDA, np.ones((4, 4)), [0] * 7),
+            "M_home is not a pose",
+        ),
         (lambda: screws.screw_axis([0, 0, 2], [0, 0, 0]), "axis has length 2; expec"),
         (lambda: screws.exp_rotation([[0, 0, 1], [0, 3, 0]], 1), r"axis\[1\] has leng"),
         (lambda: screws.skew([1, 2]), r"w has shape \(2,\)"),

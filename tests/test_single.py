@@ -4,9 +4,13 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from test_screws import any_screws, poses
 
 from bench.bench_fk import tilted_panda
-from robo47 import kinematics, panda, verify
+from robo47 import jacobian, kinematics, panda, screws, verify
+from robo47.fast.exponentials import chain_of
 
 EVERY_JOINT = """
 <mujoco><worldbody><body name="a" pos="0.1 0.2 0.3" quat="1 2 3 4">
@@ -37,6 +41,17 @@ def test_slides_and_references_are_taken_into_account():
     assert chain.plan.single is not None
     for row, T in zip(q, truth, strict=True):
         assert_same(kinematics.fk(chain, row), T, 1e-14)
+
+
+@settings(max_examples=50, deadline=None)
+@given(S=st.lists(any_screws(), min_size=1, max_size=7), M=poses())
+def test_the_jacobian_of_one_is_the_formulas_whatever_the_joints(S, M):
+    q = np.random.default_rng(1).uniform(-3, 3, len(S))
+    columns, frame = chain_of(np.array(S), M).jacobian(q.tolist())
+    T = screws.fk_space(S, M, q)
+    assert_same(np.transpose(frame), T[:3], 1e-12)
+    J = jacobian.site_jacobian(jacobian.space_jacobian(S, q), T[:3, 3])
+    assert_same(np.transpose(columns), J, 1e-12)
 
 
 def test_a_robot_with_a_ball_joint_is_left_to_the_batch():

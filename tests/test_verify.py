@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import panda, verify
+from robo47 import jacobian, panda, screws, verify
 from robo47.errors import Robo47Error
 
 
@@ -135,3 +135,94 @@ def test_one_state_leaves_nothing_behind_for_the_next():
 def test_a_site_that_is_not_there_is_named():
     with pytest.raises(Robo47Error, match="no site 'attachment_site'; load panda_no"):
         verify.mujoco_site_jacobian(pendulum(), [0.0])
+
+
+def test_each_asks_a_function_once_per_row():
+    asked = verify.each(
+        lambda R, p: R @ p, np.eye(3)[None] * [[[2.0]], [[3.0]]], np.eye(3)[:2]
+    )
+    assert asked.tolist() == [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
+    with pytest.raises(ValueError, match="shorter"):
+        verify.each(max, np.zeros(2), np.zeros(1))
+
+
+# --- what judges a lab's functions: the library's pass, and a wrong one does not ---
+
+ARM = (
+    panda.screws(panda.load("panda_nohand")),
+    panda.home_pose(panda.load("panda_nohand")),
+)
+LIMITS = panda.load("panda_nohand").jnt_range
+
+
+def poses(n, seed):
+    q = verify.random_q(panda.load("panda_nohand"), n, seed)
+    return q, screws.fk_space(*ARM, q)
+
+
+def negative(function):
+    return lambda *given: -function(*given)
+
+
+@pytest.mark.parametrize("wrong", [False, True])
+def test_rotations_motions_and_adjoints_are_judged(wrong):
+    def ask(function):
+        return (lambda *given: function(*given).T) if wrong else function
+
+    _, T = poses(10, 1)
+    off = [
+        verify.off_cross(ask(screws.skew), 10, 2),
+        verify.off_rotation(ask(screws.exp_rotation), 10, 3),
+        verify.off_motion(ask(screws.exp_screw), 10, 4),
+        verify.off_adjoint(ask(screws.adjoint), T, 5),
+    ]
+    assert all((np.abs(x).max() > 0.1) == wrong for x in off)
+    assert all((np.abs(x).max() < 1e-12) != wrong for x in off)
+
+
+@pytest.mark.parametrize("right", [True, False])
+def test_logarithms_errors_and_steps_are_judged(right):
+    def ask(function):
+        return function if right else negative(function)
+
+    model = panda.load("panda_nohand")
+    q, T = poses(12, 2)
+    J = verify.mujoco_site_jacobian(model, q)
+    off = [
+        verify.off_log(ask(jacobian.log_rotation), 20, 3),
+        verify.off_goal(ask(jacobian.pose_error), T[:6], T[6:]),
+        verify.off_least_squares(ask(jacobian.dls_step), J, 4),
+        verify.off_null_vector(ask(jacobian.null_step), J, 5),
+        verify.off_volume(jacobian.manipulability if right else np.trace, J),
+    ]
+    assert all((np.abs(x).max() < 1e-9) == right for x in off)
+
+
+def test_a_solver_is_judged_by_where_it_ends():
+    q, T = poses(8, 6)
+    good = verify.ends_of(jacobian.solve_ik, ARM, LIMITS, q, 7)
+    assert good.missed == good.beyond == 0.0
+    assert good.out_of_reach.max() == pytest.approx(1.0)
+    lazy = verify.ends_of(lambda S, M, T, q, limits: q + 9.0, ARM, LIMITS, q, 7)
+    assert lazy.missed == 1.0
+    assert lazy.beyond > 1.0
+    assert lazy.out_of_reach.max() > 1.01
+    at = verify.tries(jacobian.solve_ik, ARM, LIMITS, T[:3], q[0], 2, 8)
+    assert at.tolist() == [1, 1, 1]
+    never = verify.tries(lambda S, M, T, q, limits: q, ARM, LIMITS, T[1:], q[0], 2, 8)
+    assert never.tolist() == [0, 0, 0]  # after three failures the rest is spared
+
+
+def test_the_joints_axes_and_rotations_are_mujocos():
+    model = panda.load("panda_nohand")
+    S = verify.mujoco_screws(model, np.zeros((1, 7)))[0]
+    assert np.abs(S - ARM[0]).max() < 1e-12
+    R = verify.mujoco_rotation(np.array([0.0, 0.6, 0.8]), 0.5)
+    assert np.abs(R - screws.exp_rotation([0.0, 0.6, 0.8], 0.5)).max() < 1e-12
+
+
+def test_what_is_no_number_is_off_and_ends_no_lab():
+    _, T = poses(4, 9)
+    nan = lambda T, goal: np.full(6, np.nan)  # noqa: E731
+    assert np.isnan(verify.off_goal(nan, T[:2], T[2:])).any()
+    assert verify.miss(ARM, np.full((2, 7), np.nan), T[:2]).tolist() == [np.inf] * 2

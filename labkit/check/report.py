@@ -105,7 +105,8 @@ def as_json(report: Report) -> dict[str, Any]:
 
     Returns:
         "day", "passed", "done", "total", "problem", "next", and "entries": per task or
-        deliverable "id", "kind", "title", "status", "mistake", "message", "measured".
+        deliverable "id", "kind", "title", "status", "mistake", "message", "measured";
+        of a task also "follows" and "call".
     """
     tasks = [
         {
@@ -116,6 +117,7 @@ def as_json(report: Report) -> dict[str, Any]:
             "mistake": result.verdict.mistake,
             "message": result.verdict.message,
             "follows": result.verdict.follows,
+            "call": result.verdict.call,
             "measured": list(result.verdict.measured),
         }
         for result in report.tasks
@@ -162,7 +164,10 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         status = "unjudged" if report.problem else state_of(verdict)
         lines.append(_line(name, status, colour, width))
         if not report.problem and verdict.mistake != "unwritten":
-            lines += _wrapped(_said(report, result, explain), _INDENT)
+            says = _said(report, result, explain)
+            lines += _wrapped(says, _INDENT)
+            if verdict.call and verdict.message in says:
+                lines += _wrapped(verdict.call, _INDENT)
         if explain:
             for line in verdict.measured:
                 lines += _wrapped(f"- {line}", _INDENT, hanging=2)

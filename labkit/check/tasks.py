@@ -133,13 +133,20 @@ class _Check:
                     ]
                     return replace(result, verdict=_inherited(roots or broken))
                 result = again
-        if result.verdict.mistake in FRESH_ONLY:
-            says = f"{result.verdict.message} The same again: make check "
-            says += f'TASK={task.id} ARGS="--seed {self.seed}"'
-            return replace(result, verdict=replace(result.verdict, message=says))
+        if result.verdict.call:
+            verdict = self._with_command(task, result.verdict)
+            result = replace(result, verdict=verdict)
         if len(result.verdict.wrong_calls) < 3:
             return result
         return replace(result, verdict=self._with_experiments(task, result, added))
+
+    def _with_command(self, task: Task, verdict: Verdict) -> Verdict:
+        """Return a verdict with the command that gives it again on any machine."""
+        says = f'The same again: make check TASK={task.id} ARGS="--seed {self.seed}"'
+        verdict = replace(verdict, measured=(*verdict.measured, says))
+        if verdict.mistake in FRESH_ONLY:
+            verdict = replace(verdict, message=f"{verdict.message} {says}")
+        return verdict
 
     def _asked_of(self, task: Task, verdict: Verdict) -> list[Asked]:
         """Return the questions to the function that a verdict is about."""
@@ -151,7 +158,9 @@ class _Check:
         verdict = result.verdict
         (asked,) = self._asked_of(task, verdict)
         robots = robots_of([exchange.question for exchange in asked.main])
-        session = self.sandbox.session(self.script, robots, library_of(self.day), added)
+        session = self.sandbox.session(
+            self.script, robots, library_of(self.day), added, self.day.limits
+        )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)
             says = right_when(asked, verdict.wrong_calls, names, session)
@@ -172,6 +181,7 @@ class _Check:
             library_of(self.day),
             {task.id: set(self.day.needs(task.id)) for task in tasks},
             added,
+            self.day.limits,
         )
         return rounds
 

@@ -6,7 +6,6 @@ ever costs one student's grade and not the whole class's.
 """
 
 import contextlib
-import hashlib
 import json
 import os
 import pickle
@@ -54,16 +53,24 @@ def main() -> None:
             break
         day = find_day(package.day)
         try:
-            answer = grade(package, day).to_json()
+            answer = signed(grade(package, day), package).to_json()
         except (FaultError, OSError, MemoryError) as error:  # not the student's
             name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
             answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
         except Exception as error:  # a hole in the checker costs one grade
             why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
-            answer = ungraded(day, why).to_json()
+            answer = signed(ungraded(day, why), package).to_json()
         out.write(json.dumps(answer).encode("ascii") + b"\n")
         out.flush()
     shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone
+
+
+def signed(result: Result, package: Package) -> Result:
+    """Return a result with what another machine needs to come to the same."""
+    again = f'make check DAY={package.day} ARGS="--seed {package.seed} --explain"'
+    text = f"{result.text}\nGraded by robo47 {package.version} with the seed "
+    text += f"{package.seed}, for everybody.\nThe same on your machine: {again}\n"
+    return replace(result, text=text, kit=package.version, seed=package.seed)
 
 
 def grade(package: Package, day: Day) -> Result:
@@ -105,13 +112,10 @@ def _tasks(
             start = f"{name} is not there. Begin with: make start DAY={day.number}"
             verdict = Verdict("todo", "not-started", start)
         return [TaskResult(task, verdict) for task in day.tasks], [], verdict.message
-    # Nobody can know the hash of what they are writing, and it is the same tomorrow.
-    own = b"\0".join(data for _, data in sorted(package.modules().items()))
-    seed = int(hashlib.sha256(own).hexdigest()[:8], 16)
     unpack(package, folder)
     with Sandbox() as sandbox:
         script = folder / day.script
-        results = check_tasks(day, script, sandbox, seed=seed)
+        results = check_tasks(day, script, sandbox, seed=package.seed)
         lab = check_lab(day, script, sandbox) if _done(results, day) else []
     loads = results[0].verdict.mistake != "does-not-load"
     return results, lab, "" if loads else results[0].verdict.message
@@ -120,18 +124,30 @@ def _tasks(
 def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:
     """Return the result with the words that `make check` has for it."""
     marks = [
-        Mark(r.task.id, r.verdict.status, r.verdict.mistake, _tidy(r.verdict.message))
+        Mark(
+            r.task.id,
+            r.verdict.status,
+            r.verdict.mistake,
+            _tidy(f"{r.verdict.message} {r.verdict.call}".strip()),
+        )
         for r in tasks
         if r.task.id in counted(day)
     ]
     refused = [what for r in tasks for what in r.refused]
+    told = [replace(r, verdict=_brief(r.verdict), printed="") for r in tasks]
+    text = report.as_text(report.Report(day, told, items), explain=True)
     return Result(
         tuple(marks),
         tuple(Mark(item.name, item.status, "", _tidy(item.message)) for item in items),
-        _tidy(report.as_text(report.Report(day, tasks, items))) + "\n",
+        _tidy(text) + "\n",
         _tidy(error),
         tuple(dict.fromkeys(map(_tidy, refused)))[:20],
     )
+
+
+def _brief(verdict: Verdict) -> Verdict:
+    """Return a verdict with what was measured of a wrong answer alone."""
+    return replace(verdict, measured=()) if verdict.status == "passed" else verdict
 
 
 def _tidy(text: str) -> str:

@@ -20,6 +20,7 @@ class Course:
         alike: similar submissions, by folder.
         reference: what commit times count to, seconds since 1970.
         deadline: whether that is the deadline.
+        seed: of the fresh inputs.
     """
 
     day: Day
@@ -27,6 +28,7 @@ class Course:
     alike: Sequence[Group]
     reference: int
     deadline: bool
+    seed: int = 0
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,18 @@
 
 import hashlib
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import read_history
+from labkit.base.git import short_sha
+from labkit.grade.in_time import read_in_time
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit, wanted_names
-from labkit.handin.handin import Handin, read_handin
+from labkit.handin.commit import check_commit
+from labkit.handin.handin import Handin
 from labkit.handin.item import Item
 from labkit.lesson.day import Day, find_day
+from robo47 import __version__
 from robo47.paths import ROOT
 
 # What decides a grade: the code, the manifests, the solution, what a definition and a
@@ -22,6 +24,7 @@ _DECIDES = (
     "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
+    "w*/day*/**/*.xml",
     "w*/src/*.py",
 )
 
@@ -35,9 +38,12 @@ class Package:
         kit: fingerprint of the kit that collected it; no other may grade it.
         handin: the files.
         commit_item: the deliverable "commit", which only the clone can tell.
-        commit: the hash of the last commit; "" without one.
+        commit: the hash of the commit that counts; "" without one.
         committed: its time by the student's own clock, seconds since 1970, or None.
         problem: why there is nothing to grade; "" where there is.
+        seed: of the fresh inputs, the same for everybody.
+        version: of the kit that collected it, in words.
+        late: how many commits came after the deadline.
     """
 
     day: int
@@ -47,13 +53,16 @@ class Package:
     commit: str = ""
     committed: int | None = None
     problem: str = ""
+    seed: int = 0
+    version: str = ""
+    late: int = 0
 
     @property
     def fingerprint(self) -> str:
         """A hash of all that the grade depends on, but for the kit."""
         item, handin = self.commit_item, self.handin
         facts = [
-            self.day,
+            [self.day, self.seed],
             sorted((name, _hash(data)) for name, data in handin.files.items()),
             sorted(handin.unread.items()),
             sorted(handin.pictures.items()),
@@ -73,26 +82,43 @@ class Package:
         }
 
 
-def collect(student: Student, day: Day) -> Package:
+def collect(
+    student: Student, day: Day, seed: int = 0, deadline: int | None = None
+) -> Package:
     """Return what a student hands in.
 
     Args:
         student: from the roster.
         day: from the kit's manifest.
+        seed: of the fresh inputs.
+        deadline: seconds since 1970, or None.
 
     Raises:
         OSError, GitError: this machine failed.
     """
-    kit = fingerprint(day.number)
+    package = Package(day.number, fingerprint(day.number))
+    package = replace(package, seed=seed, version=version())
     problem = student.problem
     if not problem and not student.path.is_dir():
         problem = "there is no such folder"
     if problem:
-        return Package(day.number, kit, problem=problem)
-    handin = read_handin(day, student.path)
-    history = read_history(student.path, wanted_names(day, handin))
-    item = check_commit(day, handin, history)
-    return Package(day.number, kit, handin, item, history.commit, history.committed)
+        return replace(package, problem=problem)
+    handin, history, late = read_in_time(day, student.path, deadline)
+    return replace(
+        package,
+        handin=handin,
+        commit_item=check_commit(day, handin, history),
+        commit=history.commit,
+        committed=history.committed,
+        late=late,
+    )
+
+
+@cache
+def version() -> str:
+    """Return this kit's version and commit, "0.1.0 (ff9d311)"."""
+    commit = short_sha(ROOT)
+    return f"{__version__} ({commit})" if commit else __version__
 
 
 @cache

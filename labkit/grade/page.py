@@ -47,8 +47,10 @@ def render(course: Course) -> str:
 def _about(course: Course) -> str:
     moment = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime(course.reference))
     what = "deadline" if course.deadline else "first graded"
+    kits = sorted({g.result.kit for g in course.class_} - {""})
     return (
-        f"{_students(len(course.class_))}; {what} {moment}. "
+        f"{_students(len(course.class_))}; {what} {moment}; "
+        f"robo47 {escape(', '.join(kits) or 'has graded nobody')}, seed {course.seed}. "
         "Commit times are the students' own: whoever commits sets the clock."
     )
 

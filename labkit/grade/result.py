@@ -51,6 +51,8 @@ class Result:
         text: what `make check` would have told the student.
         error: why something could not be graded; "" where all was.
         refused: what the code wanted and was refused, though its answers may be right.
+        kit: version of the kit that gave it; "" where nothing was graded.
+        seed: of its fresh inputs.
     """
 
     tasks: tuple[Mark, ...]
@@ -58,6 +60,8 @@ class Result:
     text: str = ""
     error: str = ""
     refused: tuple[str, ...] = ()
+    kit: str = ""
+    seed: int = 0
 
     @property
     def stopped_at(self) -> Mark | None:
@@ -68,6 +72,11 @@ class Result:
     def first_mistake(self) -> Mark | None:
         """The first task with a mistake in it, or None."""
         return next((task for task in self.tasks if task.is_mistake), None)
+
+    @property
+    def score(self) -> tuple[int, int]:
+        """How many tasks and how many deliverables pass, to compare results by."""
+        return sum(m.passed for m in self.tasks), sum(m.passed for m in self.items)
 
     @property
     def does_not_load(self) -> bool:
@@ -102,14 +111,18 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         data["text"],
         data["error"],
         tuple(data["refused"]),
+        data["kit"],
+        data["seed"],
     )
     marks = (*result.tasks, *result.items)
     if [mark.id for mark in marks] != [*counted(day), *item_names(day)]:
         raise ValueError("other tasks than the day's")
-    texts = [result.text, result.error, *result.refused]
+    texts = [result.text, result.error, result.kit, *result.refused]
     texts += [text for mark in marks for text in (mark.mistake, mark.message)]
     if not all(isinstance(text, str) for text in texts):
         raise TypeError("no text")
+    if type(result.seed) is not int:
+        raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
     return result.lean()

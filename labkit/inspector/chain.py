@@ -24,7 +24,7 @@ class Chain(Tab):
         super().__init__(page)
         steps = page.arm.steps()
         self.at = next(i for i, step in enumerate(steps) if step.joint)
-        page.buttons([BACK, NEXT, PLAY], self.press)
+        self.buttons = page.buttons([BACK, NEXT, PLAY], self.press)
         self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
         self.product = page.html()
         self.sliders = {

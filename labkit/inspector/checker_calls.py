@@ -26,7 +26,7 @@ def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
     """
 
     def opened(script: Path) -> Asker:
-        return sandbox.session(script, [model], library_of(day))
+        return sandbox.session(script, [model], library_of(day), limits=day.limits)
 
     tasks = {name: task.id for task in day.tasks for name in task.functions}
     return Source(day.work, opened, not_loaded, partial(describe, tasks))

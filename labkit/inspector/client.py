@@ -1,8 +1,7 @@
 """Our part of the page: a style sheet and a script, put into viser's page.
 
-viser draws the scene and carries HTML to the browser. Controls whose looks and words
-matter here (sliders that take "pi/2", tabs that the server knows of) are plain HTML;
-`client.js` sends what they say to the server, which alone decides what they show.
+viser draws the scene and the widgets and carries HTML to the browser. `client.js` adds
+what it lacks: tabs that the server opens, the pose in the address, buttons that copy.
 """
 
 from functools import cache

@@ -72,6 +72,12 @@ class Difference:
     good: bool
     drawn: Mapping[str, Array]
 
+    @property
+    def kind(self) -> str:
+        """ "good", "bad", or "quiet" where nothing is written yet."""
+        unwritten = not self.drawn and "Not written yet" in self.sentence
+        return "good" if self.good else "quiet" if unwritten else "bad"
+
 
 def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
     """Return how the student's arm differs from MuJoCo's.

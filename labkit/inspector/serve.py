@@ -48,7 +48,7 @@ class Show:
     Attributes:
         day: whose tabs and whose file.
         arm: without its looks; the numbers need none.
-        about: the line that says which robot this is.
+        about: what to say of the robot on the page; "" for nothing.
         dressed: loads the same model with its meshes; takes seconds.
         simple: leave the fine meshes out, for a computer that draws without a GPU.
     """
@@ -83,7 +83,8 @@ def serve(show: Show, port: int) -> int:
         try:
             server._websock_server.get_message_buffer().max_window_size = WINDOW
             page = on_loop(
-                server, lambda: Inspector(server, show.arm, show.about, tabs)
+                server,
+                lambda: Inspector(server, show.arm, show.about, tabs, show.simple),
             )
             server.door.receive = page.receive
             print("\n".join(where_to_look(port, server)), flush=True)
@@ -120,7 +121,10 @@ def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
     checks = Checks(partial(checker_calls.verdicts, show.day), page.on_loop(page.judge))
     ends.callback(checks.close)
 
+    reload = page.on_loop(page.reload)
+
     def saved() -> None:
+        reload(None)
         if show.day.work.is_file():
             checks.again()
 

@@ -82,7 +82,8 @@ class Student(threading.Thread):
         self.news = threading.Condition()
         self.q: Array | None = None
         self.ended = False
-        self.requests: dict[str, tuple[Question, Callable[[Reply], None]]] = {}
+        self.version = 0  # of the file: another one after each save
+        self._lock = threading.RLock()  # a session answers one thread at a time
         self._asker: Asker | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
         self._problem = ""
@@ -97,16 +98,31 @@ class Student(threading.Thread):
             self.q = q.copy()
             self.news.notify()
 
-    def request(self, question: Question, done: Callable[[Reply], None]) -> None:
-        """Ask any function, once; a newer request for it takes its place.
+    @property
+    def there(self) -> bool:
+        """Whether there is a file."""
+        return bool(self._stamp)
+
+    def ask(self, questions: Sequence[Question]) -> list[Reply]:
+        """Ask any functions, now, on the caller's thread; "stopped" where it is over.
 
         Args:
-            question: what to call.
-            done: is given the reply, on this thread.
+            questions: what to call.
         """
-        with self.news:
-            self.requests[question.function] = (question, done)
-            self.news.notify()
+        with self._lock:
+            if self._asker is None:
+                ended = Reply(kind="stopped", error=self._problem or "no file")
+                return [ended] * len(questions)
+            try:
+                replies = self._asker.ask(questions, seconds=ASK_SECONDS)
+            except Exception as error:  # ours, or the day's: the page goes on
+                says = f"{type(error).__name__}: {error}"
+                return [Reply(kind="unsendable", error=says)] * len(questions)
+            if not self._asker.alive:
+                at = next(i for i, one in enumerate(replies) if one.kind == "stopped")
+                function = questions[at].function
+                self._give_up(self.source.describe(function, replies[at]))
+            return replies
 
     def close(self) -> None:
         """End the thread and the sandbox."""
@@ -118,20 +134,18 @@ class Student(threading.Thread):
         """Look, ask, deliver, until it is closed."""
         done: Array | None = None
         while not self.ended:
-            if changed := self._look():
-                done = None
+            with self._lock:
+                if changed := self._look():
+                    done = None
             with self.news:
-                q, requests = self.q, list(self.requests.values())
-                self.requests.clear()
+                q = self.q
             if q is not None and q is not done:
                 done = q
                 self.deliver(self._seen(q))
             if changed:
                 self.saved()  # the checks need both cores; first the ghost
-            for question, then in requests:
-                then(self._one(question))
             with self.news:
-                if self.q is done and not self.requests and not self.ended:
+                if self.q is done and not self.ended:
                     self.news.wait(POLL_SECONDS)
         self._shut()
 
@@ -143,6 +157,7 @@ class Student(threading.Thread):
         self._stamp = stamp
         self._shut()
         self._problem = self._open() if stamp else ""
+        self.version += 1
         return True
 
     def _open(self) -> str:
@@ -165,25 +180,17 @@ class Student(threading.Thread):
             return None
         if self._asker is None or self.ghost is None:
             return Seen(q, problem=self._problem)
-        start, asker = time.perf_counter(), self._asker
-        try:
-            poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
-        except Exception as error:  # ours, or the day's: the page goes on
-            return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
-        if not asker.alive:
-            problem = self._give_up(problem)
+        start = time.perf_counter()
+        with self._lock:
+            asker = self._asker
+            try:
+                found = poses_of(asker, self.source, self.ghost, self.model, q)
+            except Exception as error:  # ours, or the day's: the page goes on
+                return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
+            poses, problem = found
+            if not asker.alive:
+                problem = self._give_up(problem)
         return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
-
-    def _one(self, question: Question) -> Reply:
-        if self._asker is None:
-            return Reply(kind="missing", error=self._problem)
-        try:
-            (reply,) = self._asker.ask([question], seconds=ASK_SECONDS)
-        except Exception as error:  # ours, or the day's: the page goes on
-            return Reply(kind="unsendable", error=f"{type(error).__name__}: {error}")
-        if not self._asker.alive:
-            self._give_up(self.source.describe(question.function, reply))
-        return reply
 
     def _give_up(self, why: str) -> str:
         """Ask nothing more before the file is saved; return what to say meanwhile."""

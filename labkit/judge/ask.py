@@ -4,25 +4,33 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest.
 """
 
+import contextlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
+from pathlib import Path as File
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question
+from labkit.judge.compare import as_one_size, difference
+from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
 from robo47.checks import Array
+from robo47.errors import Robo47Error
+from robo47.paths import shown
 
+Parts = tuple[Array, ...]
 Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
+NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -31,20 +39,35 @@ class Robot:
     """A model as an argument: student code gets plain data that reads like an MjModel.
 
     Attributes:
-        entry: as `panda.load` names it.
+        entry: as `panda.load` names it, or the path of any MJCF file.
         change: is given the compiled model to alter, such as longer links.
     """
 
-    entry: str = "panda_nohand"
+    entry: str | File = "panda_nohand"
     change: Callable[[mujoco.MjModel], None] | None = None
 
     @cached_property
     def model(self) -> mujoco.MjModel:
         """The compiled model; do not change it."""
-        model = panda.load(self.entry)
+        model = model_of(self.entry)
         if self.change:
             self.change(model)
         return model
+
+
+def model_of(entry: str | File) -> mujoco.MjModel:
+    """Return a Panda by its entry, or the model of an MJCF file.
+
+    Raises:
+        Robo47Error: the file is not there, or MuJoCo cannot read it.
+    """
+    if isinstance(entry, str):
+        return panda.load(entry)
+    try:
+        return mujoco.MjModel.from_xml_path(str(entry))
+    except ValueError as error:
+        says = " ".join(str(error).split())
+        raise Robo47Error(f"{shown(entry)}: MuJoCo cannot load it: {says}") from None
 
 
 @dataclass(frozen=True)
@@ -175,6 +198,23 @@ class Ask:
         own = self.mistakes() if callable(self.mistakes) else self.mistakes
         return list(own)
 
+    @cached_property
+    def draws(self) -> int:
+        """How often inputs are drawn anew."""
+        *_, last = self.inputs(np.random.default_rng(SEED))
+        size = sum(map(np.size, last))
+        draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
+        return (draws if self.truth else 1) if self.fresh else 0
+
+    @cached_property
+    def edges(self) -> list[tuple[Any, ...]]:
+        """Calls with the edge values of every argument, where one answer is right."""
+        found: dict[str, tuple[Any, ...]] = {}
+        for i in range(self.draws if self.truth else 0):
+            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
+            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
+        return [call for call in found.values() if _well_posed(self, call)]
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -184,7 +224,7 @@ class Asked:
         function: its name.
         ask: its row.
         main: the questions that are the same at every check.
-        fresh: drawn anew.
+        fresh: edge values, and those that are drawn anew.
         held_out: per entry of `ask.held_out`.
         probes: those of `ask.probe`.
     """
@@ -212,22 +252,38 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
         seed: of the fresh inputs; nobody should know it beforehand.
     """
 
-    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
-        calls = inputs(np.random.default_rng(seed))
+    def exchanges(calls: Iterable[Sequence[Any]]) -> list[Exchange]:
         return [Exchange(Question(task, function, tuple(args))) for args in calls]
 
-    main = make(ask.inputs)
-    size = sum(np.size(arg) for arg in main[-1].question.args)
-    draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
-    draws = (draws if ask.truth else 1) if ask.fresh else 0
-    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(draws))
+    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
+        return exchanges(inputs(np.random.default_rng(seed)))
+
+    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(ask.draws))
     return Asked(
         function,
         ask,
-        main,
-        list(chain.from_iterable(drawn)),
+        make(ask.inputs),
+        [*exchanges(ask.edges), *chain.from_iterable(drawn)],
         [make(held.inputs) for held in ask.held_out],
         make(ask.probe.inputs) if ask.probe else [],
+    )
+
+
+def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
+    """Return whether a call has one right answer, whatever its last digits are."""
+    assert ask.truth is not None
+    columns = [_column((arg,)) for arg in call]
+    answers = []
+    for nudge in (0.0, NUDGE, -NUDGE):
+        near = [c + nudge if isinstance(c, np.ndarray) else c for c in columns]
+        with contextlib.suppress(ValueError, ArithmeticError, Robo47Error):
+            answers.append(parts(ask.truth(*near)))
+        if not answers:
+            return False
+    return all(
+        bool(np.all(np.abs(one - first) <= ask.near * kind.scale))
+        for some in answers
+        for one, first, kind in zip(some, answers[0], ask.kinds, strict=True)
     )
 
 
@@ -268,6 +324,28 @@ def held_out_answers(
     function = held.mistaken or held.truth or ask.truth
     assert function is not None
     return parts(function(*stacked(exchanges)))
+
+
+def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
+    """Return per call the largest difference of an entry, in units of its scale."""
+    trios = zip(S, T, ask.kinds, strict=True)
+    return np.max(
+        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
+    )
+
+
+def off_by(ask: Ask, S: Parts, T: Parts) -> float:
+    """Return the largest difference of any entry, in units of its scale."""
+    return float(gaps(ask, S, T).max())
+
+
+def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
+    """Return the first part of an answer that is wrong, or the one furthest off."""
+    off = [
+        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
+        for s, t, kind in zip(S, T, ask.kinds, strict=True)
+    ]
+    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
 
 
 def parts(answers: Any) -> tuple[Array, ...]:

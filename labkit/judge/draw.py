@@ -1,6 +1,7 @@
 """Inputs for a day's questions, drawn from a seeded generator.
 
-All are rounded, so that a message can show an input and a student can type it.
+All are rounded, so that a message can show an input and a student can type it. `Edges`
+is a generator of the values at which a function's branches part.
 """
 
 from functools import cache
@@ -13,6 +14,21 @@ from robo47.checks import Array
 DECIMALS = 3
 READY = panda.READY_Q
 ZERO = np.zeros(7)
+
+
+class Edges(np.random.Generator):
+    """A generator that draws the ends of each range, its middle, and whole axes."""
+
+    def uniform(self, low=0.0, high=1.0, size=None):
+        """Return for each number one of the ends or the middle of its range."""
+        part = self.choice([0.0, 0.5, 1.0], size)
+        return low + (np.asarray(high) - low) * part
+
+    def normal(self, loc=0.0, scale=1.0, size=None):
+        """Return rows of 0, 1 and -1, none of zeros alone."""
+        found = np.atleast_1d(self.choice([0.0, 1.0, -1.0], size))
+        found[..., 0] += ~found.any(axis=-1)
+        return loc + scale * found
 
 
 def rounded(values: Array) -> Array:
@@ -43,6 +59,9 @@ def poses(rng: np.random.Generator, n: int, reach: float = 1.0) -> Array:
 
 def configurations(rng: np.random.Generator, n: int) -> Array:
     """Return joint angles of the Panda within its limits, (n, 7)."""
+    if isinstance(rng, Edges):
+        low, high = _arm().jnt_range[:7].T
+        return rounded(rng.uniform(low, high, (n, 7)))
     seed = int(rng.integers(2**31))
     return rounded(verify.random_q(_arm(), n, seed))
 

@@ -13,13 +13,17 @@ from labkit.judge.ask import (
     Asked,
     Case,
     HeldOut,
+    gaps,
     held_out_answers,
     in_words,
+    off_by,
     parts,
     right_answers,
     stacked,
+    worst_part,
 )
-from labkit.judge.compare import as_one, as_one_size, difference, largest, matches
+from labkit.judge.compare import as_one, difference, largest, matches
+from labkit.judge.failing import failing_call, for_fresh
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 
@@ -37,6 +41,15 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
+    verdict = _judge(asked, source, names)
+    if verdict.status == "passed":
+        return verdict
+    found = failing_call(asked, names)
+    measured = verdict.measured + found.whole
+    return replace(verdict, call=found.says, measured=measured)
+
+
+def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
@@ -64,7 +77,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
-    return _second_look(asked, measured, names)
+    return _second_look(asked, S, measured)
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -105,32 +118,7 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
     return found or near_miss.explain(S[i], T[i])
 
 
-def _for_fresh(asked: Asked, S: Parts | Finding, names: Sequence[str]) -> Finding:
-    """Return what is wrong with answers to inputs that are not always asked."""
-    right = "Right for the inputs that are always asked, but not for fresh ones"
-    if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right}. {S.message}")
-    T = right_answers(asked.ask, asked.fresh)
-    gap = gaps(asked.ask, S, T)
-    i, part = int(np.argmax(gap)), worst_part(asked.ask, S, T)
-    wrong = gap > asked.ask.near
-    mine, its = S[part][i], T[part][i]
-    at = np.unravel_index(int(np.argmax(np.abs(mine - its))), mine.shape)
-    where = f"entry {list(map(int, at))} is" if at else "it is"
-    given = in_words(asked.fresh[i].question, names)
-    says = f"{right}, {int(wrong.sum())} of {len(wrong)}"
-    says += f": for {given}" if 0 < len(given) <= 90 else ": for one of them"
-    says += f" {where} {mine[at]:.6g}, and {its[at]:.6g} is right."
-    if not wrong.all():
-        return Finding(
-            "some-inputs", f"{says} Some inputs take another way through your function."
-        )
-    return Finding("looked-up", f"{says} The answers do not come from the inputs.")
-
-
-def _second_look(
-    asked: Asked, measured: tuple[str, ...], names: Sequence[str]
-) -> Verdict:
+def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask, note = asked.ask, ""
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
@@ -139,9 +127,13 @@ def _second_look(
         S = problems.read(replies(asked.fresh), ask, "")
         off = np.inf
         if not isinstance(S, Finding):
-            off = off_by(ask, S, right_answers(ask, asked.fresh))
+            gap = gaps(ask, S, right_answers(ask, asked.fresh))
+            off, lines = float(gap.max()), _counted(ask, gap, "with fresh inputs")
+            measured += lines[1:]
         if off > ask.near:
-            return Verdict("wrong", *_for_fresh(asked, S, names), measured)
+            if np.isfinite(off):  # of the others only that they are right
+                measured = (measured[1], *lines)
+            return Verdict("wrong", *for_fresh(asked, main, S), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         if _found(held, ask, exchanges):
             if held.status != "passed":
@@ -174,7 +166,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((question, found))
     if not wrong:
-        return _second_look(asked, (), names)
+        return _second_look(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     question, found = wrong[0]
@@ -201,14 +193,25 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
 def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
     ask = case.ask
     gap = gaps(ask, S, T)
-    lines = [
-        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
-        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)}",
-    ]
+    lines = list(_counted(ask, gap, "that are always asked"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
     return (*lines, *(ask.measured(case) if ask.measured else ()))
+
+
+def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
+    """Return how far off calls are, and how many are right.
+
+    Args:
+        ask: the row of the function.
+        gap: per call, as `gaps` has it.
+        which: calls these are.
+    """
+    return (
+        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
+    )
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -248,7 +251,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = _where(kind, S[i], T[i], case.given, ask.tolerance)
+        where = near_miss.in_common(S[i], T[i])
+        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -323,28 +327,6 @@ def redone(
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)
     return None
-
-
-def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
-    """Return per call the largest difference of an entry, in units of its scale."""
-    trios = zip(S, T, ask.kinds, strict=True)
-    return np.max(
-        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
-    )
-
-
-def off_by(ask: Ask, S: Parts, T: Parts) -> float:
-    """Return the largest difference of any entry, in units of its scale."""
-    return float(gaps(ask, S, T).max())
-
-
-def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
-    """Return the first part of an answer that is wrong, or the one furthest off."""
-    off = [
-        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
 
 
 def _nothing_there(ask: Ask, S: Parts) -> Finding | None:

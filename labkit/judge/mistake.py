@@ -35,6 +35,7 @@ class Verdict:
         wrong_calls: places of the main questions with a wrong answer, where neither a
             named mistake nor anything else says more than by how much.
         function: that was judged.
+        call: the call that failed, in a line, with theirs and the right answer.
     """
 
     status: str
@@ -44,6 +45,7 @@ class Verdict:
     follows: str = ""
     wrong_calls: tuple[int, ...] = ()
     function: str = ""
+    call: str = ""
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from labkit.judge.compare import difference
+from labkit.judge.compare import MATCHES, difference
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
 SINGLE = 5e-6  # what products in float32 may leave at worst
 SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
+ABOUT = 1e-2  # of its largest entry: an answer is about right
 
 
 def explain(S: Array, T: Array) -> Finding:
@@ -49,3 +50,28 @@ def rounded(S: Array, T: Array) -> Finding | None:
                 "what you return.",
             )
     return None
+
+
+def in_common(S: Array, T: Array) -> str:
+    """Return what all of a function's wrong answers share with the right ones, or "".
+
+    Args:
+        S: the student's answers, (n, ...), more than a rounding off.
+        T: the right ones.
+    """
+    if S.shape != T.shape:
+        return ""
+    tiny = MATCHES * max(1.0, float(np.abs(T).max(initial=0.0)))
+    S, T = (some.reshape(len(some), -1) for some in (S, T))
+    if np.abs(np.abs(S) - np.abs(T)).max() < tiny:
+        return " Every number is right but for its sign."
+    off, size = difference(S, T), np.abs(T).max(axis=1)
+    if (off <= ABOUT * size).all():
+        return (
+            " Everywhere that is less than one part in 100: is a constant rounded, or "
+            "does something only come near to the formula?"
+        )
+    mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)).max() < tiny
+    if mixed and S.shape[1] > 1:
+        return " The numbers are the right ones, but in other places."
+    return ""

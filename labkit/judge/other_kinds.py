@@ -88,7 +88,7 @@ class Mask(Kind):
         parts = [f"True {yes} times where False is right"] * (yes > 0)
         parts += [f"False {no} times where True is right"] * (no > 0)
         slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
-        return Finding(slug, f"Of {T.size} it is {', and '.join(says)}.")
+        return Finding(slug, f"Of {T.size} it is {', and '.join(parts)}.")
 
 
 @dataclass(frozen=True)

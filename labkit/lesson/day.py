@@ -15,10 +15,14 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from labkit.base.exchange import NUMBERS, Limits
 from labkit.lesson.table import entry, fill
 from labkit.lesson.week import Week, find_week, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
+
+# What a grader's machine gives a task at most, whatever its manifest asks for.
+MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,9 @@ class Task:
     hints: tuple[str, ...] = entry(least=2)  # in the order to give them
     needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
     optional: bool = False  # a side quest: no part of what is handed in or graded
+    seconds: float = 10.0  # for all its calls; one may take a third of it
+    memory: float = 1.0  # GB
+    numbers: int = NUMBERS  # in one answer
 
 
 @dataclass(frozen=True)
@@ -126,6 +133,16 @@ class Day:
     def week(self) -> Week:
         """The week that it belongs to."""
         return load_week(self.folder)
+
+    @property
+    def limits(self) -> Limits:
+        """What the code of its tasks may take."""
+        return Limits(
+            {task.id: task.seconds for task in self.tasks},
+            max(task.memory for task in self.tasks),
+            max(task.numbers for task in self.tasks),
+            self.week.extras,
+        )
 
     @property
     def files(self) -> dict[str, str]:
@@ -348,6 +365,10 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
         id = task.id
         if not re.fullmatch(rf"{day.number}\.\d+", id):
             yield f", tasks {id}: id {id} is not one of day {day.number}"
+        for name, most in MOST.items():
+            if not 0 < getattr(task, name) <= most:
+                asked = f"{name} is {getattr(task, name)}"
+                yield f", tasks {id}: {asked}; a grader gives {most:,.0f} at most"
         if id in earlier:
             yield f": two tasks have the id {id}"
         for need in [n for n in task.needs if n not in earlier]:

@@ -6,6 +6,7 @@ one day import each other as `from .mistakes import ...`.
 
 import importlib
 import sys
+import traceback
 import types
 from functools import cache
 from pathlib import Path
@@ -29,7 +30,7 @@ def load(day: Day, name: str) -> ModuleType:
         name: without the ending: "gains".
 
     Raises:
-        Robo47Error: the day has no such file.
+        Robo47Error: the day has no such file, or it stops while it is loaded.
     """
     if not has(day, name):
         raise Robo47Error(f"{shown(day.own / name)}.py is not there")
@@ -40,7 +41,17 @@ def load(day: Day, name: str) -> ModuleType:
             del sys.modules[module]
         sys.modules[package] = types.ModuleType(package)
         sys.modules[package].__path__ = [str(day.own)]
-    return importlib.import_module(f"{package}.{name}")
+    try:
+        return importlib.import_module(f"{package}.{name}")
+    except ModuleNotFoundError:  # a package that a picture or a page needs
+        raise
+    except Exception as error:
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        where = f" ({Path(last.filename).name}, line {last.lineno})"
+        where = "" if isinstance(error, SyntaxError) else where  # it says so itself
+        why = f"{type(error).__name__}: {error}{where}"
+        file = shown(day.own / name)
+        raise Robo47Error(f"{file}.py does not load: {why}") from error
 
 
 @cache

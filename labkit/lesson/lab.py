@@ -22,6 +22,7 @@ from labkit.base import cli
 from labkit.base.words import count, number_of
 from labkit.lesson.day import Metric, day_of
 from labkit.lesson.marks import file_mark
+from labkit.lesson.predictions import predictions
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -48,6 +49,27 @@ class Lab:
         self.day = day_of(self.script)
         self.failed: list[str] = []
         self.rows: list[dict[str, Any]] = []
+        self.predicted = predictions(self._worksheet())
+
+    def _worksheet(self) -> str:
+        """Return the text of the day's worksheet; "" where the kit's own lab runs."""
+        if self.script.resolve() != self.day.work.resolve():
+            return ""
+        try:
+            return (self.day.folder / self.day.worksheet).read_text("utf-8-sig")
+        except (OSError, UnicodeDecodeError):  # `make check` says so
+            return ""
+
+    def measured(self, number: str, value: float) -> None:
+        """Print a number beside the student's prediction; nothing where there is none.
+
+        Args:
+            number: the first cell of its row in the worksheet's table of predictions.
+            value: in the row's unit.
+        """
+        if number in self.predicted:
+            yours = f"  you predicted {self.predicted[number]}, measured {value:.4g}: "
+            print(cli.wrapped(yours + number, "    "))
 
     def step(self, title: str) -> None:
         """Print the heading of a step."""
@@ -73,6 +95,19 @@ class Lab:
         values = np.atleast_2d(np.round(np.asarray(matrix, dtype=float), decimals))
         for row in values + 0.0:  # + 0.0: no "-0.0"
             print("    " + " ".join(f"{x:{decimals + 4}.{decimals}f}" for x in row))
+
+    def predict(self, what: str, wanted: float, found: float, unit: str) -> None:
+        """Print a prediction of the lab's, what came out, and how far apart they are.
+
+        Args:
+            what: of what; "what, unit" may be a row of the worksheet.
+            wanted: as predicted.
+            found: as measured.
+            unit: of both.
+        """
+        print(f"  {what}: predicted {wanted:.3f}, measured {found:.3f} {unit}")
+        print(f"    difference {abs(wanted - found):.1e} {unit}")
+        self.measured(f"{what}, {unit}", found)
 
     def check(self, name: str, error: ArrayLike, limit: float | None = None) -> None:
         """Print whether an error is small enough, and remember if it is not.

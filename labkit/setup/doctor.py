@@ -76,6 +76,18 @@ def check_python(python: str) -> Line:
     return Line("good", "Python", found)
 
 
+def check_kit() -> Line:
+    """The kit's version and commit, by which somebody else has the same."""
+    text = (ROOT / "robo47" / "__init__.py").read_text("utf-8")
+    version = text.partition('__version__ = "')[2].partition('"')[0]
+    command = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
+    commit = ""
+    if (ROOT / ".git").exists() and shutil.which("git"):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        commit = done.stdout.strip()
+    return Line("good", "kit", f"{version} ({commit})" if commit else version)
+
+
 def check_platform() -> Line:
     """Operating system and processor."""
     release = platform.release()
@@ -218,7 +230,8 @@ def discreet(text: str) -> str:
 def examine() -> list[Line]:
     """Return every finding; a check that fails itself is a finding too."""
     python = kit_python()
-    checks: list[Callable[[], Line]] = [lambda: check_python(python), check_platform]
+    checks: list[Callable[[], Line]] = [check_kit, check_platform]
+    checks.insert(1, lambda: check_python(python))
     if check_python(python).status == "good":  # else these only say so again
         inside = (check_mujoco, check_robot, check_lessons, check_wall, check_gl)
         checks += [functools.partial(check, python) for check in inside]

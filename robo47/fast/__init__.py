@@ -4,7 +4,7 @@
     chains        products of frames for many q;  one: for one q, in plain floats
     exponentials  products of exponentials for many q
     jacobians     Jacobian columns for many q
-    ik            damped least squares for many targets at once
+    ik            damped least squares for many targets at once;  ik_one: for one
     links         links in frames that suit their joints
     vectors       vectors as three arrays
     mass_matrix   composite bodies

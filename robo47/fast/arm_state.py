@@ -11,7 +11,8 @@ All links go through each call together. Two habits make the calls few:
 Conventions as in `robo47.dynamics`.
 """
 
-from functools import cached_property
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +23,7 @@ from robo47.checks import Array
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ AD is ad(V), row by row.
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
 AD = screws.ad(np.eye(6)).reshape(6, 36)
+EYE = np.eye(6)
 
 
 def pseudo_inertias(masses: Array, coms: Array, inertias: Array) -> Array:
@@ -70,9 +72,10 @@ class Constants:
     """What does not depend on q.
 
     Attributes:
-        powers: 1, [S], [S]^2 and [S]^3 of each joint, (n, 4, 16), in e^[S]q = 1 +
-            [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
-        pairs: omega and v of each joint as two columns, (n, 3, 2).
+        powers: what 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
+            1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq.
+            3.85).
+        pairs: omega and v of each joint as two rows, (n, 2, 3).
         pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
         before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
         after: 1 on and above it: after @ x sums x inwards, from the tip.
@@ -97,9 +100,10 @@ class Constants:
         n = len(masses)
         S = np.zeros((n, 4, 4))
         S[:, :3, :3], S[:, :3, 3] = screws.skew(S_home[:, :3]), S_home[:, 3:]
-        ones = np.broadcast_to(np.eye(4), S.shape)
-        self.powers = np.stack([ones, S, S @ S, S @ S @ S], axis=1).reshape(n, 4, 16)
-        self.pairs = S_home.reshape(n, 2, 3).swapaxes(1, 2).copy()
+        S2, S3 = S @ S, S @ S @ S
+        powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
+        self.powers = powers.reshape(n, 4, 16)
+        self.pairs = S_home.reshape(n, 2, 3).copy()
         P = pseudo_inertias(masses, coms, inertias)
         self.pseudo = T_zero @ P @ np.swapaxes(T_zero, -1, -2)
         self.before = np.tri(n)
@@ -108,6 +112,21 @@ class Constants:
         self.armature = np.diag(armature)
         self.A_base = np.concatenate([np.zeros(3), -gravity])
         self.M_home, self.T_zero, self.coms = M_home, T_zero, coms
+
+
+class lazy:  # noqa: N801 (a decorator, as property is)
+    """What `cached_property` is, without the lock that Python 3.11 takes in it."""
+
+    def __init__(self, compute: Callable[[Any], Array]) -> None:
+        """Keep the function; its name is the attribute's."""
+        self._compute, self.__doc__ = compute, compute.__doc__
+
+    def __get__(self, state: Any, owner: type) -> Any:
+        """Compute the value; where it stands from then on, nothing calls this."""
+        if state is None:
+            return self
+        value = state.__dict__[self._compute.__name__] = self._compute(state)
+        return value
 
 
 class ArmState:
@@ -125,7 +144,8 @@ class ArmState:
         n = len(q)
         numbers = np.empty((n, 1, 4))
         numbers[:, 0, 0], numbers[:, 0, 1] = 1.0, q
-        numbers[:, 0, 2], numbers[:, 0, 3] = 1.0 - np.cos(q), q - np.sin(q)
+        np.cos(q, out=numbers[:, 0, 2])
+        np.sin(q, out=numbers[:, 0, 3])
         moved = (numbers @ self._c.powers).reshape(n, 4, 4)
         step = 1  # products of two neighbours, then of four, then of eight
         while step < n:
@@ -133,64 +153,66 @@ class ArmState:
             step *= 2
         self._moved = moved  # e^[S1]q1 ... e^[Si]qi of each link i
 
-    @cached_property
+    @lazy
     def T_links(self) -> Array:
         """`T_world_link` of each link, (n, 4, 4)."""
         return self._moved @ self._c.T_zero
 
-    @cached_property
+    @lazy
     def T_world_ee(self) -> Array:
         """Pose of the arm's end, (4, 4)."""
         return self._moved[-1] @ self._c.M_home
 
-    @cached_property
+    @lazy
     def coms_world(self) -> Array:
         """Centres of mass in the world, metres, (n, 3)."""
         T = self.T_links
         return (T[:, :3, :3] @ self._c.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
 
-    @cached_property
+    @lazy
     def _S(self) -> Array:
         """The joints' screws where they are now, (n, 6): the rows of J_space^T."""
         n = len(self.q)
         R, p = self._moved[:, :3, :3], self._moved[:, :3, 3]
-        S = (R @ self._c.pairs).swapaxes(1, 2).reshape(n, 6)
+        S = (self._c.pairs @ R.swapaxes(1, 2)).reshape(n, 6)
         S[:, 3:] += ((p @ SKEW).reshape(n, 3, 3) @ S[:, :3, None])[:, :, 0]
         return S
 
-    @cached_property
+    @lazy
     def J_space(self) -> Array:
         """Space Jacobian, (6, n)."""
         return self._S.T
 
-    @cached_property
+    @lazy
     def J_site(self) -> Array:
         """Jacobian of the arm's end: (omega; v of its origin) in world axes, (6, n)."""
-        S = self._S.copy()
-        S[:, 3:] += S[:, :3] @ (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
-        return S.T
+        to_end = EYE.copy()
+        to_end[:3, 3:] = (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
+        return (self._S @ to_end).T
 
-    @cached_property
+    @lazy
     def G(self) -> Array:
         """Inertias of the links about the world's origin, (n, 6, 6)."""
         n = len(self.q)
         P = self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
         return (P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
 
-    @cached_property
+    @lazy
     def _momenta(self) -> Array:
         """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
         n = len(self.q)
         carried = (self._c.after @ self.G.reshape(n, 36)).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]
 
-    @cached_property
+    @lazy
     def M(self) -> Array:
         """Mass matrix with the armature, kg m^2, (n, n)."""
         half = self._momenta @ self._S.T
-        return np.where(self._c.lower, half, half.T) + self._c.armature
+        M = np.where(self._c.lower, half, half.T)
+        M += self._c.armature
+        return M
 
-    @cached_property
+    @lazy
     def gravity_torque(self) -> Array:
         """Torque that holds the arm still, N m, (n,)."""
         return self._momenta @ self._c.A_base
@@ -207,9 +229,9 @@ class ArmState:
             Torque, N m, (n,).
         """
         ad_V, V, A = self._motion(qd)
-        F = self.G @ (A + self._c.A_base)[:, :, None]
-        F -= ad_V.swapaxes(1, 2) @ (self.G @ V[:, :, None])
-        return (self._S * (self._c.after @ F[:, :, 0])).sum(axis=1)
+        F = (A + self._c.A_base)[:, None] @ self.G  # as rows: G is symmetric
+        F -= V[:, None] @ self.G @ ad_V
+        return np.vecdot(self._S, self._c.after @ F[:, 0])
 
     def site_bias(self, qd: ArrayLike) -> Array:
         """Return the acceleration of the arm's end at qdd = 0: J_site's rate times qd.

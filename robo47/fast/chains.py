@@ -36,7 +36,7 @@ from robo47.fast.moves import (
 )
 from robo47.fast.one import Single, single_of
 
-CHUNK = 2048  # 4 columns x 3 x 2048 float64 = 197 kB: stays within a core's L2 cache
+CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
 ROUNDING = 2e-15  # what products of unit quaternions leave in place of 0 and 1
 
 
@@ -191,14 +191,13 @@ def _one(plan: Plan, qpos: Array) -> dict[str, Array] | None:
 def chunk_of(q: Array) -> Chunk:
     """Return q, (nq, n), with its cosine and sine.
 
-    Both from one tangent, t = tan(q / 2): cos = (1 - t^2) / (1 + t^2) and
-    sin = 2 t / (1 + t^2). It is exact to the last bit or two for every q, also near
-    pi, where t is 1e16; and NumPy's tangent is the fastest of the three.
+    Both from one tangent, t = tan(q / 2), and one division, r = 2 / (1 + t^2):
+    cos = r - 1 and sin = t r. It is exact to the last bit or two of 1 for every q,
+    also near pi, where t is 1e16; and NumPy's tangent is the fastest of the three.
     """
     t = np.tan(0.5 * q)
-    square = t * t
-    below = 1.0 + square
-    return Chunk(q, (1.0 - square) / below, 2.0 * t / below)
+    r = 2.0 / (1.0 + t * t)
+    return Chunk(q, r - 1.0, t * r)
 
 
 def _write(T: Array, at: Columns, frame: Frame) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.fast.chains import ROUNDING, Cursor, Plan, evaluate, frame_with_z
+from robo47.fast.one import Single
 
 END = "end"
 
@@ -68,6 +69,13 @@ def end_poses(screws: Array, M: Array, q: Array) -> Array:
 def arm_of(screws: Array, M: Array) -> Arm:
     """Return the fixed frames of one arm, worked out once; arguments as above."""
     return _arm(screws.tobytes(), M.tobytes())
+
+
+def chain_of(screws: Array, M: Array) -> Single:
+    """Return the chain of one arm for one configuration at a time."""
+    chain = _plan(screws.tobytes(), M.tobytes()).single
+    assert chain is not None  # hinges and slides alone
+    return chain
 
 
 @functools.lru_cache(maxsize=64)

@@ -7,11 +7,12 @@ the error). A step that would push a joint through its limit is taken again with
 that joint. A walker that no longer gains ends; a target that none of its walkers
 reaches gets new ones, the nearest of some random configurations, and the fewer targets
 are left, the more walkers each has: the arrays stay wide, which is what NumPy is fast
-at.
+at. A few targets are walked to one by one first, in the plain floats of `ik_one`.
 
 All arrays here are columns: q (joints, n), goals (3, 4, n). Units: metres, radians.
 """
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,35 +21,39 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.fast import exponentials
+from robo47.fast.ik_one import FLOOR, NEAR_PI, STOP, Patience, Walker
 from robo47.fast.jacobians import jacobian_columns
 from robo47.rotation_log import log_rotation, pose_error
 from robo47.screws import fk_space
 
 REACHED = 1e-8  # the length of the pose error (radians and metres) of a solution
-STOP = 1e-9  # where walkers stop: a tenth of it
-FLOOR = 1e-8  # squared damping that is left where the error is 0
 CHUNK = 1024  # targets at once
 WIDTH = 500  # walkers at once while targets are left, at least
 MOST = 50  # walkers of one target
 DRAWN = 1000  # random configurations that the nearest ones are chosen from
 ROUNDS = 20
-# (steps at most, how often the gain is looked at, what must be left of the squared
-# error): patient from the caller's start, impatient from a random one.
-FIRST, AGAIN = (60, 5, 0.9), (30, 3, 0.5)
-NEAR_PI = -0.9  # cosine of the angle beyond which sin(angle) is no base for the axis
+FEW = 16  # targets that are walked to one by one: more of them share their calls better
+TRIES = 16  # starts of each of those before they go on together
+# Patient and careful from the caller's start, impatient and bold from a random one.
+FIRST, AGAIN = Patience(60, 5, 0.9, 0.5), Patience(30, 3, 0.5, 0.1)
 
 
 @dataclass(frozen=True)
 class _Problem:
-    arm: exponentials.Arm
+    screws: Array
+    M: Array
     goals: Array
     low: Array
     high: Array
 
+    @functools.cached_property
+    def arm(self) -> exponentials.Arm:
+        return exponentials.arm_of(self.screws, self.M)
+
 
 def solve_ik(
     screws: ArrayLike,
-    M: ArrayLike,
+    M_home: ArrayLike,
     T_goal: ArrayLike,
     q_start: ArrayLike,
     limits: ArrayLike,
@@ -61,7 +66,7 @@ def solve_ik(
 
     Args:
         screws: space screws (omega; v) of one arm, (n, 6).
-        M: `T_world_ee` at q = 0, (4, 4).
+        M_home: `T_world_ee` at q = 0, (4, 4).
         T_goal: targets, `T_world_ee`, (..., 4, 4).
         q_start: where to start, radians (metres for slides), (..., n); what is outside
             the limits is brought to the nearest limit first.
@@ -76,27 +81,27 @@ def solve_ik(
         ValueError: wrong shape, a non-finite number, no screw, not a pose, or a lower
             limit above its upper one.
     """
-    S, M, T, q, low, high = _checked(screws, M, T_goal, q_start, limits)
+    S, M_home, T, q, low, high = _checked(screws, M_home, T_goal, q_start, limits)
     lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
     T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
     q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
-    arm, out = exponentials.arm_of(S, M), np.empty_like(q)
+    out = np.empty_like(q)
     for first in range(0, len(q), CHUNK):
         part = slice(first, first + CHUNK)
         goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))
         start = np.clip(q[part].T, low, high)
-        out[part] = _solve(_Problem(arm, goals, low, high), start).T
+        out[part] = _solve(_Problem(S, M_home, goals, low, high), start).T
     return out.reshape(*lead, len(S))
 
 
 def reached(
-    screws: ArrayLike, M: ArrayLike, T_goal: ArrayLike, q: ArrayLike
+    screws: ArrayLike, M_home: ArrayLike, T_goal: ArrayLike, q: ArrayLike
 ) -> np.ndarray:
     """Return whether q brings the end effector to its target, to 1e-8.
 
     Args:
         screws: space screws (omega; v), (n, 6).
-        M: `T_world_ee` at q = 0, (4, 4).
+        M_home: `T_world_ee` at q = 0, (4, 4).
         T_goal: targets, (..., 4, 4).
         q: what `solve_ik` returned, (..., n).
 
@@ -106,7 +111,7 @@ def reached(
     Raises:
         ValueError: as `solve_ik`.
     """
-    e = pose_error(fk_space(screws, M, q), T_goal)
+    e = pose_error(fk_space(screws, M_home, q), T_goal)
     return np.linalg.norm(e, axis=-1) < REACHED
 
 
@@ -114,7 +119,10 @@ def _solve(problem: _Problem, start: Array) -> Array:
     """Return the best q found for every target, (joints, n)."""
     rng = np.random.default_rng(47)
     everyone = np.arange(start.shape[1])
-    best, miss = _walk(problem, start, everyone, FIRST)
+    if start.shape[1] <= FEW:
+        best, miss = _one_by_one(problem, start)
+    else:
+        best, miss = _walk(problem, start, everyone, FIRST)
     for _ in range(ROUNDS):
         left = np.flatnonzero(miss > STOP**2)
         if not len(left):
@@ -129,14 +137,34 @@ def _solve(problem: _Problem, start: Array) -> Array:
     return best
 
 
+def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
+    """Return the best q of each target, (joints, n), and its squared error, (n,)."""
+    S, M, low, high = problem.screws, problem.M, problem.low, problem.high
+    chain, limits = exponentials.chain_of(S, M), np.hstack([low, high])
+    best, miss = start.copy(), np.empty(start.shape[1])
+    for i in range(len(miss)):
+        walker = Walker(chain, problem.goals[..., i], limits)
+        best[:, i], miss[i] = walker.walk(start[:, i].tolist(), FIRST)
+        if miss[i] <= STOP**2:
+            continue
+        drawn = _pool(S.tobytes(), M.tobytes(), low.tobytes(), high.tobytes())
+        for q in _nearest(problem, np.array([i]), TRIES, *drawn).T.tolist():
+            found, off = walker.walk(q, AGAIN)
+            if off < miss[i]:
+                best[:, i], miss[i] = found, off
+            if off <= STOP**2:
+                break
+    return best, miss
+
+
 def _walk(
-    problem: _Problem, q: Array, target: np.ndarray, patience: tuple[int, int, float]
+    problem: _Problem, q: Array, target: np.ndarray, patience: Patience
 ) -> tuple[Array, Array]:
     """Return every walker's best q, (joints, n), and its squared error, (n,).
 
     Walkers end when one of them reaches their common target, or they no longer gain.
     """
-    steps, every, enough = patience
+    steps, every, enough, damping = patience
     best, miss = q.copy(), np.full(q.shape[1], np.inf)
     before, walker = np.full(q.shape[1], np.inf), np.arange(q.shape[1])
     solved = np.zeros(problem.goals.shape[-1], dtype=bool)
@@ -155,7 +183,7 @@ def _walk(
             q, J, e, ee = q[:, on], J[..., on], e[:, on], ee[on]
         if not len(walker):
             break
-        q = _step(problem, q, J, e, 0.5 * ee + FLOOR)
+        q = _step(problem, q, J, e, damping * ee + FLOOR)
     return best, miss
 
 
@@ -197,31 +225,56 @@ def _damped(J: Array, e: Array, damping: Array) -> Array:
 def _near(
     problem: _Problem, left: np.ndarray, each: int, rng: np.random.Generator
 ) -> Array:
-    """Return starts for the targets that are left, (joints, targets * each).
-
-    Of each group of random configurations, the one whose pose is nearest: |p - p'|^2
-    plus half of |R - R'|^2, which is about the squared angle.
-    """
+    """Return starts for the targets that are left, (joints, targets * each)."""
     group = max(DRAWN // each, 20)
-    low, high = problem.low, problem.high
-    q = rng.uniform(low, high, (len(low), each * group))
-    _, R, p = jacobian_columns(problem.arm, q, at_end=True)
-    scale = np.repeat([np.sqrt(0.5), 1.0], [9, 3])[:, None]
-    drawn = scale * np.concatenate([R.reshape(9, -1), p])
+    drawn = _drawn(problem.arm, problem.low, problem.high, each * group, rng)
+    return _nearest(problem, left, each, *drawn)
+
+
+@functools.lru_cache(maxsize=16)
+def _pool(screws: bytes, M: bytes, low: bytes, high: bytes) -> tuple[Array, Array]:
+    """Return random configurations of one arm, drawn once, with their poses."""
+    arm = exponentials.arm_of(np.frombuffer(screws), np.frombuffer(M))
+    lowest, highest = np.frombuffer(low)[:, None], np.frombuffer(high)[:, None]
+    n = DRAWN // TRIES * TRIES
+    return _drawn(arm, lowest, highest, n, np.random.default_rng(48))
+
+
+def _drawn(
+    arm: exponentials.Arm, low: Array, high: Array, n: int, rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """Return random configurations, (joints, n), and their weighted poses, (12, n)."""
+    q = rng.uniform(low, high, (len(low), n))
+    _, R, p = jacobian_columns(arm, q, at_end=True)
+    return q, _weighted(R, p)
+
+
+def _weighted(R: Array, p: Array) -> Array:
+    return np.concatenate([np.sqrt(0.5) * R.reshape(9, -1), p])
+
+
+def _nearest(
+    problem: _Problem, left: np.ndarray, each: int, q: Array, drawn: Array
+) -> Array:
+    """Return of each of so many groups of configurations the one of the nearest pose.
+
+    Nearest: |p - p'|^2 plus half of |R - R'|^2, which is about the squared angle.
+    """
     goals = problem.goals[..., left]
-    wanted = scale * np.concatenate([goals[:, :3].reshape(9, -1), goals[:, 3]])
+    wanted = _weighted(goals[:, :3], goals[:, 3])
     apart = (drawn * drawn).sum(axis=0) - 2.0 * (wanted.T @ drawn)
-    nearest = apart.reshape(-1, each, group).argmin(axis=-1)
-    return q[:, (nearest + group * np.arange(each)).ravel()]
+    apart = apart.reshape(len(left), each, -1)
+    group = apart.shape[-1]
+    return q[:, (apart.argmin(axis=-1) + group * np.arange(each)).ravel()]
 
 
 def _checked(
-    S: ArrayLike, M: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
+    S: ArrayLike, M_home: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
 ) -> tuple[Array, ...]:
-    S, M = checks.screws(S, "screws"), checks.pose(M, "M")
-    if S.ndim != 2 or M.ndim != 2:
+    S, M_home = checks.screws(S, "screws"), checks.pose(M_home, "M_home")
+    if S.ndim != 2 or M_home.ndim != 2:
         raise ValueError(
-            f"screws has shape {S.shape} and M {M.shape}; expected (n, 6) and (4, 4): "
+            f"screws has shape {S.shape} and M_home {M_home.shape}; expected (n, 6) "
             "one arm, many targets"
         )
     limits = checks.array(limits, "limits", (len(S), 2))
@@ -230,4 +283,4 @@ def _checked(
         i = int(np.argmax(bad))
         raise ValueError(f"limits[{i}] is {limits[i].tolist()}; expected low <= high")
     T, q = checks.pose(T, "T_goal"), checks.array(q, "q_start", (len(S),))
-    return S, M, T, q, low, high
+    return S, M_home, T, q, low, high

@@ -28,7 +28,7 @@ class Single:
 
     def __init__(
         self,
-        steps: Iterable[tuple[int, Step]],
+        steps: Sequence[tuple[int, Step]],
         frames: Iterable[tuple[int, Array, Array]],
     ) -> None:
         """Translate steps and frames, each with its node, to plain floats."""
@@ -37,6 +37,13 @@ class Single:
             (node, [_terms(column) for column in R.T], _terms(t))
             for node, R, t in frames
         ]
+        self._turns: dict[int, tuple[int, int, float]] = {}
+        self._slides: dict[int, tuple[int, Terms]] = {}
+        for node, (_, step) in enumerate(steps, start=1):
+            if isinstance(step, Turn):
+                self._turns[step.adr] = node, step.k, step.sign
+            elif isinstance(step, Slide):
+                self._slides[step.adr] = node, _terms(step.direction)
 
     def poses(self, q: list[float]) -> list[Array]:
         """Return each frame's pose, (4, 4).
@@ -44,11 +51,41 @@ class Single:
         Args:
             q: finite configuration, measured from the joints' references.
         """
+        nodes = self._nodes(q)
+        return [_pose(nodes[node], columns, t) for node, columns, t in self._frames]
+
+    def jacobian(self, q: list[float]) -> tuple[list[Floats], Axes]:
+        """Return the site Jacobian of the only frame, and the frame.
+
+        Args:
+            q: as above, of a chain without branches.
+
+        Returns:
+            The Jacobian's columns, (omega; v) in world axes, and the frame.
+        """
+        nodes, ((node, columns, t),) = self._nodes(q), self._frames
+        end = [_added(WORLD[3], nodes[node], terms) for terms in columns]
+        x, y, z = p = _added(nodes[node][3], nodes[node], t)
+        J: list[Floats] = []
+        for adr in range(len(q)):
+            a = b = c = u = v = w = 0.0
+            if adr in self._turns:
+                at, k, sign = self._turns[adr]
+                (a, b, c), (u, v, w) = nodes[at][k], nodes[at][3]
+                a, b, c, u, v, w = sign * a, sign * b, sign * c, x - u, y - v, z - w
+                u, v, w = b * w - c * v, c * u - a * w, a * v - b * u
+            if adr in self._slides:
+                at, terms = self._slides[adr]
+                u, v, w = _added((u, v, w), nodes[at], terms)
+            J.append((a, b, c, u, v, w))
+        return J, [*end, p]
+
+    def _nodes(self, q: list[float]) -> list[Axes]:
         cos, sin = [math.cos(x) for x in q], [math.sin(x) for x in q]
         nodes = [WORLD]
         for source, move in self._steps:
             nodes.append(move(nodes[source], q, cos, sin))
-        return [_pose(nodes[node], columns, t) for node, columns, t in self._frames]
+        return nodes
 
 
 def single_of(

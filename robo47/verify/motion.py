@@ -120,9 +120,7 @@ def mujoco_site_jacobian(
     Raises:
         Robo47Error: the model has no such site.
     """
-    number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
-    if number < 0:
-        raise Robo47Error(f"the model has no site {site!r}; load panda_nohand")
+    number = _site(model, site)
 
     def read(data: mujoco.MjData) -> Array:
         # mj_jacSite reads cdof, which mj_comPos fills: without it J is zero or old.
@@ -133,6 +131,45 @@ def mujoco_site_jacobian(
         return J.reshape(6, model.nv)
 
     return _ask(model, read, qpos=qpos)
+
+
+def mujoco_push(
+    model: mujoco.MjModel,
+    qpos: ArrayLike,
+    wrench: ArrayLike,
+    site: str = "attachment_site",
+) -> Array:
+    """Return the joint torques that MuJoCo puts in the place of a wrench at a site.
+
+    Args:
+        model: any compiled model.
+        qpos: configurations, (n, nq).
+        wrench: moment about the site's point and force, world axes, (n, 6).
+        site: its MJCF name.
+
+    Returns:
+        Torques by mj_applyFT, N m, (n, nv).
+
+    Raises:
+        Robo47Error: the model has no such site.
+    """
+    number, data, answers = _site(model, site), mujoco.MjData(model), []
+    body = int(model.site_bodyid[number])
+    for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
+        data.qpos[:] = q
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        at, tau = data.site_xpos[number], np.zeros(model.nv)
+        mujoco.mj_applyFT(model, data, F[3:], F[:3], at, body, tau)
+        answers.append(tau)
+    return np.array(answers)
+
+
+def _site(model: mujoco.MjModel, site: str) -> int:
+    number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
+    if number < 0:
+        raise Robo47Error(f"the model has no site {site!r}; load panda_nohand")
+    return int(number)
 
 
 def _after(

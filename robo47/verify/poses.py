@@ -82,6 +82,32 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
     return poses
 
 
+def mujoco_screws(model: mujoco.MjModel, qpos: Array) -> Array:
+    """Return where the axes of all joints are, as screws.
+
+    Args:
+        model: any model of hinges.
+        qpos: configurations, (n, nq).
+
+    Returns:
+        Screws (omega; v) in world axes, (n, njnt, 6).
+    """
+    data, screws = mujoco.MjData(model), np.empty((len(qpos), model.njnt, 6))
+    for S, q in zip(screws, qpos, strict=True):
+        data.qpos[:] = q
+        mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point of it
+        S[:] = np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
+    return screws
+
+
+def mujoco_rotation(axis: Array, theta: float) -> Array:
+    """Return the rotation by theta radians about a unit axis, (3,): (3, 3)."""
+    quat, R = np.empty(4), np.empty(9)
+    mujoco.mju_axisAngle2Quat(quat, axis, theta)
+    mujoco.mju_quat2Mat(R, quat)
+    return R.reshape(3, 3)
+
+
 def worst_difference(
     ours: Mapping[str, Array], truth: Mapping[str, Array], qpos: Array
 ) -> Worst:

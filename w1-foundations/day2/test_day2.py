@@ -343,7 +343,7 @@ def test_a_mistake_in_the_product_costs_this_much(slug, arm):
         (lambda S, M, q: screws.fk_space(2 * S, M, q), r"screws\[0\] is no screw"),
         (lambda S, M, q: screws.dh_fk(lab.FRANKA_DH[:7], q), r"shape \(7, 3\)"),
         (lambda S, M, q: screws.fk_space(S, M, q * np.nan), "q holds a number"),
-        (lambda S, M, q: screws.fk_space(S, 2 * M, q), "M is not a pose"),
+        (lambda S, M, q: screws.fk_space(S, 2 * M, q), "M_home is not a pose"),
     ],
 )  # fmt: skip
 def test_bad_input_is_named(arm, call, says):

@@ -1,4 +1,4 @@
-"""3.7 `manipulability(J)`: its questions and its mistakes."""
+"""3.8 `manipulability(J)`: its questions and its mistakes."""
 
 import numpy as np
 

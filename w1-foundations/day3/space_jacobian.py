@@ -95,6 +95,17 @@ def moved_by_all(screws, q):
 
 
 @row.wrong
+def moved_by_those_after(screws, q):
+    """each screw is moved by the joints after it; those before it carry it => the
+    Jacobian with the product of the joints after each"""
+    T, columns = np.eye(4), []
+    for S, theta in zip(screws[::-1], q[::-1], strict=True):
+        columns.append(adjoint(T) @ S)
+        T = exp_screw(S, theta) @ T
+    return np.array(columns[::-1]).T
+
+
+@row.wrong
 def adjoint_of_the_inverse(screws, q):
     """the screws are carried the other way: this is Ad of the inverse => the Jacobian
     with the inverse"""

@@ -3,7 +3,6 @@
 import importlib.util
 import json
 import re
-from unittest.mock import MagicMock
 
 import mujoco
 import numpy as np
@@ -13,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from conftest import ROOT, load_script, need
-from labkit.base.exchange import Reply
+from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
@@ -27,6 +25,7 @@ DAY = find_day(3)
 WHOSE = (ROOT / "w1-foundations/docs/which-jacobian-is-whose.md").read_text("utf-8")
 WHOSE = " ".join(WHOSE.split())
 ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
+ARMS = ARM[:2], ARM[2]
 LOOP = folder.load(DAY, "loop")
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
@@ -40,11 +39,11 @@ def arm(either_panda):
 def own_jacobians(arm, q):
     """Return the lab's three Jacobians at q, (n, 7)."""
     T = screws.fk_space(*arm, q)
-    J_space = lab.each(lambda x: lab.space_jacobian(arm[0], x), q)
+    J_space = verify.each(lambda x: lab.space_jacobian(arm[0], x), q)
     return {
         "J_space": J_space,
-        "J_site": lab.each(lab.site_jacobian, J_space, T[:, :3, 3]),
-        "J_body": lab.each(lab.body_jacobian, J_space, T),
+        "J_site": verify.each(lab.site_jacobian, J_space, T[:, :3, 3]),
+        "J_body": verify.each(lab.body_jacobian, J_space, T),
     }
 
 
@@ -271,25 +270,31 @@ def test_joint4_after_a_quarter_turn_of_joint1(arm):
 # --- the circle: what of it is geometry, and what the damping costs ---
 
 
+def circle(radius, first=0.0):
+    """Return the circle's poses, DT apart, and q at the first."""
+    times = first + np.arange(0.0, verify.LAP, lab.DT)
+    return verify.circle(*ARMS, radius, times)
+
+
 def drawn(radius, damping, off=0.0):
     """Return misses in mm, shares of the speed limits, and angles."""
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits) + off
-    miss, speeds, path = lab.draw_circle((S, M), q, radius, damping)
+    path, q = circle(radius)
+    miss, speeds, path = lab.draw_circle(ARM[:2], path, q + off, damping)
     return miss, (speeds / lab.SPEED).max(axis=1), path
 
 
 def out_of_reach(radius, limits=ARM[2]):
     """Return the best misses along the circle in mm, (n,); over 1e-3: out of reach."""
-    S, M, _ = ARM
-    return lab.best_miss((S, M), lab.first_q((S, M), radius, ARM[2]), radius, limits)
+    path, q = circle(radius)
+    return verify.least_miss(ARM[:2], limits, path[:-1], q)
 
 
 def test_by_hand_the_larger_circle_is_12_mm_too_far():
     reach = np.hypot(0.316, 0.0825) + np.hypot(0.384, 0.0825)
     assert f"= {reach:.4f}" in GUIDE
-    side = np.hypot(*lab.CENTRE[:2]) - 0.088
-    far = [np.hypot(side, lab.CENTRE[2] + r + 0.107 - 0.333)
+    x, y, z = verify.CENTRE
+    side = np.hypot(x, y) - 0.088
+    far = [np.hypot(side, z + r + 0.107 - 0.333)
            for r in (lab.EASY, lab.RADIUS)]  # fmt: skip
     assert far[0] < reach
     says = f"{far[0]:.4f} m for 0.36, and {far[1]:.4f} m for 0.38: "
@@ -311,13 +316,8 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
 @pytest.mark.kit
 def test_a_tool_that_may_tilt_comes_closer():
     S, M, limits = ARM
-    goals = np.array(
-        [lab.on_the_circle(lab.RADIUS, t) for t in np.arange(1.3, 1.9, 0.02)]
-    )
-    start, tenth = (
-        lab.first_q((S, M), lab.RADIUS, limits),
-        np.array([1.0] * 3 + [10] * 3),
-    )
+    goals, _ = verify.circle(*ARMS, lab.RADIUS, np.arange(1.3, 1.9, 0.02))
+    start, tenth = circle(lab.RADIUS)[1], np.array([1.0] * 3 + [10] * 3)
     M10, far = M.copy(), goals.copy()  # lengths ten times as large: a radian is 0.1 m
     M10[:3, 3], far[:, :3, 3] = 10 * M[:3, 3], 10 * goals[:, :3, 3]
     q = jacobian.solve_ik(S * tenth, M10, far, start, limits)
@@ -338,7 +338,7 @@ def test_where_the_arm_can_go_the_plain_pseudo_inverse_is_the_better_one(radius)
 
 
 @pytest.mark.kit
-def test_what_the_damping_costs_shows_at_the_bottom(monkeypatch):
+def test_what_the_damping_costs_shows_at_the_bottom():
     best = out_of_reach(lab.RADIUS)
     off, _, path = drawn(lab.RADIUS, lab.DAMPING)
     worst = (off - best).argmax()
@@ -349,9 +349,8 @@ def test_what_the_damping_costs_shows_at_the_bottom(monkeypatch):
     least = np.linalg.svd(J)[1][:, -1].min()
     assert f"a least singular value of {least:.3f}" in GUIDE
     # The plain one, from where the damped one is after 3 s: the same circle, shifted.
-    circle = lab.on_the_circle
-    monkeypatch.setattr(lab, "on_the_circle", lambda r, t: circle(r, t + 3.0))
-    plain, speeds, _ = lab.draw_circle(ARM[:2], path[150], lab.RADIUS, 0.0)
+    later, _ = circle(lab.RADIUS, first=3.0)
+    plain, speeds, _ = lab.draw_circle(ARM[:2], later, path[150], 0.0)
     plain, speeds = plain[:145], speeds[:145]
     assert f"within {plain[10:].max():.2f} mm, at" in GUIDE
     assert f"at {(speeds / lab.SPEED).max():.2f} of the speed limits" in GUIDE
@@ -373,7 +372,7 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
 ):
     off, rate, path = drawn(lab.RADIUS, 0.0)
     assert rate.max() > 5
-    assert lab.beyond(ARM[2], path) > 1.0
+    assert verify.beyond(ARM[2], path) > 1.0
     assert f"double the {off.max() / 1000:.2f} m" in GUIDE
     assert abs(drawn(lab.RADIUS, 0.0, 1e-12)[0].max() - off.max()) < 1e-3
     monkeypatch.setattr(lab, "DT", 0.019)
@@ -382,20 +381,16 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits)
-    off, speeds, path = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+    off, share, path = drawn(radius, lab.DAMPING)
     assert off.max() < 20.0
-    assert (speeds / lab.SPEED).max() < 1.0
-    assert lab.beyond(limits, path) < 0.01
+    assert share.max() < 1.0
+    assert verify.beyond(ARM[2], path) < 0.01
 
 
 def test_the_easy_circle_needs_no_damping():
-    S, M, limits = ARM
-    q = lab.first_q((S, M), lab.EASY, limits)
-    off, speeds, _ = lab.draw_circle((S, M), q, lab.EASY, 0.0)
+    off, share, _ = drawn(lab.EASY, 0.0)
     assert off.max() < 1.0
-    assert (speeds / lab.SPEED).max() < 0.6
+    assert share.max() < 0.6
 
 
 def test_the_elbow_swings_while_the_hand_stands(arm):
@@ -407,7 +402,7 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
         J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])
         step = lab.null_step(J, 0.005 * np.eye(7)[2])
         q = q + step + lab.dls_step(J, lab.pose_error(now, T), 0.01)
-        if lab.beyond(limits, q):
+        if verify.beyond(limits, q):
             break
     moved = np.linalg.norm(lab.pose_error(screws.fk_space(S, M, q), T))
     elbow = verify.mujoco_poses(
@@ -421,71 +416,82 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
 # --- the inspector's tab, without a browser ---
 
 
-@pytest.fixture
-def tab():
+def tab_with(functions=None, name="Jacobian"):
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
-    inspector = folder.load(DAY, "inspector")
-    page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
-    page.draw.curve.side_effect = lambda *_: MagicMock()
-    page.html.side_effect = lambda *text: MagicMock()
-    S, M, _ = ARM
-    page.pose.return_value = screws.fk_space(S, M, panda.READY_Q)
-    return inspector.Jacobian(page)
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return getattr(folder.load(DAY, "inspector"), name)(page)
 
 
-def test_the_tab_shows_the_columns_at_the_hand(tab):
+def test_the_tab_shows_ones_own_columns_and_the_wrong_ones_in_red():
     S, M, _ = ARM
     J = own_jacobians((S, M), panda.READY_Q[None])["J_site"][0]
+    tab = tab_with(vars(lab))
+    tab.on_move(panda.READY_Q)
     arrows = tab.columns.points[:, 1] - tab.columns.points[:, 0]
     assert_same(arrows / 0.35, J[3:].T, 1e-5)
     assert "sigma" in tab.least.content
+    assert "the same as the library's" in tab.own.says()[0]
+    tab = tab_with({**vars(lab), "site_jacobian": sign_of_v})
+    tab.on_move(panda.READY_Q)
+    red = tab.wrong.points[:, 1] - tab.wrong.points[:, 0]
+    assert (np.linalg.norm(red, axis=1) > 0).sum() == 7
+    says, kind = tab.own.says()
+    assert kind == "bad"
+    assert "site_jacobian by" in says
+    assert "space_jacobian by" not in says
 
 
-def test_a_dragged_target_is_reached_and_a_moved_elbow_leaves_the_hand(tab):
+def sign_of_v(J_space, p):
+    J = J_space.copy()
+    J[3:] += screws.skew(p) @ J[:3]
+    return J
+
+
+def test_a_dragged_target_is_reached_and_a_swung_elbow_leaves_the_hand():
     S, M, limits = ARM
-    T = screws.fk_space(S, M, panda.READY_Q)
-    goal = T.copy()
+    goal = screws.fk_space(S, M, panda.READY_Q)
     goal[:3, 3] += [0.02, 0.03, -0.01]
+    tab = tab_with(vars(lab))
     tab.follow(goal)
-    q = tab.page.move.call_args.args[0]
-    assert np.linalg.norm(jacobian.pose_error(screws.fk_space(S, M, q), goal)) < 1e-3
-    tab.page.q = panda.READY_Q.copy()
+    assert "0.00 mm and 0.0000 rad short" in tab.numbers.content
+    assert tab.ghost.pose.called
     tab.swing(0.2)
     q = tab.page.move.call_args.args[0]
-    assert np.linalg.norm(jacobian.pose_error(screws.fk_space(S, M, q), T)) < 1e-4
     assert np.abs(q - panda.READY_Q).max() > 0.05
-    assert lab.beyond(limits, q) == 0.0
+    assert "good" in tab.numbers.content
+    assert verify.beyond(limits, q) == 0.0
+    tab = tab_with({**vars(lab), "null_step": lambda J, dq: dq})
+    tab.swing(0.2)
+    assert "bad" in tab.numbers.content
 
 
-def test_the_tab_compares_the_students_jacobian_by_value(tab):
-    right = lab.space_jacobian(ARM[0], panda.READY_Q)
-    tab._students(Reply(value=right))
-    assert "good" in tab.own.content
-    tab._students(Reply(value=right + 0.1))
-    assert "bad" in tab.own.content
-    tab._students(Reply(kind="missing"))
-    assert "nothing to show" in tab.own.content
+def test_without_a_file_the_library_is_at_work_and_is_called_that():
+    tab = tab_with()
+    tab.on_move(panda.READY_Q)
+    says, kind = tab.own.says()
+    assert kind == "quiet"
+    theirs = "the library's space_jacobian, site_jacobian (there is no file yet)"
+    assert theirs in says
 
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
-def test_the_circles_tab_draws_what_the_lab_draws(tab, radius):
-    S, M, limits = ARM
-    q = lab.first_q((S, M), radius, limits)
-    circle = folder.load(DAY, "circle").Circle(tab.page)
-    circle.turn(radius)
-    assert_same(circle.pens[0].q, q, 1e-12)
-    for _ in range(len(np.arange(lab.DT, lab.LAP, lab.DT))):
-        circle.draw()
-    circle.show()
-    damped, plain = circle.pens
-    off, speeds, _ = lab.draw_circle((S, M), q, radius, lab.DAMPING)
+def test_the_circles_tab_draws_what_the_lab_draws(radius):
+    shown = tab_with(vars(lab), "Circle")
+    shown.turn(radius)
+    path, q = circle(radius)
+    assert_same(shown.pens[0].q, q, 1e-12)
+    for _ in path[1:]:
+        shown.draw()
+    shown.show()
+    damped, plain = shown.pens
+    off, share, _ = drawn(radius, lab.DAMPING)
     assert_same(damped.off[1:], off, 1e-6)
-    assert_same(damped.rate[1:], (speeds / lab.SPEED).max(axis=1), 1e-6)
+    assert_same(damped.rate[1:], share, 1e-6)
     assert max(damped.rate) < 1.0
-    assert f"radius {radius:g} m" in circle.numbers.content
+    assert f"radius {radius:g} m" in shown.numbers.content
     if radius == lab.EASY:  # beyond it rounding grows a thousandfold and more
-        off, speeds, _ = lab.draw_circle((S, M), q, radius, 0.0)
+        off, _, _ = drawn(radius, 0.0)
         assert_same(plain.off[1:], off, 1e-6)
         assert max(plain.rate) < 1.0
-    assert circle.steps == len(off)
+    assert shown.steps == len(off)

@@ -1,4 +1,4 @@
-"""4.7 `bias_torque(J, G, qd, g)`: its questions; mistakes of 4.6, and its own."""
+"""4.6 `bias_torque(J, G, qd, g)`: its questions; its mistakes, and the recursion's."""
 
 from functools import partial
 
@@ -21,7 +21,7 @@ def _(rng):
     return [(J, G, qd, g) for J, G, qd, _, g in motions(rng)]
 
 
-# What 4.6 says of its own inside, said of the call: 4.6 is right when 4.7 is judged.
+# What that one says of its inside, said of the call: it is right when this is judged.
 @wrong(
     "base-acceleration-sign",
     "gravity has the wrong sign, as if g were given as -g; inverse_dynamics wants g "

@@ -1,4 +1,4 @@
-"""4.1 `spatial_inertia(m, c, I)`: its questions and its mistakes."""
+"""4.1 `spatial_inertia(m, c, inertia)`: its questions and its mistakes."""
 # ruff: noqa: E741 (I is what the field calls an inertia)
 
 import numpy as np

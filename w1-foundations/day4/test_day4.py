@@ -12,6 +12,7 @@ from conftest import ROOT, load_script
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
+from robo47.verify import links
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -53,7 +54,9 @@ def mass_matrices(arm, model):
     wrong = {}
     for x in q:
         now = arm.at(x)
-        bad = lab.on_purpose(now.T_links, *panda.inertias(model))
+        bad = links.wrong_on_purpose(
+            lab.link_inertias, now.T_links, *panda.inertias(model)
+        )
         for what, G in bad.items():
             M = lab.mass_matrix(now.J_space, G, arm.armature)
             wrong.setdefault(what, []).append(M)
@@ -81,7 +84,9 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
     now, flip = arm.at(panda.READY_Q), np.diag([1.0, 1, 1, -1, -1, -1])
     body, R = (arm.masses, arm.coms, arm.inertias), now.T_links[:, :3, :3]
-    wrong = lab.on_purpose(now.T_links, *body)["m [c] with the wrong sign"]
+    wrong = links.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
+        "m [c] with the wrong sign"
+    ]
     own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
     across = map(lab.spatial_inertia, arm.masses, -now.coms_world, own)
     assert_same(wrong, list(across), 1e-14)
@@ -173,9 +178,9 @@ def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
-    first, half = (lab.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    first, half = (links.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
-    assert abs(lab.swing("RK4", 0.002)) < 1e-6 * abs(first)
+    assert abs(links.swing("RK4", 0.002)) < 1e-6 * abs(first)
 
 
 # -- errata ---------------------------------------------------------------------------

@@ -14,8 +14,6 @@ from day5_control import (
     equal_springs,
     error_response,
     gains_outside,
-    hold,
-    motors,
     run,
     springs,
     springs_and_gravity,
@@ -23,8 +21,9 @@ from day5_control import (
 from matplotlib.figure import Figure  # not pyplot, which may look for a display
 from PIL import Image
 
-from robo47 import panda, simulate
+from robo47 import panda, references, simulate
 from robo47.checks import Array
+from robo47.verify import loops
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
 COLOURS = ("#868e96", "#9c36b5", "#e8590c", "#2f9e44", "#1c64f2")
@@ -32,7 +31,7 @@ COLOURS = ("#868e96", "#9c36b5", "#e8590c", "#2f9e44", "#1c64f2")
 
 def curves() -> dict[str, Array]:
     """Return the largest |e| / e0 of any joint at every instant, per controller."""
-    model, start, goal = motors(), READY_Q - E0, hold(READY_Q)
+    model, start, goal = loops.motors(), READY_Q - E0, references.hold(READY_Q)
     arm = panda.arm(model)
     servos = panda.load("panda_nohand")
     logs = {

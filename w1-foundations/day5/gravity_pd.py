@@ -1,4 +1,4 @@
-"""5.5 `gravity_pd(e, ed, kp, kd, g_at_q)`: its questions and its mistakes."""
+"""5.4 `gravity_pd(e, ed, kp, kd, g_at_q)`: its questions and its mistakes."""
 
 import numpy as np
 

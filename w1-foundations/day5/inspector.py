@@ -11,7 +11,7 @@ import numpy as np
 
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import control, kinematics, panda, simulate
+from robo47 import control, kinematics, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
@@ -58,18 +58,10 @@ LAWS: dict[str, Law] = {
 }
 
 
-def _hang(spec: mujoco.MjSpec) -> None:
-    ball = {"mass": 1.0, "inertia": [1e-4] * 3, "explicitinertial": True}
-    spec.body("attachment").add_body(name="load", **ball)
-
-
 def reference(t: float, swing: bool) -> tuple[Array, Array, Array]:
     """Return position, velocity and acceleration of the ghost: ready, or the swing."""
-    if not swing:
-        return READY_Q, np.zeros(7), np.zeros(7)
-    c, s = np.cos(np.pi * t), np.sin(np.pi * t)
-    q = READY_Q + REACH * (1 - c) / 2
-    return q, REACH * np.pi * s / 2, REACH * np.pi**2 * c / 2
+    made = references.raised_cosine(READY_Q, REACH) if swing else None
+    return (made or references.hold(READY_Q))(t)
 
 
 class Control(Tab):
@@ -83,15 +75,15 @@ class Control(Tab):
         super().__init__(page)
         self.models = [
             panda.load("panda_nohand", drive="torque", edit=edit)
-            for edit in (None, _hang)
+            for edit in (None, scenes.hang_kilogram)
         ]
         self.arm = panda.arm(self.models[0])  # the model never knows of the load
         self.law, self.omega, self.heavy, self.swing = computed, 20.0, 0, False
         self.limits = simulate.limits(self.models[0])[1]
-        self.fastest = float(control.fastest(self.models[0].opt.timestep))
+        self.stiffest = float(control.stiffest_omega(self.models[0].opt.timestep))
         self.ghost = page.draw.ghost("blue")
         page.choice("controller (the library's)", list(LAWS), self.choose)
-        says = f"omega; a loop of 2 ms breaks at {self.fastest:.0f}"
+        says = f"omega; a loop of 2 ms breaks at {self.stiffest:.0f}"
         page.slider(says, 2, 500, 20, self.tune, unit="rad/s", step=1)
         page.tick("hang 1 kg on it; the model is not told", self.hang)
         page.buttons([SWING, NUDGE, STOP], self.press)
@@ -107,7 +99,7 @@ class Control(Tab):
     def tune(self, omega: float) -> None:
         """Make the springs stiffer or softer, critically damped."""
         self.omega = omega
-        broken = omega > self.fastest
+        broken = omega > self.stiffest
         self.page.say("over the limit: the error grows at each step" if broken else "",
                       "bad" if broken else "")  # fmt: skip
 

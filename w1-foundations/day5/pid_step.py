@@ -217,6 +217,31 @@ def bound_not_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
 
 
 @row.wrong
+def clamped_as_a_vector(e, ed, integral, kp, kd, ki, dt, clamp):
+    """the length of all seven together is kept within clamp; each joint's integral has
+    that bound for itself"""
+    new = integral + e * dt
+    new = new * min(1.0, clamp / max(np.linalg.norm(new), 1e-12))
+    return kp * e + kd * ed + ki * new, new
+
+
+@row.wrong
+def trapezoid_of_the_error(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ed is in the area, as the mean of this error and the one before; this call's area
+    is e dt"""
+    new = np.clip(integral + (e - ed * dt / 2) * dt, -clamp, clamp)
+    return kp * e + kd * ed + ki * new, new
+
+
+@row.wrong
+def trapezoid_of_the_error(e, ed, integral, kp, kd, ki, dt, clamp):
+    """ed is in the area, as the mean of this error and the next; this call's area is
+    e dt"""
+    new = np.clip(integral + (e + ed * dt / 2) * dt, -clamp, clamp)
+    return kp * e + kd * ed + ki * new, new
+
+
+@row.wrong
 def term_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
     """ki times the integral is clamped; clamp is the bound of the integral itself"""
     integral = np.clip(ki * (integral + e * dt), -clamp, clamp) / ki

@@ -1,4 +1,4 @@
-"""5.8 `saturate(tau, limits)`: its questions and its mistakes."""
+"""5.7 `saturate(tau, limits)`: its questions and its mistakes."""
 
 import numpy as np
 

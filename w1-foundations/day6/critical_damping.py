@@ -160,6 +160,14 @@ def cholesky(K, Lambda):
 
 
 @row.wrong
+def cholesky(K, Lambda):
+    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => L
+    sqrt(K) + sqrt(K) L^T"""
+    half = np.linalg.cholesky(Lambda) * np.sqrt(K)
+    return half + half.T
+
+
+@row.wrong
 def root_of_inverse(K, Lambda):
     """the root is that of Lambda's inverse => the right one with the inverse root"""
     return _sum(np.linalg.inv(root(Lambda)), np.sqrt(K))

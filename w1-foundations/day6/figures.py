@@ -15,7 +15,6 @@ from day6_task_space import (
     RATE,
     READY_Q,
     SINK,
-    SITE,
     K,
     set_point_for_force,
     soft_hand,
@@ -38,7 +37,7 @@ def moved(force: float, k: float) -> float:
     model = panda.load("panda_nohand", drive="torque")
     arm, start = panda.arm(model), simulate.start(model, READY_Q)
     stiffness = np.append(K[:3], np.full(3, k))
-    push = simulate.push_at(SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
+    push = simulate.push_at(contact.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
     law = soft_hand(arm, READY_Q, stiffness=stiffness)
     run = simulate.run(model, start, law, 3.0, rate=RATE, push=push)
     ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]

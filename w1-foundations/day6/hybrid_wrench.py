@@ -103,7 +103,7 @@ def along_x(e, V_err, K, D, force):
     return _at(K @ e + D @ V_err, 3, D[3] @ V_err - force)
 
 
-@row.wrong(hidden="the lab's springs are not coupled")
+@row.wrong
 def spring_couples_into_z(e, V_err, K, D, force):
     """the other five directions of the spring still pull along z: the push there is the
     wanted force and the damper's part, and nothing of K => the right one with K[5, :5]

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 from robo47.checks import Array
 
@@ -16,8 +18,25 @@ from .states import (
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
 
+
+def damped(case: Case) -> Finding | None:
+    """Say how much damping a Lambda of one's own has that stands for the given one."""
+    J, M, Lambda, tau = case.arguments
+    a = (J @ solve(M, tau[..., None]))[..., 0]
+    push = (pinv(np.swapaxes(J, 1, 2)) @ (tau - case.S)[..., None])[..., 0]
+    left = a - solve(Lambda, push[..., None])[..., 0]  # of a damped one: c times push
+    added = np.sum(left * push) / max(np.sum(push * push), 1e-12)
+    if added > 1e-8 and np.abs(left - added * push).max() < 0.01 * np.abs(left).max():
+        return Finding("damped", f"{DAMPED} Here it is {added:.2g}.")
+    return None
+
+
+DAMPED = (
+    "Something is added to the diagonal of J M^-1 J^T for Lambda's own "
+    "inverse: the hand then feels a part of the torque. Lambda is given; use it."
+)
 # One matrix with two readings: J^T pinv(J^T) is J^+ J.
-row = Row(TORQUE, alike=[{"pinv-of-transpose", "kinematic-projector"}])
+row = Row(TORQUE, alike=[{"pinv-of-transpose", "kinematic-projector"}], unnamed=damped)
 
 
 @row.inputs

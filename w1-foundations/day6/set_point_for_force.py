@@ -1,4 +1,4 @@
-"""6.8 `set_point_for_force(force, k, surface)`: its questions and its mistakes."""
+"""6.5 `set_point_for_force(force, k, surface)`: its questions and its mistakes."""
 
 import numpy as np
 

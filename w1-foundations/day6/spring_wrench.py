@@ -55,6 +55,13 @@ def diagonal_of_D(e, V_err, K, D):
 
 
 @row.wrong
+def D_transposed(e, V_err, K, D):
+    """D is taken from the wrong side, as V_err @ D: its rows belong to the wrench => K
+    e + D^T V_err"""
+    return K @ e + V_err @ D
+
+
+@row.wrong
 def halves_swapped(e, V_err, K, D):
     """the halves of the answer are (force; moment); the moment comes first => the right
     one with its halves swapped"""
@@ -75,7 +82,7 @@ def half_a_spring(e, V_err, K, D):
     return 0.5 * K @ e + D @ V_err
 
 
-@row.wrong(hidden="the lab's springs are not coupled")
+@row.wrong
 def diagonal_of_K(e, V_err, K, D):
     """only the diagonal of K is used; a spring may couple its directions => the right
     one with K's diagonal"""

@@ -58,7 +58,8 @@ def springs(rng):
         e = np.append(some(rng, 0.5, 3), some(rng, 0.05, 3))
         stiffness = np.diag(draw.numbers(rng, 10, 500, 6))
         V_err, coupled = some(rng, 0.5, 6), np.triu(some(rng, 50, 6, 6), 1)
-        drawn.append((e, V_err, stiffness + coupled + coupled.T, D))
+        # D need not be symmetric: from which side it is taken then shows.
+        drawn.append((e, V_err, stiffness + coupled + coupled.T, D + coupled))
     e, V_err, K, D = drawn[0]
     near, far = (0.001 * e, 0.001 * V_err, K, D), (10.0 * e, V_err, K, D)
     return [case, near, far, *drawn]

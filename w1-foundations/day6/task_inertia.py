@@ -3,6 +3,8 @@
 import numpy as np
 
 from labkit.judge import Symmetric
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 from robo47.checks import Array
 
@@ -16,7 +18,21 @@ from .states import (
 
 pinv = np.linalg.pinv
 
-row = Row(Symmetric((6, 6)))
+
+def damped(case: Case) -> Finding | None:
+    """Say how much was added to the diagonal of J M^-1 J^T before it was inverted."""
+    extra = np.linalg.inv(case.S) - np.linalg.inv(case.T)
+    added = np.median(extra[:, range(6), range(6)])
+    if added > 1e-8 and np.abs(extra - added * np.eye(6)).max() < 0.01 * added:
+        return Finding("damped", f"{DAMPED} Here it is {added:.2g}.")
+    return None
+
+
+DAMPED = (
+    "Something is added to the diagonal of J M^-1 J^T before it is inverted. That "
+    "keeps Lambda finite at a singularity and makes it too small everywhere else."
+)
+row = Row(Symmetric((6, 6)), unnamed=damped)
 
 
 @row.inputs

@@ -13,6 +13,7 @@ from conftest import ROOT, load_script, need
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import contact, jacobian, panda, scenes, screws, simulate, verify
+from robo47.verify import hand
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
@@ -311,7 +312,7 @@ MISTAKES = {
     "projected as the public page has it": {
         "project": lambda J, M, L, t: (M - J.T @ L @ J @ inv(M)) @ t
     },
-    "projected with I - J^+ J": {"project": lab.kinematic},
+    "projected with I - J^+ J": {"project": hand.kinematic},
     "projector transposed": {
         "project": lambda J, M, L, t: t - inv(M) @ J.T @ L @ J @ t
     },
@@ -338,14 +339,14 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, lab.kinematic)
+    mm, _ = circled(motors, hand.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
     rng, felt = np.random.default_rng(6), []
     for q in verify.random_q(model, 100, seed=6):
         now, torque = arm.at(q), rng.uniform(-10, 10, 7)
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
-            odd = lab.kinematic(now.J_site, now.M, None, torque)
+            odd = hand.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
     assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 Nm
 

@@ -67,7 +67,7 @@ def profile_sheet() -> Image.Image:
 
 def pick() -> Image.Image:
     """Return the arm as it lifts, and the way that the cube takes in all."""
-    done = capstone.pick(day7_trajectory.week())
+    done = capstone.pick(capstone.with_own(vars(day7_trajectory)))
     began = dict(done.phases)
     now = int(np.searchsorted(done.t, began["carry"] + 0.25))
     cube = done.qpos[:, 9:16]

@@ -75,6 +75,13 @@ def peak_of_the_cubic(dq, v_max, a_max):
 
 
 @row.wrong
+def both_added(dq, v_max, a_max):
+    """the time for the speed and the time for the acceleration are added; one way keeps
+    both limits if it takes the longer of the two => their sum"""
+    return seconds(dq, v_max, a_max).sum(axis=0).max()
+
+
+@row.wrong
 def peak_at_a_quarter(dq, v_max, a_max):
     """5.625 is the acceleration at a quarter of the time; its peak is a little earlier,
     where its derivative is 0 => the duration with 5.625"""

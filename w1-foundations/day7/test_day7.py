@@ -18,6 +18,7 @@ from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import capstone, jacobian, panda, scenes, se3, simulate, trajectory
+from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -163,10 +164,15 @@ def test_the_hand_weighs_what_the_guide_says():
     assert says(f"The hand with its fingers is {mass:.2f} kg more")
 
 
+def followed(scaling, seconds, rate=lab.RATE):
+    line = lab.READY_Q, lab.GOAL_Q, lab.OMEGA, rate
+    return moves.follow(scaling, seconds, *line)
+
+
 def test_step_7s_sentences():
     T = lab.quintic_duration(lab.GOAL_Q - lab.READY_Q, lab.V_MAX, lab.A_MAX)
     ways = lab.profiles(T)
-    off, jerk, torque = zip(*(lab.follow(*way) for way in ways.values()), strict=True)
+    off, jerk, torque = zip(*(followed(*way) for way in ways.values()), strict=True)
     numbers = dict(zip(ways, zip(off, jerk, torque, strict=True), strict=True))
     assert says(f"asks for {numbers['step'][2]:.1f} times the torque")
     assert says(f"so it is {numbers['constant speed'][0]:.0f} mrad off")
@@ -182,11 +188,10 @@ def test_step_7s_sentences():
     assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
 
 
-def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate(monkeypatch):
+def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate():
     T = 0.995
-    at_250 = {n: lab.follow(*w)[1] for n, w in lab.profiles(T).items()}
-    monkeypatch.setattr(lab, "RATE", 500.0)
-    at_500 = {n: lab.follow(*w)[1] for n, w in lab.profiles(T).items()}
+    at_250 = {n: followed(*w)[1] for n, w in lab.profiles(T).items()}
+    at_500 = {n: followed(*w, rate=500.0)[1] for n, w in lab.profiles(T).items()}
     for name in ("constant speed", "cubic", "trapezoid"):
         assert at_500[name] / at_250[name] == pytest.approx(2.0, abs=0.2), name
     assert at_500["quintic"] / at_250["quintic"] == pytest.approx(1.0, abs=0.05)

@@ -8,11 +8,9 @@ A joint is a screw: a line in the world, with the arm at q = 0. Screws and twist
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import mujoco
 import numpy as np
 
 from robo47 import cli, panda, se3, verify
-from robo47 import screws as library
 from robo47.lesson.lab import Lab
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
@@ -94,16 +92,16 @@ def joint_screws(T_zero: np.ndarray) -> np.ndarray:
     # endregion 2.5
 
 
-def fk_space(screws: np.ndarray, M: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return T_world_ee, (4, 4), from screws (7, 6), M = T_world_ee at 0, and q (7,).
+def fk_space(screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Return T_world_ee, (4, 4), from screws (7, 6), its pose at q = 0, and q, (7,).
 
-    At q = 0 it is M: 0.088 m in front of the base and 0.926 m up.
+    At q = 0 it is M_home: 0.088 m in front of the base and 0.926 m up.
     """
     # region 2.6
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ exp_screw(S, theta)
-    return T @ M
+    return T @ M_home
     # endregion 2.6
 
 
@@ -118,20 +116,20 @@ def adjoint(T: np.ndarray) -> np.ndarray:
     # endregion 2.7
 
 
-def body_screws(screws: np.ndarray, M: np.ndarray) -> np.ndarray:
+def body_screws(screws: np.ndarray, M_home: np.ndarray) -> np.ndarray:
     """Return the screws, (7, 6), as the end effector sees them at q = 0.
 
     The Panda's last joint turns it about its own z: (0, 0, 1, 0, 0, 0).
     """
     # region 2.7
-    return screws @ adjoint(se3.inverse(M)).T
+    return screws @ adjoint(se3.inverse(M_home)).T
     # endregion 2.7
 
 
-def fk_body(body_screws: np.ndarray, M: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return T_world_ee, (4, 4), from body screws (7, 6). At q = 0 it is M."""
+def fk_body(body_screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Return T_world_ee, (4, 4), from body screws (7, 6). At q = 0 it is M_home."""
     # region 2.8
-    T = M
+    T = M_home
     for B, theta in zip(body_screws, q, strict=True):
         T = T @ exp_screw(B, theta)
     return T
@@ -165,41 +163,30 @@ def dh_fk(table: np.ndarray, q: np.ndarray) -> np.ndarray:
     # endregion 2.9
 
 
-def mujoco_screws(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
-    """Return the joints' screws at q, (7,), from MuJoCo's axes: (7, 6)."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = q
-    mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point on the axis
-    return np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
-
-
-def mujoco_rotation(axis: np.ndarray, theta: float) -> np.ndarray:
-    """Return MuJoCo's own rotation by theta about an axis, (3, 3)."""
-    quat, R = np.empty(4), np.empty(9)
-    mujoco.mju_axisAngle2Quat(quat, axis, theta)
-    mujoco.mju_quat2Mat(R, quat)
-    return R.reshape(3, 3)
-
-
-def on_purpose(screws: np.ndarray, M: np.ndarray) -> dict:
+def on_purpose(screws: np.ndarray, M_home: np.ndarray) -> dict:
     """Return {what is wrong: q -> your own fk_space, given something wrong}."""
     omega, v = screws[:, :3], screws[:, 3:]
-    M_ready = fk_space(screws, M, READY_Q)
+    M_ready = fk_space(screws, M_home, READY_Q)
     return {
-        "nothing": lambda q: fk_space(screws, M, q),
-        "v = +omega x point": lambda q: fk_space(np.hstack([omega, -v]), M, q),
-        "v forgotten": lambda q: fk_space(np.hstack([omega, 0 * v]), M, q),
-        "(v; omega)": lambda q: fk_space(np.hstack([v, omega]), M, q),
-        "joint7 on the left": lambda q: fk_space(screws[::-1], M, q[::-1]),
-        "M on the left": lambda q: M @ fk_space(screws, np.eye(4), q),
-        "q in degrees": lambda q: fk_space(screws, M, np.rad2deg(q)),
+        "nothing": lambda q: fk_space(screws, M_home, q),
+        "v = +omega x point": lambda q: fk_space(np.hstack([omega, -v]), M_home, q),
+        "v forgotten": lambda q: fk_space(np.hstack([omega, 0 * v]), M_home, q),
+        "(v; omega)": lambda q: fk_space(np.hstack([v, omega]), M_home, q),
+        "joint7 on the left": lambda q: fk_space(screws[::-1], M_home, q[::-1]),
+        "M on the left": lambda q: M_home @ fk_space(screws, np.eye(4), q),
+        "q in degrees": lambda q: fk_space(screws, M_home, np.rad2deg(q)),
         "M of the ready pose": lambda q: fk_space(screws, M_ready, q),
     }
 
 
-def each(function, *columns: np.ndarray) -> np.ndarray:
-    """Return a function's answers to each row of its arguments, (n, ...)."""
-    return np.array([function(*row) for row in zip(*columns, strict=True)])
+def how_far_off(lab: Lab, ways: dict, q: np.ndarray, T_ee: np.ndarray) -> None:
+    """Print how far off the hand is: at the first q, 0; at ready; at the others."""
+    print(f"  {'millimetres':24}{'q = 0':>8}{'ready':>8}{'random':>8}")
+    for what, fk in ways.items():
+        off = [fk(x)[:3, 3] for x in q] - T_ee[:, :3, 3]
+        zero, ready, *others = 1000 * np.linalg.norm(off, axis=1)
+        print(f"  {what:24}{zero:8.1f}{ready:8.1f}{np.median(others):8.1f}")
+        lab.measured(f"hand off at q = 0 with {what}, mm", zero)
 
 
 def main() -> int:
@@ -207,59 +194,42 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand")
     print(panda.describe("panda_nohand"))
-    rng = np.random.default_rng(SEED)
     q = np.vstack([np.zeros(7), READY_Q, verify.random_q(model, TRIALS, SEED)])
     truth = verify.mujoco_poses(model, q)  # what MuJoCo says: every frame at every q
     T_ee = truth["site:attachment_site"]
 
     lab.step("1. A rotation about any axis, not only about z")
-    a, b = rng.normal(size=(2, TRIALS, 3))
-    a_cross_b = (each(skew, a) @ b[..., None])[..., 0]
-    lab.check("largest |[a] b - a x b|", a_cross_b - np.cross(a, b))
-    axes = a / np.linalg.norm(a, axis=1, keepdims=True)
-    theta = rng.uniform(-np.pi, np.pi, TRIALS)
-    off = each(exp_rotation, axes, theta) - each(mujoco_rotation, axes, theta)
+    lab.check("largest |[a] b - a x b|", verify.off_cross(skew, TRIALS))
+    off = verify.off_rotation(exp_rotation, TRIALS)
     lab.check("largest |exp_rotation - MuJoCo's|", off)
 
     lab.step("2. Seven joints, seven lines in the world, with the arm at q = 0")
     T_links = np.stack([truth[link] for link in LINKS], axis=1)
-    screws, M = joint_screws(T_links[0]), T_ee[0]  # the first q is 0
+    screws, M_home = joint_screws(T_links[0]), T_ee[0]  # the first q is 0
     lab.show("(omega; v) of joint1 to joint7", screws, 4)
+    lab.measured("third number of v of joint4's screw, m", screws[3, 5])
     # The function knows nothing of q = 0: elsewhere it has to find the lines too.
-    off = each(joint_screws, T_links) - [mujoco_screws(model, x) for x in q]
+    off = verify.each(joint_screws, T_links) - verify.mujoco_screws(model, q)
     lab.check(f"largest |by hand - MuJoCo's axes| at {len(q)} q", off)
 
     lab.step("3. The motion along one screw: hinges, slides, and both in one")
-    S = np.hstack([axes, b])
-    S[::4, :3] = 0.0  # a slide does not turn
-    off = each(exp_screw, S, theta) - library.exp_screw(S, theta)
-    lab.check("largest |exp_screw - the library's|", off)
+    lab.check("largest |exp_screw - library|", verify.off_motion(exp_screw, TRIALS))
 
     lab.step("4. Seven motions, then M: what is wrong, and how far off is the hand?")
-    print(f"  {'millimetres':24}{'q = 0':>8}{'ready':>8}{'random':>8}")
-    for what, fk in on_purpose(screws, M).items():
-        off = [fk(x)[:3, 3] for x in q[:22]] - T_ee[:22, :3, 3]
-        zero, ready, *others = 1000 * np.linalg.norm(off, axis=1)
-        print(f"  {what:24}{zero:8.1f}{ready:8.1f}{np.median(others):8.1f}")
+    how_far_off(lab, on_purpose(screws, M_home), q[:22], T_ee[:22])
     # The lesson of the day: at q = 0 nearly all of them are right. Never judge there.
-    off = [fk_space(screws, M, x) for x in q] - T_ee
+    off = [fk_space(screws, M_home, x) for x in q] - T_ee
     lab.check("fk_space at q = 0, which says little", off[0])
     lab.record("poe_by_hand", np.abs(off[2:]).max(axis=(1, 2)),
                label=f"fk_space at {TRIALS} random q, which says all",
                config="random", seed=SEED)  # fmt: skip
 
     lab.step("5. The same arm as the end effector sees it")
-    T = T_ee[-TRIALS:]  # any poses do: a motion S in their frame is T e^[S] inv(T) here
-    AdT_S = (each(adjoint, T) @ S[..., None])[..., 0]
-    seen = T @ library.exp_screw(S, theta) @ se3.inverse(T)
-    off = each(exp_screw, AdT_S, theta) - seen
-    lab.check("largest |e^[Ad(T) S] - T e^[S] inv(T)|", off)
-    B = body_screws(screws, M)
+    lab.check("largest |[Ad(T) S] - T [S] inv(T)|", verify.off_adjoint(adjoint, T_ee))
+    B = body_screws(screws, M_home)
     lab.show("body screws of joint1 to joint7", B, 4)
-    lab.check("largest |fk_body - MuJoCo|", [fk_body(B, M, x) for x in q] - T_ee)
-    more = verify.random_q(model, LIBRARY_TRIALS, SEED)
-    theirs = library.fk_space(panda.screws(model), panda.home_pose(model), more)
-    off = theirs - verify.mujoco_poses(model, more)["site:attachment_site"]
+    lab.check("largest |fk_body - MuJoCo|", [fk_body(B, M_home, x) for x in q] - T_ee)
+    off, _ = verify.off_library(model, LIBRARY_TRIALS)
     lab.check(f"the library robo47.screws at {LIBRARY_TRIALS:,}", off)
 
     lab.step("6. Denavit and Hartenberg: four numbers per link instead of six")
@@ -277,6 +247,7 @@ def main() -> int:
     lab.step("7. Side quest: joint1, joint3 and joint5 are one line at q = 0")
     rank = np.linalg.matrix_rank(screws)
     print(f"  The seven screws have rank {rank}; a hand that can move freely needs 6.")
+    lab.measured("independent motions that the seven screws of q = 0 span", rank)
     print("  Which motion has it lost there? (Day 3 answers.)")
     return lab.finish()
 

@@ -7,26 +7,26 @@ A column of the Jacobian is a joint's screw, where it is now. Twists are (omega;
 J_space, J_site and J_body are three different matrices. Metres, radians, seconds.
 """
 
+from itertools import pairwise
+
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import cli, jacobian, panda, se3, verify
+from robo47 import cli, panda, se3, verify
 from robo47.lesson.lab import Lab
-from robo47.screws import adjoint, exp_rotation, exp_screw, fk_space, skew
+from robo47.screws import adjoint, exp_screw, fk_space, skew
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 500  # random configurations that your own code is judged on
 LIBRARY_TRIALS = 2_000  # and the library; a hundred thousand take seconds
 SEED = 47  # the same random configurations at every run
 NEAR, FAR = 50, 20  # targets of your solve_ik: within 0.3 rad of its start, anywhere
-TRIES = 10  # starts for one far target; with 1, a third of them is not reached
+TRIES = 20  # starts for one far target; with 1, a third of them is not reached
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # Franka's joint speed limits, rad/s
-# The hand draws a circle in the y-z plane, from START_Q on. With radius 0.36 all of it
-# is in reach; the top of one of 0.38 is not, and its bottom is nearly singular.
-CENTRE = np.array([0.28, -0.06, 0.55])
+DOWN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -10.0])  # a wrench: no moment, 10 N down
+# All of the first circle is in reach; the top of the second is not.
 EASY, RADIUS = 0.36, 0.38
-START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])  # its elbow: no limit is met
-LAP, DT = 6.0, 0.02  # seconds a lap takes, and a step; what goes wrong changes with DT
+DT = 0.02  # seconds a step takes; what goes wrong changes with it
 DAMPING = 0.05  # 0.1 is slower and less exact, 0 is the plain pseudo-inverse
 GAIN = 10.0  # 1/s: how fast an error on the circle is corrected; over 1 / DT it shakes
 
@@ -86,7 +86,7 @@ def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
 
 
 def dls_step(J: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
-    """Return J^T (J J^T + damping^2 I)^-1 e, (7,): the damped step.
+    """Return the dq, (7,), that makes |J dq - e|^2 + damping^2 |dq|^2 the smallest.
 
     With J = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
     """
@@ -97,7 +97,7 @@ def dls_step(J: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
 
 def solve_ik(
     screws: np.ndarray,
-    M: np.ndarray,
+    M_home: np.ndarray,
     T_goal: np.ndarray,
     q_start: np.ndarray,
     limits: np.ndarray,
@@ -111,7 +111,7 @@ def solve_ik(
     # region 3.6
     q, best, least = q_start.copy(), q_start, np.inf
     for _ in range(61):
-        T = fk_space(screws, M, q)
+        T = fk_space(screws, M_home, q)
         e = pose_error(T, T_goal)
         if e @ e < least:
             best, least = q, e @ e
@@ -123,18 +123,29 @@ def solve_ik(
     # endregion 3.6
 
 
-def manipulability(J: np.ndarray) -> float:
-    """Return sqrt(det(J J^T)), which is 0 where J is singular (never NaN).
+def joint_torques(J_space: np.ndarray, p: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Return the torques, (7,), with which the hand pushes with F at its point p, (3,).
 
-    With 1, 2, 3, 1, 1, 1 on the diagonal of J it is 6.
+    F, (6,), is the moment about p and the force, world axes. A joint that turns about z
+    pays 10 N m for -10 N along x at (0, 1, 0).
     """
     # region 3.7
-    return np.sqrt(max(np.linalg.det(J @ J.T), 0.0))
+    return site_jacobian(J_space, p).T @ F
     # endregion 3.7
 
 
+def manipulability(J: np.ndarray) -> float:
+    """Return the volume of the box that J makes of six unit speeds: 0 where it is flat.
+
+    It is the product of the singular values. With 1, 2, 3, 1, 1, 1 on J's diagonal: 6.
+    """
+    # region 3.8
+    return np.linalg.svd(J, compute_uv=False).prod()
+    # endregion 3.8
+
+
 def null_step(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
-    """Return the part of dq, (7,), that the hand does not feel: dq - J^+ J dq.
+    """Return what is left of dq, (7,), without the smallest motion that the hand feels.
 
     With J = [I 0] and dq all 1 only the seventh joint moves. J may be singular.
     """
@@ -153,65 +164,11 @@ def body_jacobian(J_space: np.ndarray, T: np.ndarray) -> np.ndarray:
     # endregion 3.9
 
 
-def each(function, *columns: np.ndarray) -> np.ndarray:
-    """Return a function's answers to each row of its arguments, (n, ...)."""
-    return np.array([function(*row) for row in zip(*columns, strict=True)])
-
-
-def miss(arm: tuple, q: np.ndarray, T_goal: np.ndarray) -> float:
-    """Return the length of the pose error at q, radians and metres together."""
-    return float(np.linalg.norm(pose_error(fk_space(*arm, q), T_goal)))
-
-
-def beyond(limits: np.ndarray, q: np.ndarray) -> float:
-    """Return how far q, (..., 7), is beyond the joint limits at worst, radians."""
-    return float(np.maximum(limits[:, 0] - q, q - limits[:, 1]).max().clip(0.0))
-
-
-def tries(arm: tuple, T_goal: np.ndarray, limits: np.ndarray, rng) -> int:
-    """Return at which try solve_ik reaches a target: 1 from READY_Q; 0 is never."""
-    q = READY_Q
-    for attempt in range(1, TRIES + 1):
-        if miss(arm, solve_ik(*arm, T_goal, q, limits), T_goal) < 1e-8:
-            return attempt
-        q = rng.uniform(*limits.T)  # another start leads to another valley
-    return 0
-
-
-def all_tries(arm: tuple, goals: np.ndarray, limits: np.ndarray, rng) -> np.ndarray:
-    """Return `tries` of each target, (n,); after three failures the rest is spared."""
-    found: list[int] = []
-    for T_goal in goals:
-        if found.count(0) < 3:
-            found.append(tries(arm, T_goal, limits, rng))
-    return np.array(found)
-
-
-def on_the_circle(radius: float, time: float) -> np.ndarray:
-    """Return where the hand should be, (4, 4); the tool points down all the way."""
-    phi, T = 2 * np.pi * time / LAP, np.diag([-1.0, 1.0, -1.0, 1.0])
-    T[:3, 3] = CENTRE + radius * np.array([0.0, np.cos(phi), np.sin(phi)])
-    return T
-
-
-def first_q(arm: tuple, radius: float, limits: np.ndarray) -> np.ndarray:
-    """Return where the circle starts; the library's, so that all draw the same one."""
-    return jacobian.solve_ik(*arm, on_the_circle(radius, 0.0), START_Q, limits)
-
-
-def best_miss(arm: tuple, q: np.ndarray, radius: float, limits: np.ndarray):
-    """Return how far off the circle the hand must be, mm, (n,): the library's best."""
-    goals = np.array([on_the_circle(radius, t - DT) for t in np.arange(DT, LAP, DT)])
-    best = fk_space(*arm, jacobian.solve_ik(*arm, goals, q, limits))
-    return 1000 * np.linalg.norm(best[:, :3, 3] - goals[:, :3, 3], axis=1)
-
-
-def draw_circle(arm: tuple, q: np.ndarray, radius: float, damping: float) -> tuple:
+def draw_circle(arm: tuple, path: np.ndarray, q: np.ndarray, damping: float) -> tuple:
     """Return how far off the hand is, mm, (n,), and joint speeds and angles, (n, 7)."""
     off, speeds, angles = [], [], []
-    T_now = on_the_circle(radius, 0.0)
-    for time in np.arange(DT, LAP, DT):
-        T, T_next = fk_space(*arm, q), on_the_circle(radius, time)
+    for T_now, T_next in pairwise(path):  # poses, DT apart
+        T = fk_space(*arm, q)
         # The circle's own velocity, and a correction of what is off by now.
         twist = pose_error(T_now, T_next) / DT + GAIN * pose_error(T, T_now)
         J = site_jacobian(space_jacobian(arm[0], q), T[:3, 3])
@@ -219,8 +176,30 @@ def draw_circle(arm: tuple, q: np.ndarray, radius: float, damping: float) -> tup
         off.append(1000 * np.linalg.norm(T_now[:3, 3] - T[:3, 3]))
         speeds.append(np.abs(q_dot))
         angles.append(q)
-        q, T_now = q + DT * q_dot, T_next
+        q = q + DT * q_dot
     return np.array(off), np.array(speeds), np.array(angles)
+
+
+def circles(lab: Lab, arm: tuple, limits: np.ndarray) -> None:
+    """Draw the larger circle with damping, then both without."""
+    times = np.arange(0.0, verify.LAP, DT)
+    path, q = verify.circle(arm, limits, RADIUS, times)
+    off, speeds, _ = draw_circle(arm, path, q, DAMPING)
+    lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
+    lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
+               label="fastest joint, in parts of its limit")  # fmt: skip
+    least = verify.least_miss(arm, limits, path[:-1], q)
+    print(f"  {np.sum(least > 1e-3)} of {len(least)} poses are out of reach,", end=" ")
+    print(f"by up to {least.max():.2f} mm.")
+    lab.measured("circle of 0.38 m, top: too far for the wrist by, mm", least.max())
+    lab.check("mm farther off than the best joint angles", off - least, 15)
+
+    lab.step("6. Without damping: another DT, other numbers")
+    for radius in (EASY, RADIUS):
+        path, q = verify.circle(arm, limits, radius, times)
+        off, speeds, _ = draw_circle(arm, path, q, 0.0)
+        print(f"  {radius:.2f} m: {off.max():8.2f} mm off, {speeds.max():8.2f} rad/s, "
+              f"{(speeds / SPEED).max():.2f} of the limit")  # fmt: skip
 
 
 def main() -> int:
@@ -228,117 +207,59 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand")
     print(panda.describe("panda_nohand"))
-    screws = panda.screws(model)
-    arm = (screws, panda.home_pose(model))
-    limits, rng = model.jnt_range, np.random.default_rng(SEED)
+    arm, limits = (panda.screws(model), panda.home_pose(model)), model.jnt_range
     q = np.vstack([np.zeros(7), READY_Q, verify.random_q(model, TRIALS, SEED)])
     J_mujoco, T = verify.mujoco_site_jacobian(model, q), fk_space(*arm, q)
 
     lab.step("1. The Jacobian: every column is a joint's screw, where it is now")
-    J_space = each(lambda x: space_jacobian(screws, x), q)
-    J_site = each(site_jacobian, J_space, T[:, :3, 3])
+    J_space = verify.each(lambda x: space_jacobian(arm[0], x), q)
+    J_site = verify.each(site_jacobian, J_space, T[:, :3, 3])
     lab.show("J_site when the arm is ready: rows (omega; v)", J_site[1], 3)
-    lab.check("J_space at q = 0: the screws", J_space[0] - screws.T)
+    lab.check("J_space at q = 0: the screws", J_space[0] - arm[0].T)
     lab.record("jacobian_by_hand", np.abs(J_site[2:] - J_mujoco[2:]).max(axis=(1, 2)),
                label=f"J_site - MuJoCo's at {TRIALS} random q",
                config="random", seed=SEED)  # fmt: skip
-    R_back = np.swapaxes(T[:, :3, :3], 1, 2)  # turns both halves into the hand's axes
-    seen = np.hstack([R_back @ J_mujoco[:, :3], R_back @ J_mujoco[:, 3:]])
     with lab.side_quest():
-        lab.check("J_body - MuJoCo's, turned", each(body_jacobian, J_space, T) - seen)
-    many = verify.random_q(model, LIBRARY_TRIALS, SEED)
-    p = fk_space(*arm, many)[:, :3, 3]
-    theirs = jacobian.site_jacobian(jacobian.space_jacobian(screws, many), p)
-    off = theirs - verify.mujoco_site_jacobian(model, many)
+        J_body = verify.each(body_jacobian, J_space, T)
+        lab.check("J_body - MuJoCo's, turned", J_body - verify.in_the_hand(J_mujoco, T))
+    _, off = verify.off_library(model, LIBRARY_TRIALS)
     lab.check(f"the library robo47.jacobian at {LIBRARY_TRIALS:,}", off)
 
     lab.step("2. How far is it to the goal? A rotation vector and a translation")
-    axes = rng.normal(size=(TRIALS, 3))
-    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-    angles = np.pi * rng.uniform(size=TRIALS)
-    angles[:40] = [
-        0.0,
-        1e-9,
-        1e-5,
-        *(np.pi - 10.0 ** -np.arange(1, 10)),
-        *angles[12:40],
-    ]
-    off = each(log_rotation, exp_rotation(axes, angles)) - angles[:, None] * axes
-    lab.check(f"log_rotation of {TRIALS} known turns, also near 0 and pi", off)
-    half_turn = log_rotation(np.diag([-1.0, 1.0, -1.0]))
-    lab.check("and of half a turn about y", half_turn - [0.0, np.pi, 0.0])
-    e = each(pose_error, T[:-1], T[1:])
-    size = np.linalg.norm(e[:, :3], axis=1)
-    arrives = exp_rotation(e[:, :3] / size[:, None], size) @ T[:-1, :3, :3]
-    lab.check("turned by the error, the hand has the goal's R", arrives - T[1:, :3, :3])
-    lab.check(
-        "moved by it, it has the goal's p", T[:-1, :3, 3] + e[:, 3:] - T[1:, :3, 3]
-    )
+    off = verify.off_log(log_rotation, TRIALS)
+    lab.check(f"log_rotation of {TRIALS} known turns, also near 0 and at pi", off)
+    off = verify.off_goal(pose_error, T[:-1], T[1:])
+    lab.check("turned and moved by the error, the hand is at the goal", off)
 
-    lab.step("3. Steps: damped, and those that the hand does not feel")
-    U, sigma, Vt = np.linalg.svd(J_mujoco)
-    lab.check("manipulability, from the singular values",
-              each(manipulability, J_mujoco) - sigma.prod(axis=1), 1e-7)  # fmt: skip
-    print(f"  At q = 0 it is {manipulability(J_mujoco[0]):.4f}, so a motion is lost.")
-    lab.show("Day 2 asked which: (omega; v) is", np.abs(U[0, :, -1]), 3)
-    e, J = e[:12], np.vstack([J_mujoco[:6], J_mujoco[:6]])  # q = 0 among them
-    damping = np.repeat([DAMPING, 1.0], 6)
-    padded = [np.vstack([A, d * np.eye(7)]) for A, d in zip(J, damping, strict=True)]
-    best = [np.linalg.lstsq(A, np.append(x, np.zeros(7)))[0]
-            for A, x in zip(padded, e, strict=True)]  # fmt: skip
-    off = each(dls_step, J, e, damping) - best
+    lab.step("3. Steps, damped and unfelt, and the torques that a push costs")
+    off = verify.off_least_squares(dls_step, J_mujoco[:12])  # singular at q = 0
     lab.check("dls_step - least squares with 7 more rows", off)
-    dq, null = rng.normal(size=(len(q) - 1, 7)), Vt[1:, 6]
-    off = each(null_step, J_mujoco[1:], dq) - np.sum(dq * null, 1, keepdims=True) * null
+    F = np.random.default_rng(SEED).normal(size=(len(q), 6))  # N m and N
+    tau = verify.each(joint_torques, J_space, T[:, :3, 3], F)
+    lab.check("joint_torques - MuJoCo's", tau - verify.mujoco_push(model, q, F))
+    tau = joint_torques(J_space[1], T[1, :3, 3], DOWN)
+    lab.show("Pushing down with 10 N at ready costs the motors, N m", tau, 3)
+    lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
+    off = verify.off_null_vector(null_step, J_mujoco[1:])
     lab.check("null_step - the part along the null vector", off)
+    off = verify.off_volume(manipulability, J_mujoco)
+    lab.check("manipulability squared - det(J J^T)", off)
+    flat, u = manipulability(J_mujoco[0]), np.linalg.svd(J_mujoco[0])[0][:, -1]
+    lab.show(f"At q = 0 it is {flat:.4f}; no motor feels the wrench", np.abs(u), 3)
 
     lab.step("4. Inverse kinematics")
-    stayed = solve_ik(*arm, T[1], READY_Q, limits)
-    lab.check("a start that is there already comes back", stayed - READY_Q)
-    middle = limits.mean(axis=1)
-    starts = middle + 0.7 * (q[2 : NEAR + 2] - middle)
-    near = np.clip(starts + rng.uniform(-0.3, 0.3, starts.shape), *limits.T)
-    goals = fk_space(*arm, near)
-    found = each(lambda goal, x: solve_ik(*arm, goal, x, limits), goals, starts)
-    left = each(lambda goal, x: miss(arm, x, goal), goals, found) > 1e-8
-    lab.check(f"share of {NEAR} near targets not reached", left.mean(), 0.03)
-    out = goals[:4].copy()
-    out[:, :3, 3] *= 2.0 / np.linalg.norm(out[:, :3, 3], axis=1)[:, None]
-    far = each(lambda goal, x: solve_ik(*arm, goal, x, limits), out, starts[:4])
-    best = jacobian.solve_ik(*arm, out, starts[:4], limits)  # hundreds of starts each
-    ratio = each(lambda goal, x: miss(arm, x, goal), out, far) / each(
-        lambda goal, x: miss(arm, x, goal), out, best
-    )
-    lab.check("2 m away, out of reach: error / the library's", ratio, 1.01)
-    goals = fk_space(*arm, many[:FAR])
-    some = each(lambda goal: solve_ik(*arm, goal, READY_Q, limits), goals[:5])
-    ends = np.vstack([found, far, some])
-    lab.check("rad beyond the joint limits", beyond(limits, ends))
-    at = all_tries(arm, goals, limits, rng)
-    print(
-        f"  {len(at)} targets anywhere: {np.sum(at == 1)} reached from the ready pose,"
-    )
-    print(f"  {np.sum(at > 0)} with up to {TRIES} starts.")
+    off = solve_ik(*arm, T[1], READY_Q, limits) - READY_Q
+    lab.check("a start that is there already comes back", off)
+    ends = verify.ends_of(solve_ik, arm, limits, q[2 : NEAR + 2], SEED)
+    lab.check(f"share of {NEAR} near targets not reached", ends.missed, 0.03)
+    lab.check("2 m away, out of reach: error / the best", ends.out_of_reach, 1.01)
+    lab.check("rad beyond the joint limits", ends.beyond)
+    at = verify.tries(solve_ik, arm, limits, T[2 : FAR + 2], READY_Q, TRIES, SEED)
+    print(f"  Reached of {len(at)}: {sum(at == 1)} from ready, {sum(at > 0)} in all.")
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
                n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip
-
     lab.step(f"5. A circle of {RADIUS} m, out of reach at its top, with damping")
-    start = first_q(arm, RADIUS, limits)
-    off, speeds, _ = draw_circle(arm, start, RADIUS, DAMPING)
-    lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
-    lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
-               label="fastest joint, in parts of its limit")  # fmt: skip
-    least = best_miss(arm, start, RADIUS, limits)
-    out = np.sum(least > 1e-3)
-    print(f"  {out} of {len(least)} poses are out of reach, by up to", end=" ")
-    print(f"{least.max():.2f} mm.")
-    lab.check("mm farther off than the best joint angles", off - least, 15)
-
-    lab.step("6. Without damping: another DT, other numbers")
-    for radius in (EASY, RADIUS):
-        off, speeds, _ = draw_circle(arm, first_q(arm, radius, limits), radius, 0.0)
-        print(f"  {radius:.2f} m: {off.max():8.2f} mm off, {speeds.max():8.2f} rad/s, "
-              f"{(speeds / SPEED).max():.2f} of the limit")  # fmt: skip
+    circles(lab, arm, limits)
     return lab.finish()
 
 

@@ -8,13 +8,12 @@ force), J the space Jacobian (6, 7). Metres, radians, kilograms, newtons, second
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import mujoco
 import numpy as np
 
 from robo47 import cli, panda, simulate, verify
-from robo47.fast import dynamics as dynamics_batch
 from robo47.lesson.lab import Lab
 from robo47.screws import skew
+from robo47.verify import each, links
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 100  # random motions that your own code is judged on
@@ -25,15 +24,15 @@ PUSH = np.array([0.0, 10.0, 0.0])  # newtons on the hand; 50 drive it into its l
 RATE = 50.0  # Hz, of the loops in step 7; gravity is in no hurry: 10 will do
 
 
-def spatial_inertia(m: float, c: np.ndarray, I: np.ndarray) -> np.ndarray:  # noqa: E741
+def spatial_inertia(m: float, c: np.ndarray, inertia: np.ndarray) -> np.ndarray:
     """Return a body's 6x6 inertia about the origin, from its mass m and its centre c.
 
-    I, (3, 3), is about c, in world axes. For 2 kg at (0, 0, 1) with I = 0 the diagonal
-    is (2, 2, 0, 2, 2, 2).
+    inertia, (3, 3), is about c, in world axes. For 2 kg at (0, 0, 1) with inertia 0
+    the diagonal is (2, 2, 0, 2, 2, 2).
     """
     # region 4.1
     C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C], [m * C.T, m * np.eye(3)]])
+    return np.block([[inertia + m * C @ C.T, m * C], [m * C.T, m * np.eye(3)]])
     # endregion 4.1
 
 
@@ -47,9 +46,9 @@ def link_inertias(
     """
     # region 4.2
     G = []
-    for T, m, c, I in zip(T_links, masses, coms, inertias, strict=True):  # noqa: E741
+    for T, m, c, inertia in zip(T_links, masses, coms, inertias, strict=True):
         R, p = T[:3, :3], T[:3, 3]
-        G.append(spatial_inertia(m, R @ c + p, R @ I @ R.T))
+        G.append(spatial_inertia(m, R @ c + p, R @ inertia @ R.T))
     return np.array(G)
     # endregion 4.2
 
@@ -126,9 +125,9 @@ def bias_torque(
 
     At qd = 0 it is gravity_torque.
     """
-    # region 4.7
+    # region 4.6
     return inverse_dynamics(J, G, qd, np.zeros(len(qd)), g)
-    # endregion 4.7
+    # endregion 4.6
 
 
 def forward_dynamics(
@@ -157,68 +156,8 @@ def energy(
     # endregion 4.9
 
 
-def cloud(rng: np.random.Generator) -> tuple:
-    """Return eight random points, what each weighs, and their (m, c, I)."""
-    points, weights = rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)
-    c = weights @ points / weights.sum()
-    d = points - c
-    I = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d  # noqa: E741
-    return points, weights, (weights.sum(), c, I)
-
-
-def momentum(points: np.ndarray, weights: np.ndarray, V: np.ndarray) -> np.ndarray:
-    """Return the momentum (angular; linear) of points that move with V, one by one."""
-    p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
-    return np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
-
-
-def mujoco_inertias(model: mujoco.MjModel, q: np.ndarray) -> list:
-    """Return spatial_inertia of link1 to link7 from where MuJoCo says they are."""
-    data, G = mujoco.MjData(model), []
-    data.qpos[:] = q
-    mujoco.mj_kinematics(model, data)  # fills xipos, ximat: centre and principal axes
-    for i in [model.body(f"link{n}").id for n in range(1, 8)]:
-        R, c = data.ximat[i].reshape(3, 3), data.xipos[i]
-        I = R @ np.diag(model.body_inertia[i]) @ R.T  # noqa: E741
-        G.append(spatial_inertia(model.body_mass[i], c, I))
-    return G
-
-
-def mujoco_energy(model: mujoco.MjModel, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    """Return MuJoCo's kinetic and potential energy of link1 to link7, in joules."""
-    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY  # else they stay 0
-    potential, kinetic = simulate.start(model, q, qd).energy
-    link0 = model.body("link0")  # never moves, but MuJoCo counts its weight
-    still = -link0.mass[0] * model.opt.gravity @ link0.ipos
-    return np.array([kinetic, potential - still])
-
-
-def each(function, *columns: np.ndarray) -> np.ndarray:
-    """Return a function's answers to each row of its arguments, (n, ...)."""
-    return np.array([function(*row) for row in zip(*columns, strict=True)])
-
-
-def on_purpose(T: np.ndarray, masses, coms, inertias) -> dict:
-    """Return {what is wrong: every G by your own functions, given something wrong}."""
-    G, R = link_inertias(T, masses, coms, inertias), T[:, :3, :3]
-    R_T, flip = np.swapaxes(R, 1, 2), np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
-    no_lever = G.copy()
-    no_lever[:, :3, :3] = R @ inertias @ R_T
-    c_still, I_still = (R_T @ coms[..., None])[..., 0], R_T @ inertias @ R
-    return {
-        "nothing": G,
-        "m [c] with the wrong sign": flip @ G @ flip,
-        "m [c] [c]^T forgotten": no_lever,
-        "c not turned": link_inertias(T, masses, c_still, inertias),
-        "I not turned": link_inertias(T, masses, coms, I_still),
-    }
-
-
 def let_go(model, arm, share: float, *phases: tuple) -> np.ndarray:
-    """Return the hand's path, (n, 3), on that share of your own gravity_torque.
-
-    Each phase is (seconds, force on the hand).
-    """
+    """Return the hand's way, (n, 3), on a share of your gravity_torque, in phases."""
 
     def hold(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
         now = arm.at(q)  # J and the centres of mass, as Days 1 to 3 make them
@@ -226,23 +165,46 @@ def let_go(model, arm, share: float, *phases: tuple) -> np.ndarray:
         return share * gravity_torque(*given)
 
     data, path = simulate.start(model, READY_Q), [READY_Q]
-    for seconds, force in phases:
+    for seconds, force in phases:  # s, and newtons on the hand
         push = simulate.push_at("attachment_site", np.append(np.zeros(3), force))
-        path.extend(
-            simulate.run(model, data, hold, seconds, rate=RATE, push=push).q[1:]
-        )
-    return np.array([arm.at(q).T_world_ee[:3, 3] for q in path])
+        run = simulate.run(model, data, hold, seconds, rate=RATE, push=push)
+        path.extend(run.q[1:])
+    p = np.array([arm.at(q).T_world_ee[:3, 3] for q in path])
+    return p - p[0]
 
 
-def swing(integrator: str, timestep: float) -> float:
-    """Return the energy, J, that a free swing of 1 s gains: no motor, no friction."""
-    model = panda.load("panda_nohand", drive="torque")
-    model.opt.timestep, model.dof_damping[:], model.jnt_limited[:] = timestep, 0.0, 0
-    model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
-    data = simulate.start(model, READY_Q)
-    mujoco.mj_step(model, data, round(1.0 / timestep))
-    end, start = (data.qpos, data.qvel), (READY_Q, np.zeros(7))
-    return (mujoco_energy(model, *end) - mujoco_energy(model, *start)).sum()
+def float_and_push(lab: Lab, model, arm) -> None:
+    """Let the arm go, let it float, and push it: on your gravity_torque alone."""
+    for share, seconds in ((0.0, 0.5), (0.9, 2.0), (0.99, 2.0)):
+        path = let_go(model, arm, share, (seconds, 0 * PUSH))
+        moved = 1000 * np.linalg.norm(path[-1])
+        print(f"  {share:4.0%} of gravity_torque: {moved:4.0f} mm in {seconds} s")
+        lab.measured(f"way of the hand on {share:.0%} of gravity_torque, mm", moved)
+    path = let_go(model, arm, 1.0, (5.0, 0 * PUSH))
+    drift = np.linalg.norm(path, axis=1)
+    lab.record("float_5s", drift, label="all of it: the hand's drift in 5 s, m")
+    path = let_go(model, arm, 1.0, (0.5, PUSH), (4.5, 0 * PUSH))
+    away = np.linalg.norm(path[-1])
+    speed = np.linalg.norm(np.diff(path, axis=0), axis=1) * RATE
+    print(f"  {np.linalg.norm(PUSH):.0f} N for 0.5 s: up to {speed.max():.2f} m/s; "
+          f"{away:.2f} m in 5 s, then {speed[-1]:.3f} m/s")  # fmt: skip
+    lab.measured("its speed 4.5 s after a push of 10 N for 0.5 s, m/s", speed[-1])
+
+
+def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
+    """Compare your mass matrices with MuJoCo's, and return them, (n, 7, 7)."""
+    M = each(mass_matrix, now.J, G, now.armature)
+    lab.show("M when the arm is ready, kg m2", M[0], 3)
+    off = np.abs(M - now.M).max(axis=(1, 2))
+    lab.record("mass_matrix", off, label=f"mass_matrix at {TRIALS} q, kg m2",
+               config="random", seed=SEED)  # fmt: skip
+    # The lesson of the day: symmetric, positive definite, and wrong all the same.
+    print(f"  {'what is wrong':28}   off by   asymmetric by   least eigenvalue")
+    for what, bad in links.wrong_masses(link_inertias, mass_matrix, now).items():
+        print(f"  {what:28}{bad[0]:9.3f}{bad[1]:16.0e}{bad[2]:19.3f}")
+    off = links.library_masses(model, LIBRARY_TRIALS, SEED)
+    lab.check(f"the library robo47.dynamics_batch at {LIBRARY_TRIALS:,}", off)
+    return M
 
 
 def main() -> int:
@@ -251,102 +213,55 @@ def main() -> int:
     model = panda.load("panda_nohand", drive="torque")  # ctrl is a torque: no servos
     print(panda.describe("panda_nohand"))
     arm, rng = panda.arm(model), np.random.default_rng(SEED)
-    q = np.vstack([READY_Q, verify.random_q(model, TRIALS - 1, SEED)])
-    qd = rng.uniform(-FASTEST, FASTEST, q.shape)
-    qdd = rng.uniform(-HARDEST, HARDEST, q.shape)
-    now = [arm.at(x) for x in q]  # J and the links' poses, as Days 1 to 3 make them
-    J, T = np.array([x.J_space for x in now]), np.array([x.T_links for x in now])
-    com = np.array([x.coms_world for x in now])
-    # What is the same at every q, once for each: masses, com and inertia of the links.
-    body = [np.array([x] * TRIALS) for x in panda.inertias(model)]
-    armature, damping, g = (
-        np.array([x] * TRIALS) for x in (arm.armature, arm.damping, arm.gravity)
-    )
+    now = links.motions(model, TRIALS, SEED, FASTEST, HARDEST)
 
     lab.step("1. A body is many points; ten numbers say how all of them move")
-    points, weights, own = zip(*[cloud(rng) for _ in q], strict=True)
-    V, W = rng.normal(size=(2, TRIALS, 6))
-    off = each(lambda one, v: spatial_inertia(*one) @ v, own, V)
-    off = off - each(momentum, points, weights, V)
+    off = links.momenta(spatial_inertia, TRIALS, rng)
     lab.check("largest |G V - the points' momentum|", off)
 
     lab.step("2. Every link of the arm, where it is now")
     lab.show("link1 to link7, kg", arm.masses, 3)
-    G = each(link_inertias, T, *body)
-    off = G - [mujoco_inertias(model, x) for x in q]
+    G = each(link_inertias, now.T, *now.links)
+    off = G - [links.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
     lab.check("largest |G - from MuJoCo's centres and axes|", off)
 
     lab.step("3. The mass matrix: how heavy each joint feels")
-    M, M_mujoco = each(mass_matrix, J, G, armature), verify.mujoco_mass_matrix(model, q)
-    lab.show("M when the arm is ready, kg m2", M[0], 3)
-    off = np.abs(M - M_mujoco).max(axis=(1, 2))
-    lab.record("mass_matrix", off, label=f"mass_matrix at {TRIALS} q, kg m2",
-               config="random", seed=SEED)  # fmt: skip
-    # The lesson of the day: symmetric, positive definite, and wrong all the same.
-    print(f"  {'what is wrong':28}   off by   asymmetric by   least eigenvalue")
-    bad = [on_purpose(*one) for one in zip(T, *body, strict=True)]
-    for what in bad[0]:
-        M_bad = each(mass_matrix, J, [one[what] for one in bad], armature)
-        off, skewed = M_bad - M_mujoco, np.abs(M_bad - np.swapaxes(M_bad, 1, 2)).max()
-        least = np.linalg.eigvalsh(M_bad).min()
-        print(f"  {what:28}{np.abs(off).max():9.3f}{skewed:16.0e}{least:19.3f}")
-    more = verify.random_q(model, LIBRARY_TRIALS, SEED)
-    off = dynamics_batch.mass_matrix(arm, more) - verify.mujoco_mass_matrix(model, more)
-    lab.check(f"the library robo47.dynamics_batch at {LIBRARY_TRIALS:,}", off)
+    M = weigh(lab, model, now, G)
 
     lab.step("4. Gravity: what the motors give to hold the arm still")
-    tau = each(gravity_torque, J, body[0], com, g)
+    tau = each(gravity_torque, now.J, now.links[0], now.coms, now.g)
     lab.show("gravity_torque when the arm is ready, N m", tau[0], 3)
-    off = tau - verify.mujoco_bias(model, q, 0 * qd)
+    lab.measured("torque that holds joint4 at ready, N m", tau[0, 3])
+    off = tau - verify.mujoco_bias(model, now.q, 0 * now.qd)
     lab.check("largest |by hand - MuJoCo's bias at rest|, N m", off)
 
     lab.step("5. The torque of a motion: out along the arm, and back")
-    (w, v), (w2, v2) = np.split(V, 2, axis=1), np.split(W, 2, axis=1)
-    cross = np.hstack([np.cross(w, w2), np.cross(v, w2) + np.cross(w, v2)])
-    off = (each(ad, V) @ W[..., None])[..., 0] - cross
-    lab.check("largest |ad(V) W - the cross products|", off)
-    links = each(inverse_dynamics, J, G, qd, qdd, g)
-    off = links - verify.mujoco_inverse_dynamics(model, q, qd, qdd)
+    lab.check("largest |ad(V) W - the cross products|", links.crosses(ad, TRIALS, rng))
+    off = each(inverse_dynamics, now.J, G, now.qd, now.qdd, now.g)
+    off = off - verify.mujoco_inverse_dynamics(model, now.q, now.qd, now.qdd)
     print(f"  Without armature and damping: off by {np.abs(off).max():.2f} N m")
-    off = np.abs(off + armature * qdd + damping * qd).max(axis=1)
+    off = np.abs(off + now.armature * now.qdd + now.damping * now.qd).max(axis=1)
     lab.record("inverse_dynamics", off, label="with them, N m",
                config="random", seed=SEED)  # fmt: skip
-    bias = each(bias_torque, J, G, qd, g)
-    off = bias - verify.mujoco_bias(model, q, qd)
+    bias = each(bias_torque, now.J, G, now.qd, now.g)
+    off = bias - verify.mujoco_bias(model, now.q, now.qd)
     lab.check("largest |bias_torque - MuJoCo's|, N m", off)
 
     lab.step("6. Forwards: what the simulator does with a torque")
-    tau = simulate.limits(model)[1] * rng.uniform(-0.5, 0.5, q.shape)
-    off = each(forward_dynamics, M, bias, damping, qd, tau)
-    off = off - verify.mujoco_acceleration(model, q, qd, tau)
+    off, after = links.forwards(model, now, M, bias, forward_dynamics)
     lab.check("largest |qdd - MuJoCo's|, rad/s2", off)
-    h = model.opt.timestep  # implicitfast brakes at the end of its step: M + h D
-    slower = M + h * np.diag(arm.damping)
-    after = qd + h * each(forward_dynamics, slower, bias, damping, qd, tau)
-    off = after - verify.mujoco_step(model, q, qd, tau)
-    lab.check("its next velocity, predicted, rad/s", off)
+    lab.check("its next velocity, predicted, rad/s", after)
 
     lab.step("7. Let go, float, push")
-    for share, seconds in ((0.0, 0.5), (0.9, 2.0), (0.99, 2.0)):
-        hand = let_go(model, arm, share, (seconds, 0 * PUSH))
-        moved = 1000 * np.linalg.norm(hand[-1] - hand[0])
-        print(f"  {share:4.0%} of gravity_torque: {moved:4.0f} mm in {seconds} s")
-    hand = let_go(model, arm, 1.0, (5.0, 0 * PUSH))
-    drift = np.linalg.norm(hand - hand[0], axis=1)
-    lab.record("float_5s", drift, label="all of it: the hand's drift in 5 s, m")
-    hand = let_go(model, arm, 1.0, (0.5, PUSH), (4.5, 0 * PUSH))
-    away = np.linalg.norm(hand[-1] - hand[0])
-    speed = np.linalg.norm(np.diff(hand, axis=0), axis=1) * RATE
-    print(f"  {np.linalg.norm(PUSH):.0f} N for 0.5 s: up to {speed.max():.2f} m/s; "
-          f"{away:.2f} m in 5 s, then {speed[-1]:.3f} m/s")  # fmt: skip
+    float_and_push(lab, model, arm)
 
     lab.step("8. Side quest: energy, and who makes it")
     with lab.side_quest():
-        off = each(energy, M, qd, body[0], com, g)
-        off = off - [mujoco_energy(model, *one) for one in zip(q, qd, strict=True)]
+        off = each(energy, M, now.qd, now.links[0], now.coms, now.g)
+        off = off - links.mujoco_energies(model, now.q, now.qd)
         lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
-        gain = swing(name, ms / 1000)
+        gain = links.swing(name, ms / 1000)
         print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")
     return lab.finish()
 

@@ -10,29 +10,18 @@ wrench is (moment; force). M is with armature. Metres, radians, newtons, kilogra
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import (
-    cli,
-    contact,
-    control,
-    jacobian,
-    panda,
-    scenes,
-    screws,
-    simulate,
-    verify,
-)
+from robo47 import cli, contact, control, panda, scenes, screws
 from robo47 import task_space as library
 from robo47.lesson.lab import Lab
+from robo47.verify import hand
 
 READY_Q = panda.READY_Q
-SITE = "attachment_site"
 TRIALS = 50  # random states that your own code is judged on
 SEED = 47
 SIGMA = 0.05  # least singular value of J: at 0, a singularity, Lambda is infinite
 # N m/rad and N/m. With 40 N/m the 10 N below are 250 mm, with 4,000 they are 2.5.
 K = np.array([30.0, 30.0, 30.0, 400.0, 400.0, 400.0])
 PUSH = np.array([0.0, 0.0, 1.0, 10.0, 0.0, 0.0])  # N m about z, N along x
-NONE = np.zeros(6)
 PRESS, SINK = 20.0, 0.1  # N, wanted on the table; m/s: the faster, the higher the peak
 ELBOW = (10.0, 4.0)  # N m/rad and N m s/rad that hold the elbow back; 0 lets it drift
 RATE = 100.0  # Hz, of what comes to rest; the circle is drawn at 250
@@ -68,12 +57,9 @@ def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def osc_torque(
-    J: np.ndarray,
-    Lambda: np.ndarray,
-    bias: np.ndarray,
-    site_bias: np.ndarray,
+    J: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, site_bias: np.ndarray,
     acc: np.ndarray,
-) -> np.ndarray:
+) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand accelerates by acc, (6,).
 
     If acc is site_bias itself, they are bias.
@@ -109,6 +95,16 @@ def spring_wrench(
     # endregion 6.5
 
 
+def set_point_for_force(force: float, k: float, surface: float) -> float:
+    """Return the height to command so that a hand of k N/m presses down with a force.
+
+    For 20 N at 400 N/m on a surface at 0.42 m it is 0.37 m.
+    """
+    # region 6.5
+    return surface - force / k
+    # endregion 6.5
+
+
 def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     """Return D, (6, 6), with which a spring K, (6,), does not ring.
 
@@ -124,13 +120,9 @@ def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
 
 
 def impedance_torque(
-    J: np.ndarray,
-    wrench: np.ndarray,
-    bias: np.ndarray,
-    damping: np.ndarray,
-    qd: np.ndarray,
-    tau_null: np.ndarray,
-) -> np.ndarray:
+    J: np.ndarray, wrench: np.ndarray, bias: np.ndarray, damping: np.ndarray,
+    qd: np.ndarray, tau_null: np.ndarray,
+) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand pushes with a wrench.
 
     At rest, with wrench and tau_null 0, they are bias. damping is that of the joints.
@@ -140,77 +132,19 @@ def impedance_torque(
     # endregion 6.7
 
 
-def set_point_for_force(force: float, k: float, surface: float) -> float:
-    """Return the height to command so that a hand of k N/m presses down with a force.
-
-    For 20 N at 400 N/m on a surface at 0.42 m it is 0.37 m.
-    """
-    # region 6.8
-    return surface - force / k
-    # endregion 6.8
-
-
 def hybrid_wrench(
     e: np.ndarray, V_err: np.ndarray, K: np.ndarray, D: np.ndarray, force: float
 ) -> np.ndarray:
     """Return a wrench, (6,): a spring but along z, where it pushes down with a force.
 
-    e, V_err, K and D are those of `spring_wrench`.
-    With e and V_err 0 it is (0, 0, 0, 0, 0, -force). The damper stays in all six;
-    along z there is nothing of K.
+    The first four as in `spring_wrench`; with e and V_err 0: (0, 0, 0, 0, 0, -force).
+    The damper stays in all six rows; along z there is nothing of K.
     """
     # region 6.9
     wrench = spring_wrench(e, V_err, K, D)
     wrench[5] = D[5] @ V_err - force
     return wrench
     # endregion 6.9
-
-
-def hand_of(arm, q: np.ndarray, qd: np.ndarray):
-    """Return the arm at q and what today's functions say of it: Lambda, site bias."""
-    now = arm.at(q)
-    drift = site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
-    return now, task_inertia(now.J_site, now.M), drift
-
-
-def by_value(model, arm, rng) -> dict[str, list]:
-    """Return each function's errors at random states: MuJoCo's hand, or the library."""
-    q = verify.random_q(model, 2 * TRIALS, SEED)
-    sigma = np.linalg.svd(verify.mujoco_site_jacobian(model, q), compute_uv=False)
-    rows = []
-    for q_i in q[sigma[:, -1] > SIGMA][:TRIALS]:
-        qd, torque = rng.uniform(-1, 1, (2, 7)) * [[1], [10]]
-        F, acc, e = rng.uniform(-10, 10, (3, 6))
-        now, Lambda, drift = hand_of(arm, q_i, qd)
-        J, M, bias, still = now.J_site, now.M, now.bias(qd), now.gravity_torque
-        D, friction = critical_damping(K, Lambda), arm.damping * qd
-        pushed = contact.mujoco_push(model, q_i, 0, still, F)[1]
-        tau = osc_torque(J, Lambda, bias, drift, acc)
-        idle = null_torque(J, M, Lambda, torque)
-        odd = kinematic(J, M, Lambda, torque)
-        holding = impedance_torque(J, F, bias, arm.damping, qd, idle)
-        spring, numbers = spring_wrench(e, F, np.diag(K), D), (F[0], 300 + F[1], F[2])
-        rows.append({
-            "mass": np.linalg.norm(Lambda @ pushed - F) / np.linalg.norm(F),
-            "library": np.linalg.solve(library.task_inertia(J, M), F) - pushed,
-            "drift": drift - contact.mujoco_site_bias(model, q_i, qd),
-            "osc": contact.mujoco_push(model, q_i, qd, tau + friction, NONE)[1] - acc,
-            "null": contact.mujoco_push(model, q_i, 0, still + idle, NONE)[1],
-            "kinematic": contact.mujoco_push(model, q_i, 0, still + odd, NONE)[1],
-            "rest": idle - library.null_torque(J, M, Lambda, torque),
-            "spring": spring - library.spring_wrench(e, F, np.diag(K), D),
-            "height": set_point_for_force(*numbers)
-            - library.set_point_for_force(*numbers),
-            "damping": D - library.critical_damping(K, Lambda),
-            # The simulator pushes with -F, so but for idle nothing accelerates.
-            "impedance": contact.mujoco_push(model, q_i, qd, holding - idle, -F)[0],
-        })  # fmt: skip
-    return {name: [row[name] for row in rows] for name in rows[0]}
-
-
-def kinematic(J, M, Lambda, tau) -> np.ndarray:
-    """Return tau through Day 3's projector, which is for speeds: tau - J^+ J tau."""
-    return jacobian.null_step(J, tau)
 
 
 def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
@@ -238,13 +172,28 @@ def stiff_arm(arm, q_start: np.ndarray):
     return lambda t, q, qd: q_start + (q_deep - q_start) * min(t * SINK / 0.06, 1.0)
 
 
+def press(lab: Lab, at: list[hand.State]) -> None:
+    """Press on the table softly, with the force that was chosen; then stiffly."""
+    hand.compare(lab.check, at, set_point_for_force=set_point_for_force)
+    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
+    lab.show("height to command, m; the tip touches at 0.42", depth, 3)
+    height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
+    soft = contact.press(lambda arm, q: soft_hand(arm, q, height), rate=RATE)
+    # The file's own servos, told to go 50 mm into the table, know of no force.
+    stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
+    for name, felt in (("soft", soft), ("stiff", stiff)):
+        print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
+    lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
+
+
 def circling(arm, project):
     """Return a controller that draws the circle, with a way to project torques."""
     T_start = arm.at(READY_Q).T_world_ee
 
     def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        now, Lambda, drift = hand_of(arm, q, qd)
-        J, (T, V, A) = now.J_site, contact.circle(t, T_start, RADIUS, TURN)
+        now, (T, V, A) = arm.at(q), contact.circle(t, T_start, RADIUS, TURN)
+        J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
+        drift = site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
         e = contact.pose_error(now.T_world_ee, T)
         acc = A + 2 * OMEGA * (V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
@@ -254,85 +203,62 @@ def circling(arm, project):
     return law
 
 
-def off_circle(model, arm, project) -> np.ndarray:
-    """Return how far the hand was from the circle all along one turn, in mm."""
-    start = simulate.start(model, READY_Q)
-    run = simulate.run(model, start, circling(arm, project), TURN + 0.5)
-    T_start = arm.at(READY_Q).T_world_ee
-    goal = [contact.circle(t, T_start, RADIUS, TURN)[0][:3, 3] for t in run.t]
-    p = [arm.at(q).T_world_ee[:3, 3] for q in run.q]
-    return 1000 * np.linalg.norm(np.subtract(goal, p), axis=1)
-
-
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand", drive="torque")  # motors: ctrl is a torque
     arm = panda.arm(model)
     print(panda.describe("panda_nohand"))
-    rng = np.random.default_rng(SEED)
-    found = by_value(model, arm, rng)
+    at = hand.states(model, TRIALS, SEED, SIGMA)
 
     lab.step("1. What the hand weighs: push it, and see how it accelerates")
-    ready, Lambda, _ = hand_of(arm, READY_Q, np.zeros(7))
+    Lambda = task_inertia(arm.at(READY_Q).J_site, arm.at(READY_Q).M)
     lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
-    lab.show("and of a hand that nobody holds: what it weighs along x, y, z",
-             1 / np.diag(np.linalg.inv(Lambda))[3:], 3)  # fmt: skip
+    free = 1 / np.diag(np.linalg.inv(Lambda))[3:]
+    lab.show("and of a hand that nobody holds: what it weighs along x, y, z", free, 3)
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
-    lab.record("task_inertia", found["mass"], label="|Lambda a - F| / |F|, worst push",
+    off = np.linalg.norm(hand.mass_felt(model, at, task_inertia), axis=1)
+    lab.record("task_inertia", off, label="|Lambda a - F| / |F|, worst push",
                config="random", seed=SEED)  # fmt: skip
-    lab.check("the library robo47.task_space, the same push", found["library"])
+    off = hand.mass_felt(model, at, library.task_inertia)
+    lab.check("the library robo47.task_space, the same push", off)
 
     lab.step("2. Torques for a wanted acceleration of the hand")
-    lab.check("site_bias - MuJoCo's rate of J times qd", found["drift"])
-    lab.check("MuJoCo's hand accelerates as osc_torque asks", found["osc"])
+    off = hand.drift(model, at, site_bias)
+    lab.check("site_bias - MuJoCo's rate of J times qd", off)
+    off = hand.asked_for(model, at, task_inertia, site_bias, osc_torque)
+    lab.check("MuJoCo's hand accelerates as osc_torque asks", off)
 
     lab.step("3. What is left for the elbow")
-    lab.check("the hand's acceleration under null_torque", found["null"])
-    lab.check("null_torque - the library's", found["rest"])
-    odd = np.median(np.abs(found["kinematic"]).max(axis=1))
-    print(f"  Day 3's projector in its place: the hand feels {odd:.1f} rad/s2 or m/s2.")
+    off = hand.unfelt(model, at, task_inertia, null_torque)
+    lab.check("the hand's acceleration under null_torque", off)
+    hand.compare(lab.check, at, null_torque=null_torque)
+    odd = np.abs(hand.unfelt(model, at, task_inertia, hand.kinematic)).max(axis=1)
+    print("  Day 3's projector in its place: "
+          f"the hand feels {np.median(odd):.1f} rad/s2 or m/s2.")  # fmt: skip
 
     lab.step("4. A hand that is a spring")
-    lab.check("spring_wrench - the library's", found["spring"])
-    lab.check("critical_damping - the library's", found["damping"])
-    lab.check("impedance_torque against MuJoCo's push", found["impedance"])
-    start = simulate.start(model, READY_Q)
-    push = simulate.push_at(SITE, PUSH)
-    law = soft_hand(arm, READY_Q)
-    run = simulate.run(model, start, law, 3.0, rate=RATE, push=push)
-    T = arm.at(run.q[-1]).T_world_ee
-    moved, predicted = jacobian.pose_error(ready.T_world_ee, T), PUSH / K
-    lab.show("pushed with 10 N and 1 N m; predicted, rad and m", predicted)
+    hand.compare(lab.check, at, spring_wrench=spring_wrench,
+                 critical_damping=critical_damping)  # fmt: skip
+    off = hand.held(model, at, impedance_torque)
+    lab.check("impedance_torque against MuJoCo's push", off)
+    lab.show("pushed with 10 N and 1 N m; predicted, rad and m", PUSH / K)
+    moved = hand.rest_after(model, soft_hand(arm, READY_Q), PUSH, RATE)
     lab.show("where the hand came to rest", moved)
-    lab.record("push_predicted", moved - predicted, label="largest difference")
+    lab.record("push_predicted", moved - PUSH / K, label="largest difference")
 
     lab.step("5. Pressing on a table, with a force that was chosen")
-    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
-    start = scenes.TOUCH + 0.01
-    lab.check("set_point_for_force - the library's", found["height"])
-    lab.show("height to command, m; the tip touches at 0.42", depth, 3)
-    sink = lambda t: max(depth, start - SINK * t)  # noqa: E731
-    soft = contact.press(lambda arm, q: soft_hand(arm, q, sink), rate=RATE)
-    # The file's own servos, told to go 50 mm into the table, know of no force. Two of
-    # their motors end at their limits; give press a `change` that takes these away.
-    stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
-    for name, felt in (("soft", soft), ("stiff", stiff)):
-        print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
-    lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
+    press(lab, at)
 
     lab.step("6. An upright circle, 0.12 m in radius, in two seconds")
-    for name, project in (("Day 3's", kinematic), ("today's", null_torque)):
-        off = off_circle(model, arm, project)
+    for name, project in (("Day 3's", hand.kinematic), ("today's", null_torque)):
+        off = 1e3 * hand.off_circle(model, circling(arm, project), RADIUS, TURN)
         print(f"  with {name} projector it is at most {off.max():.3f} mm off")
     lab.record("osc_circle", off, label="today's, mm")
 
     lab.step("7. Side quest: a spring sideways, a force downwards")
     with lab.side_quest():
-        e, V_err, D = rng.normal(size=6), rng.normal(size=6), rng.normal(size=(6, 6))
-        given = e, V_err, np.diag(K), D, 10.0
-        off = hybrid_wrench(*given) - library.hybrid_wrench(*given)
-        lab.check("hybrid_wrench - the library's", off)
+        hand.compare(lab.check, at, hybrid_wrench=hybrid_wrench)
     return lab.finish()
 
 

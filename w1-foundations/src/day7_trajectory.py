@@ -7,26 +7,12 @@ s is the part of a path that is done, 0 to 1; sd and sdd are its derivatives. T_
 maps x coordinates to the world. Metres, radians, seconds, kilograms.
 """
 
-from dataclasses import replace
-
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import mujoco
 import numpy as np
 
-from robo47 import (
-    capstone,
-    cli,
-    control,
-    jacobian,
-    panda,
-    screws,
-    se3,
-    simulate,
-    verify,
-)
-from robo47 import trajectory as library
-from robo47.arm import Arm
+from robo47 import capstone, cli, jacobian, panda, screws, se3, simulate
 from robo47.lesson.lab import Lab
+from robo47.verify import moves
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # radians, steps 2 and 7
@@ -36,7 +22,6 @@ GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 TRIALS = 200  # random moves, poses and bodies that your own code is judged on
 SEED = 47  # the same random ones at every run
 OMEGA = 20.0  # rad/s, how stiff the arm follows; 10 lets errors grow fourfold
-REST = 0.1  # s, before and after a move in step 7, to see how it starts and stops
 RATE = 250.0  # Hz, of the controller in step 7
 PICK_RATE = 100.0  # Hz, in step 8; at 50 Hz the arm drops a cube now and then
 
@@ -184,11 +169,6 @@ def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
     # endregion 7.9
 
 
-def each(function, *columns: np.ndarray) -> np.ndarray:
-    """Return a function's answers to each row of its arguments, (n, ...)."""
-    return np.array([function(*row) for row in zip(*columns, strict=True)])
-
-
 def profiles(T: float) -> dict:
     """Return {name: (s, sd, sdd at time t; seconds)} of five ways to go from 0 to 1."""
     dq = np.abs(GOAL_Q - READY_Q)
@@ -196,82 +176,36 @@ def profiles(T: float) -> dict:
     return {
         "step": (lambda t: np.array([1.0, 0.0, 0.0]), T),
         "constant speed": (lambda t: np.array([t / T, 1 / T, 0.0]), T),
-        "cubic": (lambda t: cubic(t / T) / [1, T, T**2], T),
+        "cubic": (lambda t: moves.cubic(t, T), T),
         "trapezoid": (lambda t: trapezoid(t, 1.0, v, a), 1 / v + v / a),
         "quintic": (lambda t: quintic_scaling(t, T), T),
     }
 
 
-def cubic(x: float) -> np.ndarray:
-    """Return the softest scaling with four coefficients: 3 x^2 - 2 x^3."""
-    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x])
-
-
-def follow(scaling, seconds: float) -> tuple[float, float, float]:
-    """Return worst error (mrad), jerk (rad/s3) and share of the torque limit."""
-    model = panda.load("panda_nohand", drive="torque")
-    arm, tau_max = panda.arm(model), simulate.limits(model)[1]
-    (kp, kd), errors = control.gains(OMEGA, 1.0), []
-
-    def controller(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        moving = REST <= t < REST + seconds
-        s, sd, sdd = scaling(t - REST) if moving else (float(t > REST), 0.0, 0.0)
-        errors.append(READY_Q + (GOAL_Q - READY_Q) * s - q)
-        ed, qdd_ref = (GOAL_Q - READY_Q) * sd - qd, (GOAL_Q - READY_Q) * sdd
-        now = arm.at(q)
-        tau = now.M @ (qdd_ref + kd * ed + kp * errors[-1]) + now.bias(qd)
-        return tau + arm.damping * qd
-
-    data, whole = simulate.start(model, READY_Q), np.ceil(seconds * RATE) / RATE
-    run = simulate.run(model, data, controller, whole + 2 * REST, rate=RATE)
-    jerk = np.diff(run.qd, 2, axis=0) * RATE**2
-    used = np.abs(run.tau) / tau_max
-    return 1000 * np.abs(errors).max(), np.abs(jerk).max(), used.max()
-
-
-def arm_with_hand(model: mujoco.MjModel) -> Arm:
-    """Return the arm whose link 7 carries the hand, by your own `carry`."""
-    masses, coms, inertias = (part.copy() for part in panda.inertias(model))
-    ten = carry(masses[6], coms[6], inertias[6], *panda.hand_inertia(model))
-    xx, yy, zz, xy, xz, yz = ten[4:]
-    masses[6], coms[6] = ten[0], ten[1:4]
-    inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-    arm = panda.arm(model)
-    return replace(arm, masses=masses, coms=coms, inertias=inertias)
-
-
-def peak_over_limit(q0: np.ndarray, q1: np.ndarray) -> float:
-    """Return the largest share of any limit that a joint move of yours uses."""
-    T = quintic_duration(q1 - q0, V_MAX, A_MAX)
-    peaks = np.array([0.5 - np.sqrt(3) / 6, 0.5, 0.5 + np.sqrt(3) / 6])
-    moves = [joint_move(q0, q1, x * T, T) for x in (*peaks, *np.linspace(0, 1, 20))]
-    _, qd, qdd = np.abs(moves).max(axis=0)
-    return max((qd / V_MAX).max(), (qdd / A_MAX).max())
-
-
-def ends(coefficients: np.ndarray, T: float) -> np.ndarray:
-    """Return position, speed and acceleration of a polynomial at 0 and at T, (6,)."""
-    p = np.polynomial.Polynomial(coefficients)
-    return np.array([f(t) for t in (0.0, T) for f in (p, p.deriv(), p.deriv(2))])
+def pick(lab: Lab) -> None:
+    """Pick the cube up and put it down, with your functions of today."""
+    done = capstone.pick(capstone.with_own(globals()), rate=PICK_RATE)
+    most = done.heaviest
+    print(f"  predicted: this grip lifts up to {most:.3f} kg; the cube has 0.08")
+    lab.measured("heaviest cube that the grip lifts, kg", most)
+    print(f"  lifted to {done.lift:.3f} m; {done.seconds:.2f} s in all; at most")
+    print(f"  {done.torque:.2f} of the torque limits, {done.speed:.2f} of the speed's;")
+    print(f"  the hand never more than {done.line_mm:.2f} mm off its straight lines")
+    lab.record("pick", done.place_mm, metric="place_mm", label="cube off its place, mm")
+    lab.record("pick", done.joint_mrad, metric="joint_err_mrad",
+               label="joints off their way, mrad")  # fmt: skip
 
 
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
     model = panda.load("panda")  # the one with a hand
-    rng = np.random.default_rng(SEED)
-    q0, q1 = (verify.random_q(model, TRIALS, SEED + i)[:, :7] for i in (0, 1))
-    q1 = q0 + (q1 - q0) * rng.uniform(0.01, 1.0, (TRIALS, 1))  # short moves too
-    T = rng.uniform(0.2, 5.0, TRIALS)
-    t = rng.uniform(-0.2, 1.2, TRIALS) * T  # also before the start and after the end
+    at = moves.moves(model, TRIALS, SEED)
 
     lab.step("1. A soft start and a soft stop: one number from 0 to 1")
     lab.show("s, sd, sdd at 0.6 s of a move of 2 s", quintic_scaling(0.6, 2.0))
-    scaling, moves = each(quintic_scaling, t, T), each(joint_move, q0, q1, t, T)
-    lab.check(
-        "quintic_scaling, off the library", scaling - library.quintic_scaling(t, T)
-    )
-    lab.check("joint_move, off the library", moves - library.joint_move(q0, q1, t, T))
+    moves.compare(lab.check, at, SEED, quintic_scaling=quintic_scaling,
+                  joint_move=joint_move)  # fmt: skip
 
     lab.step("2. How long: the slowest joint decides")
     dq = np.abs(GOAL_Q - READY_Q)
@@ -279,52 +213,34 @@ def main() -> int:
     lab.show("by acceleration", np.sqrt(10 / np.sqrt(3) * dq / A_MAX), 3)
     T_move = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX)
     print(f"  So the move takes {T_move:.4f} s.")
-    used = each(peak_over_limit, q0, q1)
+    lab.measured("seconds that the move of step 2 takes", T_move)
+    used = moves.peaks_over_limits(at, quintic_duration, joint_move)
     lab.record("limits", used, label=f"largest share of a limit, {TRIALS} moves",
                config="random", seed=SEED)  # fmt: skip
     # Slow is no art: a duration is right when some joint is at its limit.
     lab.check("largest share left unused", 1 - used)
 
     lab.step("3. The trapezoid: as fast as the limits allow, with corners")
-    L, v, a = rng.uniform([0.01, 0.1, 0.5], [3.0, 2.0, 10.0], (TRIALS, 3)).T
-    t_ramps = rng.uniform(-0.1, 1.1, TRIALS) * (L / v + v / a)
-    off = each(trapezoid, t_ramps, L, v, a) - library.trapezoid(t_ramps, L, v, a)
-    lab.check("trapezoid, off the library", off)
-    short = np.mean(v**2 / a > L)
+    moves.compare(lab.check, at, SEED, trapezoid=trapezoid)
+    short = moves.too_short(TRIALS, SEED)
     print(f"  {short:.0%} of those moves are too short to reach their top speed.")
 
     lab.step("4. Any start, any end: six conditions, six coefficients")
-    start, end = rng.uniform(-1, 1, (2, TRIALS, 3))
-    six = each(quintic_coefficients, start, end, T)
-    lab.check("position, speed, acceleration at both ends",
-              each(ends, six, T) - np.hstack([start, end]))  # fmt: skip
+    off = moves.missed_ends(quintic_coefficients, at, SEED)
+    lab.check("position, speed, acceleration at both ends", off)
 
     lab.step("5. The hand on a straight line, and over a cube")
-    s = rng.uniform(0, 1, TRIALS)
-    yaw, above = rng.uniform(-np.pi, np.pi, TRIALS), rng.uniform(0, 0.3, TRIALS)
-    xyz = rng.uniform(-1, 1, (3, TRIALS, 3))
-    R0, R1 = se3.quat_to_R(rng.normal(size=(2, TRIALS, 4)))
-    T0, T1 = se3.make_T(R0, xyz[0]), se3.make_T(R1, xyz[1])
-    off = each(straight_pose, T0, T1, s) - library.straight_pose(T0, T1, s)
-    lab.check("straight_pose, off the library", off)
-    cubes = se3.make_T(se3.Rz(yaw), xyz[2])
-    off = each(grasp_pose, cubes, above) - library.grasp_pose(cubes, above)
-    lab.check("grasp_pose, off the library", off)
+    moves.compare(lab.check, at, SEED, straight_pose=straight_pose,
+                  grasp_pose=grasp_pose)  # fmt: skip
     cube = se3.make_T(se3.Rz(np.radians(80)), np.array([0.5, 0.2, 0.22]))
     lab.show("the tool 0.12 m over a cube at a yaw of 80 degrees",
              grasp_pose(cube, 0.12), 4)  # fmt: skip
 
     lab.step("6. What the last link carries, and how much it can lift")
-    arm, qd = arm_with_hand(model), rng.uniform(-2, 2, (TRIALS, 7))
-    off = [
-        arm.at(x).bias(xd) - mujoco_bias(model, x, xd)
-        for x, xd in zip(q0, qd, strict=True)
-    ]
+    off = moves.carried(model, carry, at.q0, SEED)
     lab.check("torque to carry the hand, off MuJoCo's", off)
-    grip, mu, up = rng.uniform([0, 0, -5], [10, 2, 5], (TRIALS, 3)).T
     with lab.side_quest():
-        off = each(heaviest_cube, grip, mu, up) - library.heaviest_cube(grip, mu, up)
-        lab.check("heaviest_cube, off the library", off)
+        moves.compare(lab.check, at, SEED, heaviest_cube=heaviest_cube)
     if lab.failed:
         # The habit of every real robot: no power before the checks are green.
         print("\n  The arm stays off until these checks pass.")
@@ -333,41 +249,12 @@ def main() -> int:
     lab.step("7. The same move with five time scalings, simulated")
     print(f"  {'':16}{'seconds':>9}{'mrad off':>10}{'rad/s3':>9}{'of the torque':>15}")
     for name, (scaling, seconds) in profiles(T_move).items():
-        off, jerk, share = follow(scaling, seconds)
+        off, jerk, share = moves.follow(scaling, seconds, READY_Q, GOAL_Q, OMEGA, RATE)
         print(f"  {name:16}{seconds:9.3f}{off:10.2f}{jerk:9.0f}{share:15.2f}")
 
     lab.step("8. Pick the cube up and put it down")
-    done = capstone.pick(week(), rate=PICK_RATE)
-    print(
-        f"  predicted: this grip lifts up to {done.heaviest:.3f} kg; the cube has 0.08"
-    )
-    print(f"  lifted to {done.lift:.3f} m; {done.seconds:.2f} s in all; at most")
-    print(f"  {done.torque:.2f} of the torque limits, {done.speed:.2f} of the speed's;")
-    print(f"  the hand never more than {done.line_mm:.2f} mm off its straight lines")
-    lab.record("pick", done.place_mm, metric="place_mm", label="cube off its place, mm")
-    lab.record("pick", done.joint_mrad, metric="joint_err_mrad",
-               label="joints off their way, mrad")  # fmt: skip
+    pick(lab)
     return lab.finish()
-
-
-def mujoco_bias(model: mujoco.MjModel, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    """Return MuJoCo's Coriolis and gravity torques of the arm, (7,), fingers closed."""
-    data = mujoco.MjData(model)
-    data.qpos[:7], data.qvel[:7] = q, qd
-    mujoco.mj_forward(model, data)  # fills qfrc_bias
-    return data.qfrc_bias[:7].copy()
-
-
-def week():
-    """Return the library's functions of Days 1 to 6, and yours of today."""
-    fns = capstone.library()
-    for name in capstone.USES[7]:
-        setattr(fns, name, globals()[name])
-    try:
-        heaviest_cube(1.0, 1.0, 0.0)
-    except NotImplementedError:  # a side quest: where it is to do, the library's lifts
-        fns.heaviest_cube = library.heaviest_cube
-    return fns
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ def main() -> None:
     for name in os.listdir(HERE):  # a student may want these names for their own
         if not name.startswith("__"):
             sys.modules.pop(name.removesuffix(".py"), None)
-    limits.tighten(request["cpu_seconds"])
+    limits.tighten(request["cpu_seconds"], request["memory"])
     shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
     fenced = fences and landlock.fence([*readable, shared])
     closed = fences and seccomp.close()
@@ -68,7 +68,7 @@ def main() -> None:
     send(ready=True, fenced=fenced and closed)
     module = _load(request, send, watch.refused, answers.describe)
     if module:
-        answering = answers.Answers(module, makers, request["keep"])
+        answering = answers.Answers(module, makers, request["keep"], request["numbers"])
         for at, line in enumerate(asked):
             watch.refused.clear()
             call = json.loads(line)

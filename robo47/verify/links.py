@@ -1,0 +1,196 @@
+"""MuJoCo's links, and random motions of the arm that functions of dynamics are asked.
+
+Inertias are 6x6 about the world's origin, (angular; linear), in world axes. SI units.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import panda, simulate
+from robo47.checks import Array
+from robo47.fast import dynamics
+from robo47.panda import READY_Q
+from robo47.verify.answers import each
+from robo47.verify.motion import mujoco_acceleration, mujoco_mass_matrix, mujoco_step
+from robo47.verify.poses import random_q
+
+Function = Callable[..., Array]  # one of the lab's own
+
+
+class Motions(NamedTuple):
+    """The arm, ready and then at n - 1 random configurations, each with a motion.
+
+    Attributes:
+        q, qd, qdd: configurations, speeds and accelerations, (n, 7).
+        J: space Jacobians, (n, 6, 7).
+        T: poses of link1 to link7, (n, 7, 4, 4).
+        coms: their centres of mass in the world, (n, 7, 3).
+        links: masses, centres and inertias in the links' own axes, each n times.
+        armature, damping, g: of the arm, each n times.
+        M: MuJoCo's mass matrices, (n, 7, 7).
+    """
+
+    q: Array
+    qd: Array
+    qdd: Array
+    J: Array
+    T: Array
+    coms: Array
+    links: list[Array]
+    armature: Array
+    damping: Array
+    g: Array
+    M: Array
+
+
+def motions(
+    model: mujoco.MjModel, n: int, seed: int, fastest: float, hardest: float
+) -> Motions:
+    """Return n motions with speeds and accelerations up to these."""
+    arm, rng = panda.arm(model), np.random.default_rng(seed)
+    q = np.vstack([READY_Q, random_q(model, n - 1, seed)])
+    qd, qdd = (rng.uniform(-limit, limit, q.shape) for limit in (fastest, hardest))
+    now = [arm.at(x) for x in q]
+    fixed = *panda.inertias(model), arm.armature, arm.damping, arm.gravity
+    *links, armature, damping, g = (np.array([x] * n) for x in fixed)
+    J, T = np.array([x.J_space for x in now]), np.array([x.T_links for x in now])
+    coms = np.array([x.coms_world for x in now])
+    M = mujoco_mass_matrix(model, q)
+    return Motions(q, qd, qdd, J, T, coms, links, armature, damping, g, M)
+
+
+def cloud(rng: np.random.Generator) -> tuple[Array, Array, tuple]:
+    """Return eight random points, what each weighs, and their mass, centre, inertia."""
+    points, weights = rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)
+    c = weights @ points / weights.sum()
+    d = points - c
+    inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
+    return points, weights, (weights.sum(), c, inertia)
+
+
+def momentum(points: Array, weights: Array, V: Array) -> Array:
+    """Return the momentum (angular; linear) of points that move with V, one by one."""
+    p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
+    return np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
+
+
+def momenta(spatial_inertia: Function, n: int, rng: np.random.Generator) -> Array:
+    """Return G V of n clouds of points minus their momenta, (n, 6)."""
+    points, weights, own = zip(*[cloud(rng) for _ in range(n)], strict=True)
+    V = rng.normal(size=(n, 6))
+    by_hand = each(lambda one, v: spatial_inertia(*one) @ v, own, V)
+    return by_hand - each(momentum, points, weights, V)
+
+
+def crosses(ad: Function, n: int, rng: np.random.Generator) -> Array:
+    """Return ad(V) W of n random twists minus the cross products, (n, 6)."""
+    V, W = rng.normal(size=(2, n, 6))
+    (w, v), (w2, v2) = np.split(V, 2, axis=1), np.split(W, 2, axis=1)
+    truth = np.hstack([np.cross(w, w2), np.cross(v, w2) + np.cross(w, v2)])
+    return (each(ad, V) @ W[..., None])[..., 0] - truth
+
+
+def mujoco_inertias(
+    model: mujoco.MjModel, q: Array, spatial_inertia: Function
+) -> list[Array]:
+    """Return spatial_inertia of link1 to link7 from where MuJoCo says they are."""
+    data, G = mujoco.MjData(model), []
+    data.qpos[:] = q
+    mujoco.mj_kinematics(model, data)  # fills xipos, ximat: centre and principal axes
+    for i in [model.body(f"link{n}").id for n in range(1, 8)]:
+        R, c = data.ximat[i].reshape(3, 3), data.xipos[i]
+        inertia = R @ np.diag(model.body_inertia[i]) @ R.T
+        G.append(spatial_inertia(model.body_mass[i], c, inertia))
+    return G
+
+
+def wrong_on_purpose(
+    link_inertias: Function, T: Array, masses: Array, coms: Array, inertias: Array
+) -> dict[str, Array]:
+    """Return {what is wrong: every link's 6x6 inertia, given something wrong}."""
+    G, R = link_inertias(T, masses, coms, inertias), T[:, :3, :3]
+    R_T, flip = np.swapaxes(R, 1, 2), np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+    no_lever = G.copy()
+    no_lever[:, :3, :3] = R @ inertias @ R_T
+    c_still, inertias_still = (R_T @ coms[..., None])[..., 0], R_T @ inertias @ R
+    return {
+        "nothing": G,
+        "m [c] with the wrong sign": flip @ G @ flip,
+        "m [c] [c]^T forgotten": no_lever,
+        "c not turned": link_inertias(T, masses, c_still, inertias),
+        "I not turned": link_inertias(T, masses, coms, inertias_still),
+    }
+
+
+def wrong_masses(
+    link_inertias: Function, mass_matrix: Function, at: Motions
+) -> dict[str, tuple[float, float, float]]:
+    """Return what mistakes do to the mass matrices.
+
+    Returns:
+        {what is wrong: (off by, asymmetric by, least eigenvalue)}.
+    """
+    found = {}
+    bad = [
+        wrong_on_purpose(link_inertias, *x) for x in zip(at.T, *at.links, strict=True)
+    ]
+    for what in bad[0]:
+        own = each(mass_matrix, at.J, np.array([one[what] for one in bad]), at.armature)
+        skewed = np.abs(own - np.swapaxes(own, 1, 2)).max()
+        least = np.linalg.eigvalsh(own).min()
+        found[what] = float(np.abs(own - at.M).max()), float(skewed), float(least)
+    return found
+
+
+def library_masses(model: mujoco.MjModel, n: int, seed: int) -> Array:
+    """Return the library's mass matrices of many q minus MuJoCo's, (n, 7, 7)."""
+    q = random_q(model, n, seed)
+    return dynamics.mass_matrix(panda.arm(model), q) - mujoco_mass_matrix(model, q)
+
+
+def forwards(
+    model: mujoco.MjModel, at: Motions, M: Array, bias: Array, own: Function
+) -> tuple[Array, Array]:
+    """Return forward_dynamics minus MuJoCo's qdd, and its next qd minus MuJoCo's.
+
+    Args:
+        model: of the arm, with motors.
+        at, M, bias: motions, and mass matrices and bias torques there.
+        own: the lab's forward_dynamics.
+    """
+    rng, h = np.random.default_rng(len(M)), model.opt.timestep
+    tau = simulate.limits(model)[1] * rng.uniform(-0.5, 0.5, at.q.shape)
+    off = each(own, M, bias, at.damping, at.qd, tau)
+    off = off - mujoco_acceleration(model, at.q, at.qd, tau)
+    slower = M + h * np.diag(at.damping[0])  # implicitfast brakes at its step's end
+    after = at.qd + h * each(own, slower, bias, at.damping, at.qd, tau)
+    return off, after - mujoco_step(model, at.q, at.qd, tau)
+
+
+def mujoco_energies(model: mujoco.MjModel, q: Array, qd: Array) -> Array:
+    """Return MuJoCo's kinetic and potential energy of link1 to link7, J, (n, 2)."""
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY  # else they stay 0
+    link0 = model.body("link0")  # never moves, but MuJoCo counts its weight
+    still = -link0.mass[0] * model.opt.gravity @ link0.ipos
+    states = zip(q, qd, strict=True)
+    found = np.array([simulate.start(model, *state).energy for state in states])
+    return found[:, ::-1] - [0.0, still]
+
+
+def swing(integrator: str, timestep: float) -> float:
+    """Return the energy, J, that MuJoCo's arm gains in a free swing of 1 s.
+
+    Args:
+        integrator: the end of its name in `mujoco.mjtIntegrator`.
+        timestep: in seconds. There is no motor, no friction and no joint limit.
+    """
+    model = panda.load("panda_nohand", drive="torque")
+    model.opt.timestep, model.dof_damping[:], model.jnt_limited[:] = timestep, 0.0, 0
+    model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
+    data = simulate.start(model, READY_Q)
+    mujoco.mj_step(model, data, round(1.0 / timestep))
+    q, qd = np.array([data.qpos, READY_Q]), np.array([data.qvel, np.zeros(7)])
+    return -float(np.diff(mujoco_energies(model, q, qd).sum(axis=1))[0])

@@ -1,0 +1,114 @@
+"""The call that failed: what can be typed, theirs, and the right answer."""
+
+import numpy as np
+import pytest
+from judged import answered, replies_of, right, round_of
+
+from labkit.base.exchange import Question, Reply
+from labkit.judge import Scalar, Vector
+from labkit.judge.ask import SEED, Ask, right_answers
+from labkit.judge.draw import Edges, numbers
+from labkit.judge.failing import failing_call, typed
+from labkit.judge.judge import judge
+from labkit.judge.row import rows_of
+from labkit.lesson.day import all_days
+
+SINE = Ask(
+    lambda rng: [(x,) for x in (0.5, 1.0, *map(float, numbers(rng, -3, 3, 4)))],
+    Scalar(),
+    truth=np.sin,
+)
+
+
+def asked_with(function, ask=SINE):
+    """Return a round whose every question a function has answered."""
+    asked = round_of(ask)
+    for one in asked.exchanges:
+        answered([one], replies_of(np.atleast_1d(function(*one.question.args))))
+    return asked
+
+
+def test_it_is_a_line_that_a_student_can_type():
+    verdict = judge(asked_with(lambda x: np.sin(x) + 0.25 * (x == 1.0)))
+    assert verdict.call == "f(1) is 1.09147, and 0.841471 is right."
+    assert "call: f(1)" in verdict.measured
+
+
+def test_an_entry_of_a_vector_is_named_and_a_matrix_goes_by_its_argument():
+    matrix = Question("1.1", "f", (0.1, np.array([0.0, 1.0]), np.eye(2)))
+    assert typed(matrix, ["x", "p", "T"]) == "f(0.1, (0, 1), T)"
+    assert typed(matrix) == "f(0.1, (0, 1), ...)"
+    twice = Ask(lambda rng: [(2.0,), (3.0,)], Vector((2,)), truth=_pairs, fresh=0)
+    asked = asked_with(lambda x: np.array([[x, 0.0]]), twice)
+    assert failing_call(asked).says == "f(3)[1] is 0, and 3 is right."
+
+
+def _pairs(x):
+    return np.stack([x, x], axis=-1)
+
+
+def test_digits_suffice_to_tell_the_two_apart():
+    found = failing_call(asked_with(lambda x: np.sin(x) + 1e-7 * (x == 1.0)))
+    mine, its = found.says.split(" is ")[1].split(", and ")
+    assert mine != its
+
+
+def test_a_call_that_stops_is_named_too():
+    asked = asked_with(np.sin)
+    asked.main[1].reply = Reply(kind="KeyError", error="1.0")
+    assert failing_call(asked).says == "f(1) stops."
+    assert failing_call(asked_with(np.sin)).says == ""
+
+
+def test_what_was_measured_never_says_that_all_is_right_where_something_is_wrong():
+    verdict = judge(asked_with(lambda x: np.sin(x) + (x == 3.0)))
+    assert (verdict.status, verdict.mistake) == ("wrong", "some-inputs")
+    counted = [line.split()[4:7] for line in verdict.measured if "are right" in line]
+    assert any(int(right) < int(of) for right, _, of in counted)
+    assert verdict.call == "f(3) is 1.14112, and 0.14112 is right."
+
+
+@pytest.mark.parametrize(
+    ("table", "slug"),
+    [
+        (lambda x, known: known.get(x, 0.0), "looked-up"),  # one answer for all others
+        (
+            lambda x, known: min(known.items(), key=lambda k: abs(k[0] - x))[1],
+            "looked-up",
+        ),
+        (lambda x, known: known.get(x, np.sin(x) + 0.1 * x + 1), "some-inputs"),
+    ],
+)
+def test_looked_up_is_said_only_where_answers_are_those_to_other_inputs(table, slug):
+    calls = [one.question.args[0] for one in round_of(SINE).main]
+    known = dict(zip(calls, right(SINE)[0], strict=True))
+    # Always wrong off the table: a 0 would be right at the edge 0.
+    verdict = judge(asked_with(lambda x: table(x, known) + 9 * (x not in known)))
+    assert verdict.mistake == slug
+
+
+def test_edges_are_the_ends_of_every_range_and_whole_axes():
+    rng = Edges(np.random.PCG64(SEED))
+    assert set(np.unique(numbers(rng, -3, 5, 50))) == {-3.0, 1.0, 5.0}
+    axes = rng.normal(size=(50, 4))
+    assert set(np.unique(axes)) == {-1.0, 0.0, 1.0}
+    assert axes.any(axis=1).all()
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")
+def test_every_function_with_one_right_answer_is_asked_at_edges(day):
+    for name, row in rows_of(day).items():
+        if row.ask.truth is not None:
+            assert row.ask.edges, name
+            fresh = round_of(row.ask).fresh
+            assert len(fresh) >= len(row.ask.edges) + 2
+            assert all(
+                np.isfinite(part).all() for part in right_answers(row.ask, fresh)
+            )
+
+
+def test_an_edge_with_two_right_answers_is_not_asked():
+    jump = Ask(lambda rng: [(float(numbers(rng, 0, 2)),) for _ in range(2)], Scalar(),
+               truth=lambda x: np.where(x > 1, 1.0, 0.0))  # fmt: skip
+    assert (1.0,) not in jump.edges
+    assert {(0.0,), (2.0,)} == set(jump.edges)
