@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import viser
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from labkit.inspector import words
 from labkit.inspector.instruments import Bars, Plot
@@ -171,3 +171,23 @@ class Widgets:
             least: the lowest value of a logarithmic axis; 0 for a plain one.
         """
         return Plot(self.gui, curves, x, y, height, least)
+
+    def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
+        """Add an image; setting `image` to what `as_bytes` makes of one changes it.
+
+        Args:
+            picture: (rows, columns, 3) of bytes, or (rows, columns) of any numbers,
+                drawn from black (the smallest) to white.
+            title: above.
+        """
+        return self.gui.add_image(as_bytes(picture), label=title or None, format="png")
+
+
+def as_bytes(picture: Array) -> NDArray[np.uint8]:
+    """Return an image of bytes, (rows, columns, 3), of one that may be of numbers."""
+    if picture.ndim == 3:
+        return np.asarray(picture, dtype=np.uint8)
+    finite = np.nan_to_num(np.asarray(picture, dtype=float))  # no ray: black
+    span = max(float(np.ptp(finite)), 1e-12)
+    grey = np.round(255.0 * (finite - finite.min()) / span).astype(np.uint8)
+    return np.repeat(grey[..., None], 3, axis=2)
