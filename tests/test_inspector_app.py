@@ -42,7 +42,7 @@ class Noisy(Tab):
         self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
-        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.arrows([[[0, 0, 0], [0, 0, 1]]])
         draw.curve(np.zeros((3, 3)))
         draw.sphere([0, 0, 0], 0.1)
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
@@ -151,7 +151,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i].handle
+    return page.opened.tab.sliders[i]
 
 
 def contents(page):
@@ -296,7 +296,7 @@ def test_a_tab_takes_all_that_it_made_with_it(page, say):
 def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
     say(tab("Noisy"))
     noisy = Noisy.last
-    slider = noisy.sliders[0].handle
+    slider = noisy.sliders[0]
     say((slider, 0.25), (noisy.press, "b"), (noisy.pick, "two"), (noisy.tick, True))
     assert noisy.heard == [0.25, "b", "two", True]
     say((slider, 7.0), (noisy.press, "c"), (noisy.pick, "three"))

@@ -39,7 +39,7 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
                                 they compare with the library's of the same names
     job(work, done)             work that waits for them, on another thread
     animate(step, hz, work)     a loop in real time: start(), stop(), `running`
-    draw                        arrow(s), lines, curve, sphere, ellipsoid, frame, label,
+    draw                        arrows, lines, curve, sphere, ellipsoid, frame, label,
                                 ghost (a second arm), robot (a scene of MuJoCo's),
                                 target (a pose to drag)
     slider, buttons, choice, tick    viser's own, each with a callback
