@@ -1,20 +1,31 @@
 """What every test file shares: the robot, a clean environment, and honest skips."""
 
 import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: -n 2 on two cores
+
 import shutil
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+from unittest.mock import MagicMock
 
 import hypothesis
 import mujoco
+import numpy as np
 import pytest
 
 from labkit.figures import backends
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.panda import files
+
+if TYPE_CHECKING:
+    from labkit.lesson.day import Day
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -42,6 +53,48 @@ def need(available: bool, what: str) -> None:
         if os.environ.get("ROBO47_CI"):
             pytest.fail(f"CI must provide {what}")
         pytest.skip(f"needs {what}", allow_module_level=True)
+
+
+class Answers:
+    """A student's file for a tab of the inspector: functions in place of a sandbox."""
+
+    there, version, problem = True, 1, ""
+
+    def __init__(self, functions):
+        from labkit.inspector.checker_calls import describe
+
+        self.functions, self.source = functions, SimpleNamespace()
+        self.source.describe = partial(describe, {})
+
+    def ask(self, questions):
+        from labkit.base.exchange import Reply
+
+        return [
+            Reply(self.functions[one.function](*one.args))
+            if one.function in self.functions
+            else Reply(kind="missing")
+            for one in questions
+        ]
+
+
+def paper(model, q, functions=None):
+    """Return a page that only listens, for a tab of the inspector.
+
+    `own` asks {name: function}, or says that there is no file; a job is done at once.
+    """
+    from labkit.inspector.own import Own
+
+    page = MagicMock(model=model, q=np.array(q, dtype=float))
+    student = Answers(functions or {})
+    student.there = functions is not None
+    page.own.side_effect = lambda library, free=(): Own(lambda: student, library, free)
+    page.job.side_effect = lambda work, done: done(work())
+    for name in ("curve", "arrows", "lines", "label", "ghost"):
+        getattr(page.draw, name).side_effect = lambda *_, **__: MagicMock()
+    page.html.side_effect = lambda *text: MagicMock()
+    page.animate.side_effect = lambda *_, **__: MagicMock(running=False)
+    page.pose.return_value = panda.arm(model).at(page.q[:7]).T_world_ee.copy()
+    return page
 
 
 def load_script(path):
@@ -81,6 +134,14 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+def days() -> list["Day"]:
+    """Return the days to test: all, or the one that its author asks for."""
+    from labkit.lesson.day import all_days, find_day
+
+    asked = os.environ.get("ROBO47_DAY")
+    return [find_day(int(asked))] if asked else all_days()
 
 
 def kit_folders() -> list[str]:
@@ -235,10 +296,10 @@ def ask(student):
     from labkit.base.exchange import Exchange, Question, replies
     from labkit.sandbox.sandbox import Sandbox
 
-    def run(code, *questions, library=None, needs=None):
+    def run(code, *questions, library=None, needs=None, limits=None):
         asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
-            sandbox.run(student(code), asked, library, needs)
+            sandbox.run(student(code), asked, library, needs, limits=limits)
         return replies(asked)
 
     return run

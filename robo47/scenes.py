@@ -164,6 +164,7 @@ def _add_table(spec: mujoco.MjSpec, height: float) -> None:
     body = spec.worldbody.add_body(name="table", pos=[*TABLE_CENTRE, height / 2.0])
     top = _box(body, "table_top", (*TABLE_HALF, height / 2.0), (0.0, 0.0, 0.0), 1.0, 3)
     top.mass = 0.0  # it cannot move; the model's mass stays the robot's
+    top.rgba = [0.80, 0.74, 0.66, 1.0]
 
 
 def _box(body, name: str, half, pos, friction: float, condim: int = 4):

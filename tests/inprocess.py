@@ -4,6 +4,7 @@ Questions, replies and judging are the real ones; only the walls are missing.
 """
 
 import contextlib
+import functools
 import io
 import sys
 import types
@@ -23,7 +24,7 @@ class InProcess:
         self.instead = instead or {}
         self.added = ""
 
-    def run(self, script, exchanges, library, needs=None, added=""):
+    def run(self, script, exchanges, library, needs=None, added="", limits=None):
         """Ask every question, load the file anew, and ask again from the end."""
         self.added = added
         first = self._load(script)
@@ -35,7 +36,7 @@ class InProcess:
             again = self._ask(second, exchange.question, [])
             exchange.reply = _with(exchange.reply, again)
 
-    def session(self, script, robots, library, added=""):
+    def session(self, script, robots, library, added="", limits=None):
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)
@@ -53,8 +54,7 @@ class InProcess:
         module.__file__ = str(script)
         sys.modules[script.stem] = module
         try:
-            source = script.read_bytes().replace(b"\nimport kit ", b"\n# ")
-            code = compile(source, str(script), "exec")
+            code = _compiled(script.read_bytes(), str(script))
             with contextlib.redirect_stdout(io.StringIO()):
                 exec(code, vars(module))
                 vars(module).update(self.instead)
@@ -96,6 +96,11 @@ class InProcess:
         if isinstance(arg, Path):
             return list(arg.pairs)
         return arg.copy() if isinstance(arg, np.ndarray) else arg
+
+
+@functools.cache
+def _compiled(source, name):
+    return compile(source.replace(b"\nimport kit ", b"\n# "), name, "exec")
 
 
 def _copied(value):

@@ -6,17 +6,16 @@ import inprocess
 import pytest
 from catalogue import run_as_lab
 
-from conftest import ROOT, kits_worksheet
+from conftest import ROOT, days, kits_worksheet
 from labkit.check.tasks import check_tasks
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
-from labkit.lesson.day import all_days
 from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.library import library_of
 from labkit.sandbox.sandbox import Sandbox
 
-DAYS = all_days()
+DAYS = days()
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
 
 

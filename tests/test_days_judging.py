@@ -6,11 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from judged import judged, right, round_of
 
+from conftest import days
 from labkit.judge.ask import parts, stacked
-from labkit.judge.compare import matches
+from labkit.judge.compare import difference, matches
 from labkit.judge.judge import off_by
 from labkit.judge.row import rows_of
-from labkit.lesson.day import all_days
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -20,10 +22,10 @@ def rows(day):
     return [(name, row.ask, row.alike) for name, row in rows_of(day).items()]
 
 
-ALIKE = {(d.number, name): alike for d in all_days() for name, _, alike in rows(d)}
+ALIKE = {(d.number, name): alike for d in days() for name, _, alike in rows(d)}
 ROWS = [
     pytest.param(day.number, name, ask, id=f"day{day.number}/{name}")
-    for day in all_days()
+    for day in days()
     for name, ask, _ in rows(day)
 ]
 WITH_TRUTH = [row for row in ROWS if row.values[2].truth]
@@ -117,10 +119,34 @@ def test_a_nearly_right_answer_is_close_and_never_a_mistake(number, name, ask):
 
 
 @every
-def test_questions_are_the_same_every_time_and_of_one_shape(number, name, ask):
+def test_questions_are_the_same_every_time_and_all_of_a_kind(number, name, ask):
     first, again = round_of(ask), round_of(ask)
     for one, same in zip(first.exchanges, again.exchanges, strict=True):
         for arg, equal in zip(one.question.args, same.question.args, strict=True):
             np.testing.assert_equal(arg, equal)
-    shapes = {tuple(np.shape(arg) for arg in one.question.args) for one in first.main}
-    assert len(shapes) == 1
+    axes = {tuple(np.ndim(arg) for arg in one.question.args) for one in first.main}
+    assert len(axes) == 1
+
+
+@every
+def test_an_answer_that_never_changes_is_not_right(number, name, ask):
+    for part in right(ask):
+        assert difference(part[1:], np.broadcast_to(part[:1], part[1:].shape)).any()
+
+
+@pytest.mark.parametrize(
+    ("number", "name", "ask"), [row for row in ROWS if row.values[2].accept]
+)
+def test_accept_takes_the_labs_own_answer_and_no_numbers_at_random(number, name, ask):
+    function, rng = (
+        getattr(folder.lab(find_day(number)), name),
+        np.random.default_rng(5),
+    )
+    for exchange in round_of(ask).main:
+        answer = function(*exchange.question.args)
+        noise = tuple(
+            kind.scale * rng.normal(size=np.shape(part))
+            for kind, part in zip(ask.kinds, parts(answer), strict=True)
+        )
+        assert ask.accept(*exchange.question.args, answer) is None
+        assert ask.accept(*exchange.question.args, as_answers(noise)) is not None

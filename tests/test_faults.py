@@ -105,7 +105,7 @@ class TestASandboxThatIsKilled:
     ):
         kill(2)
         monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
-        monkeypatch.setattr(process, "MODEST", 30_000_000)
+        monkeypatch.setattr(process, "MODEST", 0.03)
         greedy = "import time, numpy as np\nX = np.ones(10**7)\ntime.sleep(0.6)\n"
         (reply,) = ask(greedy + FINE)
         assert reply.kind == "stopped"

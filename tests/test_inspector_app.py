@@ -1,9 +1,11 @@
 """The page without a browser: moves, tabs, hostile messages; all on the event loop."""
 
+import asyncio
 import contextlib
 import importlib.util
 import threading
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -32,14 +34,15 @@ class Noisy(Tab):
     def __init__(self, page):
         super().__init__(page)
         self.sliders = [page.slider("x", 0, 1, 0.5, self.set, unit="m")]
-        page.buttons(["a", "b"], self.set)
-        page.choice("c", ["one", "two"], self.set)
-        page.tick("t", self.set)
+        self.press = page.buttons(["a", "b"], self.set)
+        self.pick = page.choice("c", ["one", "two"], self.set)
+        self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
+        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
-        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.arrows([[[0, 0, 0], [0, 0, 1]]])
         draw.curve(np.zeros((3, 3)))
         draw.sphere([0, 0, 0], 0.1)
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
@@ -99,20 +102,41 @@ def page(server):
     on_loop(server, made.opened.leave)
 
 
+BROWSER = 7  # the number of one that is connected
+
+
 @pytest.fixture
 def say(page):
-    """Say something to the page, as a browser does, and let it settle."""
+    """Change widgets as a browser does, or go to an address; let the page settle."""
+    from viser import _messages
+
     from labkit.inspector.serve import on_loop
 
-    def send(*messages):
-        def receive():
-            for name, value in messages:
-                page.receive(name, value)
+    gui, clients = page.server.gui, page.server._connected_clients
+    kind = _messages.GuiUpdateMessage
+    (checked,) = gui._websock_interface._incoming_handlers[kind]
+    clients[BROWSER] = SimpleNamespace()
 
-        on_loop(page.server, receive)
+    def send(*messages):
+        async def receive():
+            for widget, value in messages:
+                if widget == "go":
+                    page.receive(value)
+                else:
+                    message = kind(widget._impl.uuid, {"value": value})
+                    await checked(BROWSER, message)
+
+        loop = page.server.get_event_loop()
+        asyncio.run_coroutine_threadsafe(receive(), loop).result(SECONDS)
         settle(page)
 
-    return send
+    yield send
+    on_loop(page.server, lambda: clients.pop(BROWSER))
+
+
+def tab(title):
+    """Open a tab, as a browser does."""
+    return "go", f"?tab={title}"
 
 
 def settle(page):
@@ -127,7 +151,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i].name
+    return page.opened.tab.sliders[i]
 
 
 def contents(page):
@@ -147,34 +171,40 @@ def nodes(page):
 
 
 def test_two_sliders_in_one_tick_both_count(page, say):
-    say((joint(page, 0), "0.3"), (joint(page, 4), "-0.7"))
+    say((joint(page, 0), 0.3), (joint(page, 4), -0.7))
     assert page.arm.q[0] == 0.3
     assert page.arm.q[4] == -0.7
-    assert page.controls.values[joint(page, 0)] == "0.3"
+
+
+READY = "0, -pi/4, 0, -2.356, 0, 1.571, 0.785"
 
 
 def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say):
-    say((joint(page, 1), "-pi/4"))
+    box = page.opened.tab.box
+    say((box, READY))
     assert page.arm.q[1] == -np.pi / 4
-    for wrong in ("90", "pie", "nan", "", "1e400"):
-        say((joint(page, 1), wrong))
+    assert joint(page, 1).value == -np.pi / 4
+    assert box.value == READY  # not written anew under somebody's hand
+    for wrong in ("90", READY.replace("-pi/4", "90"), READY.replace("pi", "pie"), ""):
+        say((box, wrong))
         assert page.arm.q[1] == -np.pi / 4
         assert "r47-bad" in contents(page)
-    assert page.controls.values[joint(page, 1)] == f"{-np.pi / 4:.6g}"
+    say((joint(page, 0), 0.3))
+    assert box.value.startswith("0.3, -0.785398163")
 
 
 def test_the_exact_configuration_can_be_copied(page, say):
-    say((joint(page, 1), "-pi/4"))
+    say((page.opened.tab.box, READY))
     assert repr(-np.pi / 4) in contents(page)
     assert repr(-np.pi / 4) in page.panel.state.content
 
 
 def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
-    say(("address", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
+    say(("go", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
     np.testing.assert_array_equal(page.arm.q, [0.1, 0.2, 0.3, -1, 0.5, 0.6, 0.7])
-    assert page.controls.values["frame"] == "link4"
+    assert page.panel.frame.value == "link4"
     assert page.opened.kind.title == "Chain"
-    say(("address", "?q=1,2&frame=nope&tab=nope"))
+    say(("go", "?q=1,2&frame=nope&tab=nope"))
     assert page.opened.kind.title == "Chain"
 
 
@@ -182,34 +212,34 @@ def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
     monkeypatch.setattr("labkit.inspector.history.SECONDS", 20.0)
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
-        say((joint(page, 0), f"{x}"))
-    buttons = page.opened.page.names[0]
-    say((buttons, "undo"))
+        say((joint(page, 0), float(x)))
+    say((page.opened.tab.buttons, "undo"))
     np.testing.assert_array_equal(page.arm.q, start)
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("frame", "nope"), ("tab", "nope"), ("solid", "5"), ("hover", "1,2"),
-        ("hover", "nan,nan,nan"), ("hover", "0.5,0.5,1e308"), ("nobody", "x"),
-        ("address", "?" + "q" * 1000), ("", ""),
-    ],
-)  # fmt: skip
-def test_a_value_that_no_control_has_changes_nothing(page, say, name, value):
+    "query", ["", "nope", "?tab=nope", "?frame=x", "?q=nan,nan", "?" + "q" * 1000]
+)
+def test_an_address_that_leads_nowhere_changes_nothing(page, say, query):
     before = page.arm.q.copy()
-    say((name, value))
-    say(("frame", "link3"))
-    assert page.controls.values["frame"] == "link3"
+    say(("go", query), (page.panel.frame, "link3"))
+    assert page.panel.frame.value == "link3"
     np.testing.assert_array_equal(page.arm.q, before)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), 90.0, "x", None, [1]])
+def test_a_number_that_no_slider_has_moves_nothing(page, say, value):
+    before = page.arm.q.copy()
+    say((joint(page, 1), value), (joint(page, 0), 0.25))
+    np.testing.assert_array_equal(page.arm.q, [0.25, *before[1:]])
 
 
 def test_nothing_is_made_anew_under_somebodys_hand(page, say):
     """viser draws every widget anew when there is one more, or one less."""
-    say(("tab", "Noisy"))
-    tab, before = Noisy.last, set(page.panel._children())
-    say((joint(page, 0), "0.3"), (joint(page, 0), "none"), ("tab", "Noisy"))
-    assert page.opened.tab is tab
+    say(tab("Noisy"))
+    noisy, before = Noisy.last, set(page.panel._children())
+    say((joint(page, 0), 0.3), (joint(page, 0), "none"), tab("Noisy"))
+    assert page.opened.tab is noisy
     assert set(page.panel._children()) == before
 
 
@@ -218,78 +248,76 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     from labkit.inspector.serve import on_loop
     from labkit.inspector.shapes import Shape
 
-    say(("tab", "Noisy"))
-    tab, before = Noisy.last, set(page.panel._children())
-    tab.ghost.pose({"link1": np.eye(4)})
+    say(tab("Noisy"))
+    noisy, before = Noisy.last, set(page.panel._children())
+    noisy.ghost.pose({"link1": np.eye(4)})
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
     meshes = Meshes([triangle], ghosts=True)
     on_loop(page.server, lambda: page.dress(page.arm.model, meshes))
-    assert page.opened.tab is tab
+    assert page.opened.tab is noisy
     assert set(page.panel._children()) == before
-    assert len(tab.ghost.meshes) == 1
-    assert tab.ghost.bodies["link1"].visible
+    assert len(noisy.ghost.meshes) == 1
+    assert noisy.ghost.bodies["link1"].visible
 
 
 def test_a_flood_of_moves_is_one_move(page, say):
     moved = []
     real = page.arm.move
     page.arm.move = lambda q: (moved.append(q), real(q))
-    say(*((joint(page, 0), f"{x}") for x in np.linspace(0, 1, 20_000)))
+    say(*((joint(page, 0), float(x)) for x in np.linspace(0, 1, 5_000)))
     assert page.arm.q[0] == 1.0
     assert len(moved) < 10
 
 
 def test_a_tab_takes_all_that_it_made_with_it(page, say):
     before = set(page.panel._children())
-    say(("tab", "Noisy"))
-    tab, drawn = Noisy.last, nodes(page)
+    say(tab("Noisy"))
+    noisy, drawn = Noisy.last, nodes(page)
     assert len(drawn) > 8
     deadline = time.monotonic() + SECONDS
-    while tab.calls < 3 and time.monotonic() < deadline:
+    while noisy.calls < 3 and time.monotonic() < deadline:
         time.sleep(0.01)
-    assert tab.calls >= 3
-    say(("tab", "Tasks"))
-    assert tab.closed
-    assert not tab.loop.running
+    assert noisy.calls >= 3
+    say(tab("Tasks"))
+    assert noisy.closed
+    assert not noisy.loop.running
     assert nodes(page) == {"/tab"}
-    say(("tab", "Noisy"))
+    say(tab("Noisy"))
     assert drawn & nodes(page) == {"/tab"}  # a browser keeps a name's last pose
-    say(("tab", "Tasks"))
-    assert all(name not in page.controls.values for name in tab.page.names)
-    calls = tab.calls
+    say(tab("Tasks"))
+    calls = noisy.calls
     time.sleep(0.1)
-    assert tab.calls == calls
-    say(("tab", "Joints"))
+    assert noisy.calls == calls
+    say(tab("Joints"))
     assert len(page.panel._children()) == len(before)
 
 
 def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
-    say(("tab", "Noisy"))
-    tab = Noisy.last
-    slider, buttons, choice, tick = tab.page.names
-    say((slider, "0.25"), (buttons, "b"), (choice, "two"), (tick, "true"))
-    assert tab.heard == [0.25, "b", "two", True]
-    say((slider, "7"), (buttons, "c"), (choice, "three"), (tick, "maybe"))
-    assert len(tab.heard) == 4
+    say(tab("Noisy"))
+    noisy = Noisy.last
+    slider = noisy.sliders[0]
+    say((slider, 0.25), (noisy.press, "b"), (noisy.pick, "two"), (noisy.tick, True))
+    assert noisy.heard == [0.25, "b", "two", True]
+    say((slider, 7.0), (noisy.press, "c"), (noisy.pick, "three"))
+    assert len(noisy.heard) == 4
 
 
 def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
-    say(("tab", "Broken"))
+    say(tab("Broken"))
     assert "the tab Broken stopped with ZeroDivisionError: one over" in contents(page)
-    say(("tab", "Joints"), ("frame", "link2"))
-    say((joint(page, 0), "0.2"))
+    say(tab("Joints"), (page.panel.frame, "link2"))
+    say((joint(page, 0), 0.2))
     assert page.arm.q[0] == 0.2
 
 
 def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
-    say(("tab", "Chain"))
-    tab = page.opened.tab
+    say(tab("Chain"))
     assert len(page.arm.steps()) == 16
-    say((tab.page.names[0], "next"))
+    say((page.opened.tab.buttons, "next"))
     assert "factor 4 of 16, T_link1_link2" in contents(page)
     assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
-    say(("tab", "Joints"))
+    say(tab("Joints"))
     shown = [triad.state[0] for triad in page.scene.triads.values()]
     assert all(shown)
 
@@ -349,3 +377,13 @@ def test_the_order_tab_says_what_the_lab_says(server):
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
         on_loop(server, page.opened.leave)
+
+
+def test_an_image_of_depths_goes_from_black_to_white():
+    from labkit.inspector.widgets import as_bytes
+
+    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+    assert shown.shape == (2, 2, 3)
+    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
+    colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    assert as_bytes(colours) is colours

@@ -116,7 +116,7 @@ def test_a_page_that_rebinds_its_name_to_this_machine_is_refused(served, name):
     assert get(served, host) == 403
 
 
-NEIGHBOURS = ["/", "/index.html", "/do?control=tab&value=Chain", "//", "/x/{secret}/",
+NEIGHBOURS = ["/", "/index.html", "/go?tab=Chain", "//", "/x/{secret}/",
               "/{secret}x/", "/%2e%2e/{secret}/", "/{short}/", "/{upper}/"]  # fmt: skip
 
 
@@ -143,7 +143,7 @@ def test_every_start_has_an_address_of_its_own(served):
 
 def test_a_foreign_page_cannot_press_a_button(served):
     """Even one that knew the address: its request names its own origin."""
-    path = f"{served.path}do?control=tab&value=Chain"
+    path = f"{served.path}go?tab=Chain"
     assert get(served, path=path) == 200
     assert get(served, path=path, Origin="http://evil.example") == 403
     assert get(served, host="evil.example", path=path) == 403
@@ -156,12 +156,12 @@ def test_the_address_stays_here_and_the_page_in_no_frame(served):
     assert headers["X-Frame-Options"] == "DENY"
     assert headers["Cache-Control"] == "no-store"
     assert "Set-Cookie" not in headers
-    assert b"data-r47-click" in body
+    assert b"data-r47-state" in body
     assert served.path.strip("/").encode() not in body
 
 
 @pytest.mark.parametrize(
-    "path", ["../pyproject.toml", "%2e%2e/%2e%2e/etc/passwd", "x" * 3000, "do/../.."]
+    "path", ["../pyproject.toml", "%2e%2e/%2e%2e/etc/passwd", "x" * 3000, "go/../.."]
 )
 def test_the_page_serves_no_other_file(served, path):
     assert get(served, path=served.path + path) in (403, 404)
@@ -253,7 +253,7 @@ def test_rubbish_and_floods_through_the_websocket_do_not_stop_the_page(served):
 def test_a_flood_of_requests_leaves_the_page_its_answers(served):
     waiting = [socket.create_connection(("127.0.0.1", served.port)) for _ in range(100)]
     try:  # a hundred that never say what they want
-        path = f"{served.path}do?control=hover&value=0.5,0.5,1.6"
+        path = f"{served.path}go?tab=Chain"
         assert {get(served, path=path) for _ in range(100)} == {200}
         assert get(served) == 200
     finally:

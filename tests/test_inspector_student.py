@@ -161,12 +161,8 @@ def test_of_many_configurations_the_last_one_is_answered(desk):
 def test_a_tab_may_ask_any_function(desk):
     desk.save("2")
     desk.until(lambda seen: seen is not None)
-    got: list[Reply] = []
-    done = threading.Event()
-    question = Question("view", "jacobian", (1.0,))
-    desk.student.request(question, lambda reply: (got.append(reply), done.set()))
-    assert done.wait(SECONDS)
-    np.testing.assert_array_equal(got[0].value, 2 * np.eye(4))
+    (reply,) = desk.student.ask([Question("view", "jacobian", (1.0,))])
+    np.testing.assert_array_equal(reply.value, 2 * np.eye(4))
 
 
 @pytest.mark.parametrize(
@@ -208,16 +204,8 @@ def test_a_day_without_a_ghost_is_watched_and_asked_all_the_same(tmp_path):
         desk.student.want(panda.READY_Q)
         desk.until(lambda seen: seen is not None and not seen.problem)
         assert desk.fake.asked == []  # for no pose
-        replies = []
-        answered = threading.Event()
-
-        def done(reply):
-            replies.append(reply)
-            answered.set()
-
-        desk.student.request(Question("view", "space_jacobian", ()), done)
-        assert answered.wait(SECONDS)
-        assert replies[0].value[0, 0] == 2.0
+        (reply,) = desk.student.ask([Question("view", "space_jacobian", ())])
+        assert reply.value[0, 0] == 2.0
         desk.save("broken")
         desk.until(lambda seen: "invalid syntax" in seen.problem)
         assert desk.opened.count("saved") >= 2

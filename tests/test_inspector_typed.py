@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from labkit.inspector.controls import typed
-from labkit.inspector.typed import number
+from labkit.inspector.typed import configuration, number
 
 pytestmark = pytest.mark.kit
 
@@ -50,6 +49,19 @@ def test_every_digit_of_a_float_arrives(value):
 
 
 def test_degrees_without_their_unit_are_refused_and_the_unit_is_named():
-    with pytest.raises(ValueError, match=r"90 is outside .* write: 90 deg"):
-        typed("90", "joint1", -2.8973, 2.8973, "rad")
-    assert typed("90 deg", "joint1", -2.8973, 2.8973, "rad") == math.pi / 2
+    with pytest.raises(ValueError, match=r"90 rad is over a turn.* write: 90 deg"):
+        configuration("0, 90", 2)
+    assert configuration("0, 90 deg", 2) == [0.0, math.pi / 2]
+
+
+@pytest.mark.parametrize(
+    "text", ["1, 2", "[1, 2]", "np.array([1.0, 2.0])", " [1,\n2] "]
+)
+def test_a_configuration_is_read_as_one_types_it_and_as_numpy_prints_it(text):
+    assert configuration(text, 2) == [1.0, 2.0]
+
+
+@pytest.mark.parametrize("text", ["", "1", "1, 2, 3", "1 2", "[1, x]"])
+def test_what_is_no_configuration_is_refused(text):
+    with pytest.raises(ValueError, match=r"numbers; a configuration|is no number"):
+        configuration(text, 2)

@@ -48,6 +48,7 @@ def edited(tmp_path, *changes):
         (("drawings = 3", "drawing = 3"), "worksheet: no entry is called drawing"),
         (('id = "1.4"', "id = 1.4"), "expected a text"),
         (("[[metrics]]", "[[metrics"), "cannot be read"),
+        (('read = "Lab', 'seconds = 61\nread = "Lab'), "a grader gives 60 at"),
         (("number = 1", "number = 2"), "number is 2, but the folder is day1"),
         (('read = "Lab', 'without = ["x"]\nread = "Lab'), "no entry is called without"),
     ],

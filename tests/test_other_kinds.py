@@ -159,7 +159,7 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (np.ones_like(MASKS), "ignores-its-input", "does not depend on it"),
         (MASKS | ONE_EACH, "too-often-true", "Of 48 it is True"),
         (MASKS & ~ONE_EACH, "too-seldom-true", "it is False"),
-        (MASKS * 0.5, "not-true-or-false", "True or False, in shape (8,)"),
+        (MASKS * 0.5, "not-true-or-false", "0.5; True or False, in shape (8,), is"),
     ],
 )
 def test_a_mask_says_which_way_it_is_wrong(given, slug, says):

@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from labkit.judge.right_when import conclude, experiments, neutrals
+from labkit.judge.right_when import (
+    conclude,
+    doublings,
+    experiments,
+    neutrals,
+    not_doubled,
+)
 from robo47 import se3
 
 pytestmark = pytest.mark.kit
@@ -78,3 +84,40 @@ def test_a_pose_is_neutral_in_two_ways():
     still, unturned = (one.value for one in neutrals(T))
     np.testing.assert_array_equal(still, se3.make_T(se3.Rz(0.3), np.zeros(3)))
     np.testing.assert_array_equal(unturned, se3.make_T(np.eye(3), [1.0, 2.0, 3.0]))
+
+
+def told_of_doubling(mine, right, calls, names):
+    asked = doublings(calls, names)
+    before = [mine(*call) for call in calls]
+    after = [[mine(*call) for call in one.calls] for one in asked]
+    return not_doubled(asked, before, after, calls, right, 1e-5)
+
+
+PUSHES = [(m, a) for m, a in [(1.5, 0.3), (0.4, -2.0), (3.0, 1.1), (2.2, 0.7)]]
+
+
+def test_a_square_too_many_shows_when_the_argument_is_doubled():
+    says = told_of_doubling(
+        lambda m, a: m * m * a, lambda m, a: m * a, PUSHES, ["m", "a"]
+    )
+    assert says == (
+        "With m doubled, your answer becomes 4 times what it was; the right one 2 "
+        "times."
+    )
+
+
+def test_an_argument_that_is_not_used_is_named():
+    says = told_of_doubling(lambda m, a: m, lambda m, a: m + a**2, PUSHES, ["m", "a"])
+    assert says == "With a doubled, your answer stays the same; it must not."
+
+
+def test_an_answer_that_grows_as_the_right_one_says_nothing():
+    assert (
+        told_of_doubling(lambda m, a: 3 * m * a, lambda m, a: m * a, PUSHES, ["m", "a"])
+        == ""
+    )
+
+
+def test_a_rotation_is_not_doubled():
+    calls = [(se3.Rz(x), np.ones(3)) for x in (0.3, 0.7, 1.1)]
+    assert [one.says for one in doublings(calls, ["R", "v"])] == ["v"]

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from labkit.base.exchange import LoadError, Path, Question
+from labkit.base.exchange import Limits, LoadError, Path, Question
 from labkit.judge import Robot
 from labkit.lesson.day import find_day
 from labkit.sandbox import messages, process, sandbox
+from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
 REFERENCE = find_day(1).source.read_text("utf-8")
@@ -218,6 +219,70 @@ class TestALoop:
 
 
 @pytest.mark.kit
+@pytest.mark.kit
+class TestWhatATaskMayTake:
+    IMAGE = """
+        import numpy as np
+        def f(image):
+            return image[:, ::-1]
+        """
+
+    def test_an_image_goes_there_and_back_where_the_task_says_so(self, ask):
+        image = np.arange(480 * 640 * 3, dtype=np.uint8).reshape(480, 640, 3)
+        question = Question("1.1", "f", (image,))
+        (reply,) = ask(self.IMAGE, question, limits=Limits(numbers=921_600))
+        assert reply.value.dtype == np.uint8
+        assert (reply.value == image[:, ::-1]).all()
+        (reply,) = ask(self.IMAGE, question)
+        assert (reply.kind, "far too large" in reply.error) == ("unsendable", True)
+
+    def test_a_week_may_bring_a_pinned_package(self, ask):
+        scipy = pytest.importorskip("scipy")
+        code = """
+            import numpy as np
+            from scipy.optimize import nnls
+            def f():
+                return nnls(np.eye(2), np.array([1.0, -1.0]))[0]
+        """
+        extras = (f"scipy=={scipy.__version__}",)
+        (reply,) = ask(code, limits=Limits(extras=extras))
+        np.testing.assert_array_equal(reply.value, [1.0, 0.0])
+        with pytest.raises(LoadError):  # nobody asked for it
+            ask(code)
+
+    def test_another_version_of_it_is_told_with_the_remedy(self, ask):
+        for extra in ("numpy==0.1", "nothing-like-it==1.0"):
+            with pytest.raises(Robo47Error, match=f"pip install {extra}"):
+                ask("def f(): return 1.0", limits=Limits(extras=(extra,)))
+
+    def test_a_question_that_is_too_large_is_told_to_its_author(self, ask):
+        question = Question("1.1", "f", (np.zeros((2000, 2000)),))
+        with pytest.raises(
+            Robo47Error, match="a question to f holds an array of shape"
+        ):
+            ask(self.IMAGE, question)
+
+    def test_a_task_may_ask_for_time_and_memory(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+        monkeypatch.setattr(sandbox, "TASK_SECONDS", 1.5)
+        code = """
+            import time
+            import numpy as np
+            def slow(x):
+                time.sleep(0.8)
+                return x
+            def large(x):
+                return float(np.ones(170_000_000).sum()) * 0.0 + x
+        """
+        slow, large = (Question("1.1", name, (1.0,)) for name in ("slow", "large"))
+        assert ask(code, slow)[0].kind == "stopped"
+        assert ask(code, slow, limits=Limits({"1.1": 6.0}))[0].value == 1.0
+        (reply,) = ask(code, large, limits=Limits({"1.1": 30.0}))
+        assert reply.kind in ("stopped", "_ArrayMemoryError", "MemoryError")
+        (reply,) = ask(code, large, limits=Limits({"1.1": 30.0}, memory=3.0))
+        assert reply.value == 1.0
+
+
 class TestWhatItMayImport:
     @pytest.mark.parametrize(
         "line",

@@ -1,9 +1,10 @@
 """A question to a student's function, and the reply that came of it."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
+NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 MOST = 10  # entries of any list in a reply
 CHANNEL = "it wrote into the checker's own channel"
 
@@ -21,6 +22,23 @@ class Question:
     task: str
     function: str
     args: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a file of a day's may take.
+
+    Attributes:
+        seconds: for all calls of a task, where it says more than the usual.
+        memory: GB, of the process.
+        numbers: of one answer.
+        extras: packages that it may import, pinned: "scipy==1.17.1".
+    """
+
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    memory: float = 1.0
+    numbers: int = NUMBERS
+    extras: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

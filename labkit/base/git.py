@@ -18,7 +18,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 from labkit.base import processes
 
@@ -30,6 +30,7 @@ MOST_FILES, LARGEST_TREE = 10_000, 200_000_000  # of a commit; the kit: 1,400, 6
 LARGEST_OUTPUT = 20_000_000  # bytes that git may say
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
 YEAR_2100 = 4_102_444_800
+SEEN = "refs/robo47/"  # where heads are kept that a later push took back
 _ELSEWHERE = ("commondir", "objects/info/alternates")  # where more objects are
 
 
@@ -49,12 +50,14 @@ class History:
         readable: whether there is a repository that git can read.
         commit: its hash; "" where there is no commit yet.
         committed: the time that its author gave it, seconds since 1970, or None.
+        author: the name that its author gave; anybody can type any.
         blobs: hash of each wanted file in it, by path.
     """
 
     readable: bool
     commit: str = ""
     committed: int | None = None
+    author: str = ""
     blobs: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, name: str, data: bytes | None) -> bool:
@@ -72,13 +75,16 @@ class History:
         return blob in (_blob_hash(version, len(blob)) for version in versions)
 
 
-def read_history(clone: Path, wanted: Iterable[str], *, own: bool = False) -> History:
+def read_history(
+    clone: Path, wanted: Iterable[str], *, own: bool = False, at: str = "HEAD"
+) -> History:
     """Return the last commit of a clone.
 
     Args:
         clone: the student's folder; a repository around it does not count.
         wanted: paths whose hashes to return.
         own: it is the reader's own, which may be a linked worktree.
+        at: another commit to look at.
 
     Raises:
         GitError: git is not there, or takes too long.
@@ -86,9 +92,7 @@ def read_history(clone: Path, wanted: Iterable[str], *, own: bool = False) -> Hi
     git = _repository(clone, own)
     if git is None:
         return History(readable=False)
-    named = _git(
-        git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say="HEAD"
-    )
+    named = _git(git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say=at)
     commit, _, size = (named or "").strip().partition(" ")
     if not size.isdecimal():
         return History(readable=_git(git, "rev-list", "-1", "--all") == "")
@@ -100,7 +104,56 @@ def read_history(clone: Path, wanted: Iterable[str], *, own: bool = False) -> Hi
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
     blobs = {name: facts.split()[2] for facts, _, name in entries if name}
-    return History(True, commit, _time(text), blobs)
+    return History(True, commit, _time(text), _author(text), blobs)
+
+
+def before(clone: Path, moment: int) -> tuple[str, int]:
+    """Return the last commit up to a moment, by the committers' clocks.
+
+    Args:
+        clone: a student's folder.
+        moment: seconds since 1970.
+
+    Returns:
+        Its hash, "" where there is none, and how many commits of HEAD came later. What
+        `make grade` saw before a push that took it back counts, too.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    git = _repository(clone, own=False)
+    if git is None:
+        return "", 0
+    seen = ("HEAD", f"--glob={SEEN}*")
+    found = _git(git, "rev-list", "-1", f"--min-age={moment}", *seen)
+    later = _git(git, "rev-list", "--count", f"--max-age={moment + 1}", "HEAD")
+    return (found or "").strip(), int((later or "").strip() or 0)
+
+
+def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]]:
+    """Return plain files of a commit: hash and bytes of each, by path.
+
+    Args:
+        clone: a student's folder.
+        commit: its hash.
+        names: paths; one that ends with "/" means what is right below it.
+    """
+    git = _repository(clone, own=False)
+    listing = ("ls-tree", "-lz", "--full-tree", commit, "--")
+    listed = _git(git, *listing, *names) if git and names else ""
+    found = {}
+    for entry in (listed or "").split("\0"):
+        facts, _, name = entry.partition("\t")
+        mode, kind, blob, size = [*facts.split(), "", "", "", ""][:4]
+        if kind == "blob" and mode.startswith("100"):
+            found[name] = (blob, int(size))
+    return found
+
+
+def blob(clone: Path, name: str) -> bytes:
+    """Return the content of an object, b"" where git cannot read it."""
+    git = _repository(clone, own=False)
+    return (git and _git_bytes(git, "cat-file", "blob", name)) or b""
 
 
 def short_sha(folder: Path) -> str:
@@ -126,6 +179,9 @@ def too_much(folder: Path, commit: str) -> str:
         GitError: git is not there, or takes too long.
     """
     where = {"folder": folder, "seconds": SECONDS, "GIT_NO_REPLACE_OBJECTS": "1"}
+    where["largest"] = (
+        MOST_FILES * 400
+    )  # git's line on a file with a name of 300 letters
     if run("rev-parse", "-q", "--verify", commit, **where).returncode:  # type: ignore
         return ""
     listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)  # type: ignore
@@ -138,13 +194,22 @@ def too_much(folder: Path, commit: str) -> str:
 
 
 def run(
+    *arguments: str, folder: Path, seconds: float, **more: Any
+) -> subprocess.CompletedProcess[str]:
+    """Run git as `run_bytes` does; what it says is text."""
+    done = run_bytes(*arguments, folder=folder, seconds=seconds, **more)
+    texts = [said.decode("utf-8", "replace") for said in (done.stdout, done.stderr)]
+    return subprocess.CompletedProcess(done.args, done.returncode, *texts)
+
+
+def run_bytes(
     *arguments: str,
     folder: Path,
     seconds: float,
     say: str = "",
     largest: int = LARGEST_OUTPUT,
     **more: str,
-) -> subprocess.CompletedProcess[str]:
+) -> subprocess.CompletedProcess[bytes]:
     """Run git and return what became of it; all that it started ends with it.
 
     Args:
@@ -186,14 +251,14 @@ def run(
             process.stdin.close()
         if processes.was_killed(process):
             raise GitError("git was killed")
-        texts = [_read(file) for file in (out, err)]
-    return subprocess.CompletedProcess(command, process.returncode, *texts)
+        said = [_read(file) for file in (out, err)]
+    return subprocess.CompletedProcess(command, process.returncode, *said)
 
 
-def _read(file: IO[bytes]) -> str:
+def _read(file: IO[bytes]) -> bytes:
     """Return what git wrote into a file, up to a point."""
     file.seek(0)
-    return file.read(LARGEST_OUTPUT).decode("utf-8", "replace")
+    return file.read(LARGEST_OUTPUT)
 
 
 def _repository(clone: Path, own: bool) -> Path | None:
@@ -245,8 +310,13 @@ def _environment(**more: str) -> dict[str, str]:
 
 def _git(git: Path, *arguments: str, say: str = "") -> str | None:
     """Return what git prints, or None where it fails or the repository is too much."""
+    said = _git_bytes(git, *arguments, say=say)
+    return None if said is None else said.decode("utf-8", "replace")
+
+
+def _git_bytes(git: Path, *arguments: str, say: str = "") -> bytes | None:
     try:
-        done = run(
+        done = run_bytes(
             *arguments,
             folder=git if git.is_dir() else git.parent,  # in a worktree it is a file
             seconds=SECONDS,
@@ -270,6 +340,14 @@ def _time(commit: str) -> int | None:
             if seconds.isdecimal() and len(seconds) < 12:
                 return int(seconds) if int(seconds) < YEAR_2100 else None
     return None
+
+
+def _author(commit: str) -> str:
+    """Return who a commit's text says wrote it, without the address."""
+    for line in commit.partition("\n\n")[0].splitlines():
+        if line.startswith("author "):
+            return line.removeprefix("author ").rpartition("<")[0].strip()
+    return ""
 
 
 def _blob_hash(data: bytes, digits: int) -> str:

@@ -55,7 +55,7 @@ code { font: 12px/1.4 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospa
 _HEAD = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; \
-style-src 'unsafe-inline'">
+style-src 'unsafe-inline'%s">
 <meta name="viewport" content="width=device-width, initial-scale=1">"""
 # Controls but for the line break, what turns the reading direction, half letters: no
 # text that was quoted may bring them into a page.
@@ -64,7 +64,7 @@ _OBEYED = re.compile(
 )
 
 
-def page(title: str, about: str, *parts: str, style: str = "") -> str:
+def page(title: str, about: str, *parts: str, style: str = "", policy: str = "") -> str:
     """Return a whole page: no script runs in it even if escaping failed somewhere.
 
     Args:
@@ -72,9 +72,10 @@ def page(title: str, about: str, *parts: str, style: str = "") -> str:
         about: a line under the heading.
         parts: the rest.
         style: CSS of this page besides what all have.
+        policy: what this page may load besides, "; script-src ...".
     """
     whole = [
-        _HEAD,
+        _HEAD % policy,
         f"<title>{title}</title><style>{STYLE}{style}</style></head><body>",
         f'<h1>{title}</h1><p class="muted">{about}</p>',
         *parts,

@@ -9,8 +9,9 @@ import inspect
 import io
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import mujoco
@@ -52,10 +53,17 @@ class Rehearsal(Lab):
         self.failed, self.rows, self.predicted = [], [], {}
 
     of: Day
+    numbers: dict[tuple[str, str], float]
 
     def step(self, title: str) -> None:
         """Remember the heading."""
         self.title = title
+
+    @contextlib.contextmanager
+    def side_quest(self) -> Iterator[None]:
+        """Go on where what is optional fails, or is still to do."""
+        with contextlib.suppress(FirstFailure):
+            yield
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):
@@ -63,6 +71,8 @@ class Rehearsal(Lab):
             raise FirstFailure(
                 f"{where}{name} is {number_of(value)}; it must be {wanted.limit}"
             )
+        if wanted.check:
+            self.numbers[wanted.check, wanted.metric] = value
 
 
 def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
@@ -78,25 +88,41 @@ def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
 
 
 def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
-    """Return the first step of the lab that fails with a file's functions, or "".
+    """Return the first step of the lab that fails with a file's functions, or ""."""
+    return rehearse(day, script, sandbox)[0]
+
+
+def rehearse(
+    day: Day, script: Path, sandbox: Sandbox, calls: int = CALLS
+) -> tuple[str, dict[tuple[str, str], float]]:
+    """Run the lab with a file's functions, each behind the sandbox's wall.
 
     Args:
         day: from its manifest; where its complete lab is not there, nothing is said.
         script: the student's file; all its tasks pass.
         sandbox: where its functions run.
+        calls: of those functions, at most.
+
+    Returns:
+        The first step that fails, or ""; the numbers that the steps before it gave,
+        by check and metric, with `TRIALS` random inputs instead of the lab's own.
     """
+    numbers: dict[tuple[str, str], float] = {}
     if not day.source.is_file():
-        return ""
+        return "", numbers
     lab = folder.load_lab(day.source)
-    session = sandbox.session(script, ROBOTS, library_of(day))
-    budget = _Budget()
-    for task in day.tasks:
-        for name in task.functions:
-            own = _asked(session, task.id, getattr(lab, name), budget)
-            setattr(lab, name, own)
+    own = behind_wall(day, script, sandbox, lab, Budget(calls))
+    for name, function in own.items():
+        setattr(lab, name, function)
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
-    lab.Lab = type("Rehearsal", (Rehearsal,), {"of": day})  # type: ignore[attr-defined]
+    recorder = type("Rehearsal", (Rehearsal,), {"of": day, "numbers": numbers})
+    lab.Lab = recorder  # type: ignore[attr-defined]
+    return _why_it_stops(lab), numbers
+
+
+def _why_it_stops(lab: ModuleType) -> str:
+    """Run a lab; return what its first failure says, or ""."""
     try:
         with (
             contextlib.redirect_stdout(io.StringIO()),
@@ -110,16 +136,33 @@ def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
         return ""
     except Exception as error:  # what a wrong number leads to, in the kit's own code
         return f"it stops with {type(error).__name__}: {error}"
-    finally:
-        session.close()
     return ""
 
 
-class _Budget:
+def behind_wall(
+    day: Day, script: Path, sandbox: Sandbox, lab: ModuleType, budget: "Budget"
+) -> dict[str, Callable[..., Any]]:
+    """Return a file's functions, by name; each call of one is asked in the sandbox.
+
+    Args:
+        day, script, sandbox: as those of `rehearse`.
+        lab: the complete one, whose functions have the same arguments.
+        budget: of calls and seconds.
+    """
+    session = sandbox.session(script, ROBOTS, library_of(day), limits=day.limits)
+    return {
+        name: _asked(session, task.id, getattr(lab, name), budget)
+        for task in day.tasks
+        for name in task.functions
+    }
+
+
+class Budget:
     """Calls and seconds that are left."""
 
-    def __init__(self) -> None:
-        self.calls, self.deadline = CALLS, time.monotonic() + SECONDS
+    def __init__(self, calls: int = CALLS, seconds: float = SECONDS) -> None:
+        """Start the clock."""
+        self.calls, self.deadline = calls, time.monotonic() + seconds
 
     def spend(self) -> None:
         """Take one call.
@@ -133,7 +176,7 @@ class _Budget:
 
 
 def _asked(
-    session: Session, task: str, right: Callable[..., Any], budget: _Budget
+    session: Session, task: str, right: Callable[..., Any], budget: Budget
 ) -> Callable[..., Any]:
     """Return a function of the lab whose answers come from the sandbox."""
     signature = inspect.signature(right)

@@ -9,7 +9,14 @@ from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.judge.ask import Ask, Asked, Robot
 from labkit.judge.mistake import InTurn
-from labkit.judge.right_when import conclude, experiments
+from labkit.judge.right_when import (
+    QUESTIONS,
+    Call,
+    conclude,
+    doublings,
+    experiments,
+    not_doubled,
+)
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
 from labkit.lesson.starter import read_script
@@ -43,22 +50,20 @@ def right_when(
         names: of its arguments.
         session: with its file loaded.
     """
-    mains = [asked.main[i].question for i in wrong]
-    tried = experiments([question.args for question in mains], names)
-    if not tried:
-        return ""
-    questions = [
-        Question(mains[0].task, asked.function, call)
-        for one in tried
-        for call in one.calls
-    ]
-    replies = iter(session.ask(questions))
-    answers = [
-        [None if (reply := next(replies)).kind else reply.value for _ in one.calls]
-        for one in tried
-    ]
-    ask = asked.ask
-    return conclude(tried, answers, _truth(ask), ask.near, _mistaken(ask))
+    mains = [asked.main[i].question for i in wrong][-QUESTIONS:]
+    calls = [question.args for question in mains]
+    tried, twice = experiments(calls, names), doublings(calls, names)
+
+    def answers(some: Sequence[Call]) -> list[Any]:
+        questions = [Question(mains[0].task, asked.function, call) for call in some]
+        came = session.ask(questions)
+        return [None if reply.kind else reply.value for reply in came]
+
+    given, doubled = ([answers(one.calls) for one in some] for some in (tried, twice))
+    truth, near = _truth(asked.ask), asked.ask.near
+    says = conclude(tried, given, truth, near, _mistaken(asked.ask))
+    more = not_doubled(twice, answers(calls), doubled, calls, truth, near)
+    return f"{says} {more}".strip()
 
 
 def _truth(ask: Ask) -> Callable[..., Any]:

@@ -41,7 +41,7 @@ def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
         key: of the files that it checked, from before it did.
         results: of all tasks of a day, or of some.
     """
-    states = {result.task.id: _in_words(result.verdict) for result in results}
+    states = {result.task.id: in_words(result.verdict) for result in results}
     if all(result.verdict.mistake != "stopped" for result in results):
         # a bad moment of this machine is not remembered
         memory = store.read(NAME)
@@ -85,7 +85,8 @@ def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
     return found if isinstance(found, dict) else {}
 
 
-def _in_words(verdict: "Verdict") -> str:
+def in_words(verdict: "Verdict") -> str:
+    """Return how a task stands by a verdict on it: "passed", "wrong", "to do" ..."""
     if verdict.mistake == "does-not-load":
         return "the file does not load"
     if verdict.mistake in ("inherited", "borrowed"):

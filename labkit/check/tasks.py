@@ -46,6 +46,11 @@ class TaskResult:
         return self.verdict.status == "passed"
 
 
+def required_pass(results: list[TaskResult]) -> bool:
+    """Return whether all tasks pass that are no side quest."""
+    return all(result.passed for result in results if not result.task.optional)
+
+
 def check_tasks(
     day: Day,
     script: Path,
@@ -158,7 +163,9 @@ class _Check:
         verdict = result.verdict
         (asked,) = self._asked_of(task, verdict)
         robots = robots_of([exchange.question for exchange in asked.main])
-        session = self.sandbox.session(self.script, robots, library_of(self.day), added)
+        session = self.sandbox.session(
+            self.script, robots, library_of(self.day), added, self.day.limits
+        )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)
             says = right_when(asked, verdict.wrong_calls, names, session)
@@ -179,6 +186,7 @@ class _Check:
             library_of(self.day),
             {task.id: set(self.day.needs(task.id)) for task in tasks},
             added,
+            self.day.limits,
         )
         return rounds
 

@@ -10,14 +10,16 @@ numbers are compared with the rows that you committed. Nothing is logged.
 Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
 """
 
+import datetime
 import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.base.processes import sweep
 from labkit.base.words import count
+from labkit.fresh import FRESH
 from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
@@ -70,6 +72,13 @@ def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
     return cli.conclude(True, says)
 
 
+def remember(sha: str, wrong: int, missing: int) -> None:
+    """Keep the result: `make proof` shows it for as long as the commit is the last."""
+    found = {"wrong": wrong, "missing": missing}
+    when = datetime.date.today().isoformat()
+    store.write(FRESH, {**found, "commit": sha, "date": when})
+
+
 def main() -> int:
     """Clone, set up, run, compare."""
     parser = cli.parser(__doc__)
@@ -92,4 +101,6 @@ def main() -> int:
             clone = set_up(root, anew=not options.quick)
         clock.say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = run_week(days, clone, clock)
-    return verdict(labs, [*missing, *wrong])
+    code = verdict(labs, [*missing, *wrong])
+    remember(sha, len(wrong), len(missing))
+    return code

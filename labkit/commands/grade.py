@@ -5,6 +5,8 @@
     python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
+    python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
+    python3 scripts/grade_class.py CLONES --format canvas      or moodle
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
@@ -24,24 +26,32 @@ import contextlib
 import datetime
 import os
 import re
+import subprocess
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from labkit.base import cli
+from labkit.base import cli, git, store
 from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
 from labkit.grade.overview import Course
 from labkit.grade.package import version
+from labkit.grade.platforms import PLATFORMS, known
+from labkit.grade.platforms import as_csv as platforms_csv
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
+from labkit.proof.class_pages import write_pages
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.paths import ROOT, menagerie_root, shown
+
+OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
 def parse() -> argparse.Namespace:
@@ -80,7 +90,35 @@ def parse() -> argparse.Namespace:
         help="of the fresh inputs, the same for everybody; default: drawn once",
     )
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
-    add("--again", action="store_true", help="grade those too that did not change")
+    add("--proof", action="store_true", help="a page to show for each, of the week")
+    add(
+        "--again",
+        nargs="?",
+        const="",
+        metavar="FOLDER,...",
+        help="grade those too that did not change: everybody, or only who asks",
+    )
+    add(
+        "--keep",
+        choices=("best", "last"),
+        default="last",
+        help="which of somebody's results counts; default: last",
+    )
+    add("--kit", metavar="TAG", help="grade with the kit as it was at a tag or commit")
+    add("--frozen", action="store_true", help="another version's results stay")
+    add(
+        "--format",
+        choices=("csv", *PLATFORMS),
+        default="csv",
+        help="write a table, canvas.csv, for a learning platform's import, too",
+    )
+    add(
+        "--assignment",
+        default="Day {day}",
+        metavar="NAME",
+        help="what the platform calls it; default: Day {day}",
+    )
+    add("--anonymous", action="store_true", help="write a table without names, too")
     add(
         "--i-know-them",
         action="store_true",
@@ -171,11 +209,16 @@ class Tally:
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
+    if options.kit:
+        return with_kit(options.kit)
     days = chosen(options.day, options.week)
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"
     week = Week(find_students(options.root, options.roster))
+    platform = PLATFORMS.get(options.format)
+    if platform:
+        known(platform, week.students)
     admit(options)
     tally = Tally()
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
@@ -186,8 +229,47 @@ def main() -> int:
     if several:
         write(out, as_csv(week))
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+    if platform:
+        own = out.with_name(f"{options.format}.csv")
+        write(own, platforms_csv(platform, week, options.assignment))
+        print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
+    if options.proof:
+        prove(week, out.parent / "proof", options.processes)
     tell(tally, week, out)
     return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
+
+
+def with_kit(tag: str) -> int:
+    """Run the same command with the kit as it was at a tag; return its exit code."""
+    folder = kit_at(tag)
+    words = sys.argv[1:]
+    at = next(i for i, word in enumerate(words) if word.partition("=")[0] == "--kit")
+    del words[at : at + (1 if "=" in words[at] else 2)]
+    command = [sys.executable, str(folder / "scripts" / "grade_class.py"), *words]
+    places = {"PYTHONPATH": str(folder), "MENAGERIE_ROOT": str(menagerie_root())}
+    return subprocess.call([*command, "--frozen"], env={**os.environ, **places})
+
+
+def kit_at(tag: str) -> Path:
+    """Return a folder with the kit as it was at a tag, made where it is not there.
+
+    Raises:
+        Robo47Error: there is no such commit, or git cannot write it.
+    """
+    found = git.run("rev-parse", "-q", "--verify", f"{tag}^{{commit}}", **OF_KIT)
+    commit = found.stdout.strip()
+    folder = store.path_of("kits") / commit[:12]
+    if found.returncode or not commit:
+        raise Robo47Error(f"the kit has no tag {tag}; those it has: git tag")
+    if not (folder / ".git").exists():
+        add = ("worktree", "add", "-q", "-f", "--detach", str(folder), commit)
+        git.run("worktree", "prune", **OF_KIT)
+        git.run(*add, **OF_KIT)
+    # whole, also where a run was killed amid it
+    made = git.run("reset", "-q", "--hard", commit, folder=folder, seconds=60)
+    if made.returncode:
+        raise Robo47Error(f"the kit at {tag} cannot be written: {made.stderr}")
+    return folder
 
 
 def grade_day(
@@ -212,16 +294,30 @@ def grade_day(
             print(
                 f"kit: {version()}; fresh inputs for everybody: --seed {journal.seed}"
             )
-        room = Classroom(week.students, [day], journal, options.again, tally.notes)
+        again = options.again and options.again.split(",")
+        again = () if again is None else (again or None)
+        room = Classroom(
+            week.students, [day], journal, again, options.frozen, options.keep
+        )
+        room.notes = tally.notes
         if options.pull and not week.days:
             room.pull()
         (course,) = room.grade(where, out.parent / "feedback")
-        write_all(course, out)
+        write_all(course, out, anonymous=options.anonymous)
     week.add(course)
     tally.add(room, course)
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
+
+
+def prove(week: Week, folder: Path, at_once: int) -> None:
+    """Write each student's page to show; say who has none, and why."""
+    pages = write_pages(week.students, week.days[-1].week.number, folder, at_once)
+    without = [(student, why) for student, why in pages if why]
+    print(f"pages to show: {len(week.students) - len(without):,} in {shown(folder)}")
+    for student, why in without:
+        print(cli.wrapped(f"{student.name}: {why}", "  "))
 
 
 def tell(tally: Tally, week: Week, out: Path) -> None:

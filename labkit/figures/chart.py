@@ -26,7 +26,7 @@ PURPLE, SKY = "#CC79A7", "#56B4E9"
 INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
 WIDTH, DPI = 8.0, 150  # inches; 1200 pixels
 FONT, SMALL = 16.0, 13.5  # points: of nearly all text, and the smallest
-STYLE = {
+STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": FONT,
     "axes.titlesize": FONT,

@@ -4,3 +4,5 @@ clone       a clone of the last commit, set up from nothing
 missing     what is here and not in that clone
 compare     the clone's numbers beside the committed ones
 """
+
+FRESH = "fresh.json"  # in the memory: what the last one found

@@ -87,6 +87,7 @@ def grade(package: Package, day: Day) -> Result:
         return ungraded(day, package.problem)
     with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
         tasks, lab, error = _tasks(package, day, Path(folder).resolve())
+    day = day.named_as(lambda name: name in package.handin.files)
     items = check_files(day, package.handin, tasks_pass=_done(tasks, day))
     if lab:  # its numbers cannot be right: every class has the same columns
         failed = replace(lab[0], name="metrics")
@@ -103,7 +104,9 @@ def _tasks(
     package: Package, day: Day, folder: Path
 ) -> tuple[list[TaskResult], list[Item], str]:
     """Return the tasks' results, the lab's, and why there is nothing to run or ""."""
-    name, handin = day.files["script"], package.handin
+    handin = package.handin
+    day = day.named_as(lambda name: name in handin.files)
+    name = day.files["script"]
     if name not in handin.files:
         if name in handin.unread:
             says = f"{name} {handin.unread[name]}."
@@ -124,7 +127,12 @@ def _tasks(
 def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:
     """Return the result with the words that `make check` has for it."""
     marks = [
-        Mark(r.task.id, r.verdict.status, r.verdict.mistake, _tidy(r.verdict.message))
+        Mark(
+            r.task.id,
+            r.verdict.status,
+            r.verdict.mistake,
+            _tidy(f"{r.verdict.message} {r.verdict.call}".strip()),
+        )
         for r in tasks
         if r.task.id in counted(day)
     ]

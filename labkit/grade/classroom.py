@@ -1,7 +1,7 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
 from array import array
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student, file_names
-from labkit.grade.sheet import Graded, as_csv, write, write_feedback
+from labkit.grade.sheet import Graded, as_csv, nameless, write, write_feedback
 from labkit.lesson.day import Day
 from labkit.lesson.starter import make_starter, read_script
 from labkit.sandbox.library import KIT
@@ -35,7 +35,9 @@ class Classroom:
         students: from the roster.
         days: from the kit's manifests.
         journal: results so far.
-        again: grade those too that have a result.
+        again: folders to grade though they have a result; None is everybody.
+        frozen: what another version of the kit gave stays.
+        keep: "last", or "best" of all results of somebody.
         notes: what to add to a student's error, by folder.
         graded_now: how many results are new.
         faults: how many are none, since this machine or a worker failed.
@@ -44,7 +46,9 @@ class Classroom:
     students: Sequence[Student]
     days: Sequence[Day]
     journal: Journal
-    again: bool = False
+    again: Collection[str] | None = ()
+    frozen: bool = False
+    keep: str = "last"
     notes: dict[str, str] = field(default_factory=dict)
     graded_now: int = 0
     faults: int = 0
@@ -79,6 +83,8 @@ class Classroom:
         graded: dict[Key, Graded] = {}
         runs: dict[Key, list[array[int]]] = {}
         compare = {day.number: _comparer(day) for day in self.days}
+        due = self.journal.reference if self.journal.deadline else None
+        kept = self.frozen or bool(self.again)
 
         def note(key: Key, package: Package, result: Result | FaultError) -> None:
             graded[key] = self._graded(key, package, result)
@@ -89,14 +95,14 @@ class Classroom:
             for key in ((d, f) for d in self._days for f in self._students):
                 day, student = self._days[key[0]], self._students[key[1]]
                 try:
-                    package = collect(student, day, self.journal.seed)
+                    package = collect(student, day, self.journal.seed, due)
                 except (OSError, GitError, MemoryError) as error:
                     fault = FaultError(visible(error) or type(error).__name__)
                     note(key, Package(day.number, ""), fault)
                     continue
                 runs[key] = compare[day.number](package)
-                known = self.journal.find(student.folder, package)
-                if known and not self.again:
+                known = self.journal.find(student.folder, package, frozen=kept)
+                if known and not (self.again is None or key[1] in self.again):
                     note(key, package, known)
                 else:
                     yield key, package
@@ -114,15 +120,19 @@ class Classroom:
         self, key: Key, package: Package, result: Result | FaultError
     ) -> Graded:
         day, student = self._days[key[0]], self._students[key[1]]
-        fault = isinstance(result, FaultError)
+        fault, late = isinstance(result, FaultError), package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             self.faults += 1
             result = ungraded(day, FAULT.format(visible(result, 200)))
+        elif self.keep == "best":
+            result, package = self.journal.best(student.folder, package)
         minutes = None
         if package.committed is not None:
             minutes = (self.journal.reference - package.committed) // 60
         note, file = self.notes.get(student.folder, ""), self._files[student.folder]
-        return Graded(student, result, package.commit, minutes, note, fault, file)
+        facts = (package.commit, minutes, note, fault, file)
+        due = self.journal.deadline
+        return Graded(student, result, *facts, late if due else None)
 
     def _course(
         self,
@@ -139,17 +149,21 @@ class Classroom:
         return Course(day, everybody, alike, *facts)
 
 
-def write_all(course: Course, out: Path) -> None:
-    """Write a day's table and page.
+def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
+    """Write a day's tables and page.
 
     Args:
         course: everybody's grades for a day.
-        out: the table; the page goes beside it.
+        out: the table; the others go beside it.
+        anonymous: write a table for handing on, too.
 
     Raises:
         Robo47Error: one of them cannot be written.
     """
     write(out, as_csv(course.day, course.class_))
+    if anonymous:
+        content = as_csv(course.day, nameless(course.class_, course.seed))
+        write(out.with_stem(f"{out.stem}-anonymous"), content)
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 

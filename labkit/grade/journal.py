@@ -10,6 +10,7 @@ import json
 import os
 import secrets
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +64,7 @@ class Journal:
         self.seed = secrets.randbits(32)
         self._days = {day.number: day for day in days}
         self._results: dict[tuple[int, str], tuple[str, str, Result]] = {}
+        self._best: dict[tuple[int, str], tuple[Result, str, int | None]] = {}
         try:
             self._file = path.open("a+b")
         except OSError as error:
@@ -85,29 +87,61 @@ class Journal:
             head = {"kind": KIND, "days": list(self._days), "seed": self.seed}
             self._append({**head, **since})
 
-    def find(self, folder: str, package: Package) -> Result | None:
+    def find(
+        self, folder: str, package: Package, *, frozen: bool = False
+    ) -> Result | None:
         """Return a student's result, unless what they hand in, or the kit, has changed.
 
         Args:
             folder: the student's.
             package: what they hand in now.
+            frozen: another version of the kit may have given it.
         """
         known = self._results.get((package.day, folder))
         if known is None or known[0] != package.fingerprint:
             return None
-        self.outdated += known[1] != package.kit
-        return known[2] if known[1] == package.kit else None
+        if frozen or known[1] == package.kit:
+            return known[2]
+        self.outdated += 1
+        return None
+
+    def best(self, folder: str, package: Package) -> tuple[Result, Package]:
+        """Return a student's best result of all that were kept, the last one of equals.
+
+        Args:
+            folder: the student's.
+            package: what they hand in now, which has a result.
+
+        Returns:
+            The result, and the package as it was then: its commit and its time.
+        """
+        result, commit, committed = self._best[package.day, folder]
+        return result, replace(package, commit=commit, committed=committed)
+
+    def _note(self, key: tuple[int, str], result: Result, commit: str, at: Any) -> None:
+        if at is not None and type(at) is not int:
+            raise TypeError(at)
+        known = self._best.get(key)
+        late = self.deadline and at is not None and at > self.reference
+        if known and known[0].seed != result.seed:
+            known = None  # of a seed that is no longer asked
+        if known is None or (result.score >= known[0].score and not late):
+            self._best[key] = (result, commit, at)
 
     def keep(self, folder: str, package: Package, result: Result) -> None:
         """Write a result and wait until the disk has it."""
         fingerprint = package.fingerprint
         self._results[package.day, folder] = (fingerprint, package.kit, result)
+        moment = (package.commit, package.committed)
+        self._note((package.day, folder), result, *moment)
         self._append(
             {
                 "day": package.day,
                 "folder": folder,
                 "package": fingerprint,
                 "kit": package.kit,
+                "commit": package.commit,
+                "committed": package.committed,
                 "result": result.to_json(),
             }
         )
@@ -168,10 +202,11 @@ class Journal:
             self.seed = int(record["seed"])
             return True
         day = self._days[record["day"]]
-        facts = (record["folder"], record["package"], record["kit"])
+        facts = (record["folder"], record["package"], record["kit"], record["commit"])
         if not all(isinstance(fact, str) for fact in facts):
             raise TypeError(facts)
-        folder, *prints = facts
+        folder, *prints = facts[:3]
         result = from_json(record["result"], day)
+        self._note((day.number, folder), result, *facts[3:], record["committed"])
         self._results[day.number, folder] = (prints[0], prints[1], result)
         return False

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import read_history, short_sha
+from labkit.base.git import short_sha
+from labkit.grade.in_time import read_in_time
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit, wanted_names
-from labkit.handin.handin import Handin, read_handin
+from labkit.handin.commit import check_commit
+from labkit.handin.handin import Handin
 from labkit.handin.item import Item
 from labkit.lesson.day import Day, find_day
 from robo47 import __version__
@@ -23,6 +24,7 @@ _DECIDES = (
     "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
+    "w*/day*/**/*.xml",
     "w*/src/*.py",
 )
 
@@ -36,11 +38,12 @@ class Package:
         kit: fingerprint of the kit that collected it; no other may grade it.
         handin: the files.
         commit_item: the deliverable "commit", which only the clone can tell.
-        commit: the hash of the last commit; "" without one.
+        commit: the hash of the commit that counts; "" without one.
         committed: its time by the student's own clock, seconds since 1970, or None.
         problem: why there is nothing to grade; "" where there is.
         seed: of the fresh inputs, the same for everybody.
         version: of the kit that collected it, in words.
+        late: how many commits came after the deadline.
     """
 
     day: int
@@ -52,6 +55,7 @@ class Package:
     problem: str = ""
     seed: int = 0
     version: str = ""
+    late: int = 0
 
     @property
     def fingerprint(self) -> str:
@@ -78,13 +82,16 @@ class Package:
         }
 
 
-def collect(student: Student, day: Day, seed: int = 0) -> Package:
+def collect(
+    student: Student, day: Day, seed: int = 0, deadline: int | None = None
+) -> Package:
     """Return what a student hands in.
 
     Args:
         student: from the roster.
         day: from the kit's manifest.
         seed: of the fresh inputs.
+        deadline: seconds since 1970, or None.
 
     Raises:
         OSError, GitError: this machine failed.
@@ -96,14 +103,15 @@ def collect(student: Student, day: Day, seed: int = 0) -> Package:
         problem = "there is no such folder"
     if problem:
         return replace(package, problem=problem)
-    handin = read_handin(day, student.path)
-    history = read_history(student.path, wanted_names(day, handin))
+    handin, history, late = read_in_time(day, student.path, deadline)
+    day = day.named_as(lambda name: name in handin.files)
     return replace(
         package,
         handin=handin,
         commit_item=check_commit(day, handin, history),
         commit=history.commit,
         committed=history.committed,
+        late=late,
     )
 
 

@@ -11,11 +11,19 @@ import hashlib
 import json
 import os
 import shutil
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from labkit.base.git import LARGEST_GIT, LARGEST_OBJECT, GitError, run, too_much
+from labkit.base.git import (
+    LARGEST_GIT,
+    LARGEST_OBJECT,
+    SEEN,
+    GitError,
+    run,
+    too_much,
+)
 from labkit.base.store import replace
 from labkit.base.text import visible
 from labkit.grade.roster import Student
@@ -100,12 +108,15 @@ def _move_in(path: Path) -> str:
 
 
 def _update(clone: Path) -> str:
-    """Update our own clone; return what went wrong, or ""."""
-    problem = _git(clone, "fetch", "-q", "--no-recurse-submodules")
-    lock = clone / ".git" / "index.lock"
-    how = ("reset", "-q", "--hard") if lock.exists() else ("merge", "-q", "--ff-only")
-    lock.unlink(missing_ok=True)  # of a run that was killed: some files are new already
-    return problem or _take(clone, "FETCH_HEAD", *how, "FETCH_HEAD")
+    """Update our own clone, also after a forced push; return what went wrong, or "".
+
+    What was there before stays: it may be the last work before the deadline.
+    """
+    problem = _git(clone, "fetch", "-q", "--force", "--no-recurse-submodules")
+    (clone / ".git" / "index.lock").unlink(missing_ok=True)  # of a run that was killed
+    if not problem and _git(clone, "merge-base", "--is-ancestor", "HEAD", "FETCH_HEAD"):
+        problem = _git(clone, "update-ref", f"{SEEN}{time.time_ns()}", "HEAD")
+    return problem or _take(clone, "FETCH_HEAD", "reset", "-q", "--hard", "FETCH_HEAD")
 
 
 def _take(clone: Path, commit: str, *how: str) -> str:

@@ -74,6 +74,11 @@ class Result:
         return next((task for task in self.tasks if task.is_mistake), None)
 
     @property
+    def score(self) -> tuple[int, int]:
+        """How many tasks and how many deliverables pass, to compare results by."""
+        return sum(m.passed for m in self.tasks), sum(m.passed for m in self.items)
+
+    @property
     def does_not_load(self) -> bool:
         """Whether there is a file that Python, or we, cannot read."""
         return any(task.mistake == "does-not-load" for task in self.tasks)

@@ -1,15 +1,16 @@
 """The grades as files: a table, one row per student, and a file for each of them."""
 
 import csv
+import hashlib
 import io
 import os
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.text import visible
-from labkit.grade.result import Result, counted
+from labkit.grade.result import UNGRADED, Result, counted
 from labkit.grade.roster import Student
 from labkit.handin import item_names
 from labkit.lesson.day import Day
@@ -34,6 +35,7 @@ class Graded:
         note: what this run has to add to the result's error, such as a failed pull.
         fault: whether this machine failed; the next run grades them.
         feedback: the file's name in feedback/.
+        late: how many commits came after the deadline; None without one.
     """
 
     student: Student
@@ -43,6 +45,7 @@ class Graded:
     note: str = ""
     fault: bool = False
     feedback: str = ""
+    late: int | None = None
 
     @property
     def error(self) -> str:
@@ -52,14 +55,32 @@ class Graded:
     @property
     def tasks_passed(self) -> int:
         """How many tasks are passed."""
-        return sum(task.passed for task in self.result.tasks)
+        return self.result.score[0]
+
+    @property
+    def percent(self) -> float | None:
+        """The share of tasks that pass; None where nobody could look at them."""
+        tasks = self.result.tasks
+        if any(task.status == UNGRADED for task in tasks):
+            return None
+        return 100 * self.tasks_passed / max(1, len(tasks))
+
+    @property
+    def late_by(self) -> tuple[int, int] | tuple[str, str]:
+        """Minutes and begun days from the deadline to the commit that counts."""
+        if self.late is None or self.minutes is None:
+            return "", ""
+        minutes = max(0, -self.minutes)
+        return minutes, -(-minutes // (24 * 60))
 
 
 def columns(day: Day) -> list[str]:
     """Return the table's columns."""
     return [
+        "id",
         "name",
         "folder",
+        "percent",
         "tasks_passed",
         *counted(day),
         "deliverables_passed",
@@ -67,6 +88,9 @@ def columns(day: Day) -> list[str]:
         "first_mistake",
         "what_it_says",
         "minutes_since_commit_own_clock",
+        "late_minutes",
+        "late_days",
+        "commits_after_deadline",
         "commit_hash",
         "kit",
         "seed",
@@ -85,18 +109,49 @@ def as_csv(day: Day, class_: Sequence[Graded]) -> bytes:
     Returns:
         CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
     """
+    return table(columns(day), map(_cells, class_))
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str | int]]) -> bytes:
+    """Return a table as every grades.csv is written: columns and rows as CSV."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns(day))
-    writer.writerows(_cells(graded) for graded in class_)
+    writer.writerow(head)
+    writer.writerows(rows)
     return text.getvalue().encode("utf-8-sig")
+
+
+def percent_of(share: float | None) -> str:
+    """Return a share as a table has it; "" where there is none."""
+    return "" if share is None else f"{share:.1f}"
+
+
+def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
+    """Return a class in an order and with names that say nothing of who it is.
+
+    Args:
+        class_: everybody.
+        seed: of the grading, by which the same person has the same name every day.
+    """
+    found = []
+    for graded in class_:
+        whose = os.fsencode(f"{seed} {graded.student.folder}")
+        code = hashlib.sha256(whose).hexdigest()[:8]
+        marks = [replace(mark, message="") for mark in graded.result.tasks]
+        result = replace(graded.result, tasks=tuple(marks), error="", refused=())
+        student = Student(code, code, Path())
+        bare = replace(graded, student=student, result=result, commit="", note="")
+        found.append(bare)
+    return sorted(found, key=lambda graded: graded.student.name)
 
 
 def _cells(graded: Graded) -> list[str | int]:
     result, mistake = graded.result, graded.result.first_mistake
     return [
+        plain(graded.student.id),
         plain(graded.student.name),
         plain(printable(graded.student.folder)),
+        percent_of(graded.percent),
         graded.tasks_passed,
         *(_cell(graded, task.status) for task in result.tasks),
         sum(item.passed for item in result.items),
@@ -104,6 +159,8 @@ def _cells(graded: Graded) -> list[str | int]:
         plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
         plain(mistake.message if mistake else ""),
         "" if graded.minutes is None else graded.minutes,
+        *graded.late_by,
+        "" if graded.late is None else graded.late,
         graded.commit[:10],
         graded.result.kit,
         graded.result.seed if graded.result.kit else "",

@@ -4,8 +4,6 @@ Of each student and day only a few numbers are kept, so a week takes the memory 
 day.
 """
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -14,7 +12,7 @@ from labkit.grade import overview
 from labkit.grade.overview import Course
 from labkit.grade.result import UNGRADED
 from labkit.grade.roster import Student
-from labkit.grade.sheet import plain, printable
+from labkit.grade.sheet import percent_of, plain, printable, table
 from labkit.lesson.day import Day
 
 STATES = ("done", "under way", "stuck", "does not load", "not started", UNGRADED)
@@ -115,11 +113,8 @@ def as_csv(week: Week) -> bytes:
     A grade is empty where somebody's work could not be looked at: a platform leaves
     such a grade as it is.
     """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns(week.days))
-    writer.writerows(_cells(week, student) for student in week.students)
-    return text.getvalue().encode("utf-8-sig")
+    rows = [_cells(week, student) for student in week.students]
+    return table(columns(week.days), rows)
 
 
 def _cells(week: Week, student: Student) -> list[str | int]:
@@ -138,8 +133,3 @@ def _cells(week: Week, student: Student) -> list[str | int]:
         *(one.handed_in for one in days),
         plain("; ".join(errors)),
     ]
-
-
-def percent_of(share: float | None) -> str:
-    """Return a share as the table has it; "" where there is none."""
-    return "" if share is None else f"{share:.1f}"

@@ -8,8 +8,8 @@ from labkit.base.words import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
 from labkit.grade.roster import Student
-from labkit.grade.sheet import printable
-from labkit.grade.week import STATES, Standing, Week, percent_of
+from labkit.grade.sheet import percent_of, printable
+from labkit.grade.week import STATES, Standing, Week
 from labkit.lesson.day import Day
 
 ROLES = dict(

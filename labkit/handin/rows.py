@@ -25,7 +25,7 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
     """
     run = f"make run DAY={day.number}"
     try:
-        rows = _rows(day, handin)
+        rows = rows_of(day, handin)
     except Robo47Error as error:
         return Item("metrics", "wrong", visible(error))
     own = marks_of(handin.files.get(day.files["script"]))
@@ -56,7 +56,7 @@ def own_rows(day: Day, handin: Handin) -> dict[tuple[str, str], Row]:
         Robo47Error: the log cannot be read.
     """
     script = handin.files.get(day.files["script"])
-    return latest_of(_rows(day, handin), marks_of(script))
+    return latest_of(rows_of(day, handin), marks_of(script))
 
 
 def latest_of(rows: list[Row], marks: set[str]) -> dict[tuple[str, str], Row]:
@@ -65,7 +65,7 @@ def latest_of(rows: list[Row], marks: set[str]) -> dict[tuple[str, str], Row]:
     return {(str(row["check"]), str(row["metric"])): row for row in own}
 
 
-def _rows(day: Day, handin: Handin) -> list[Row]:
+def rows_of(day: Day, handin: Handin) -> list[Row]:
     """Return the log's rows of the day's metrics, oldest first."""
     name = day.files["log"]
     lines = scan_file(io.BytesIO(handin.files.get(name, b"")), name)

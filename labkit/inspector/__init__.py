@@ -29,42 +29,49 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
 
 Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
 frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
-GHOST, no ghost arm is drawn; the file is watched and asked all the same.
+GHOST, no ghost arm is drawn; the file is watched all the same.
 
 What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 
     model, arm, q, pose(name)   the robot, its numbers, the configuration, MuJoCo's pose
     move(q)                     moves the arm, in every browser
-    draw                        arrow(s), lines, curve, sphere, ellipsoid, frame, label,
-                                ghost (a second arm), target (a pose to drag)
-    slider, buttons, choice, tick    each with a callback; sliders take "pi/2", "90 deg"
-    html, say, matrix           text, a line, a pose
+    own(library)                the student's functions, in the sandbox; a line says how
+                                they compare with the library's of the same names
+    job(work, done)             work that waits for them, on another thread
+    animate(step, hz, work)     a loop in real time: start(), stop(), `running`
+    draw                        arrows, lines, curve, sphere, ellipsoid, frame, label,
+                                ghost (a second arm), robot (a scene of MuJoCo's),
+                                target (a pose to drag)
+    slider, buttons, choice, tick    viser's own, each with a callback
+    html, say, matrix, legend   text, a line, a pose, what the colours mean
     bars, plot                  numbers per joint against limits; curves over time
-    animate(step, hz)           a loop in real time: start(), stop(), `running`
-    ask(function, args, done)   one call of the student's own function, in the sandbox
+    image                       what a camera sees, in colours or in depths
     light(chosen, shown)        which frames are drawn, and which one stands out
+    hide_arm()                  no arm but the tab's own
     gui, scene                  viser's own, for what is missing here
 
 Everything a tab makes vanishes when the tab is left: its widgets, its drawings, its
 loops. Make everything anew in `__init__`; keep on the class what should outlive the
 tab. Callbacks run one after the other on the server's event loop: keep them under 20 ms
-and never wait in one. `wide = True` on the class hides the two matrices at the top.
+and never wait in one. `wide = True` on the class hides the two matrices at the top,
+`camera` says from where one looks.
 
 The modules, from the numbers to the page:
 
     arm       MuJoCo's pose, the library's, the chain's factors
     ghost     the student's poses against MuJoCo's, as one sentence
     student   the student's file in the checker's sandbox, reloaded on save
+    own       the student's functions for a tab, beside the library's
     checks    the verdicts of `make check`, in the background
     words     numbers as HTML;  typed  numbers as people type them
     shapes    what MuJoCo's model looks like, as triangle meshes
-    triad, meshes, scene, draw, hover    what is in the picture
+    triad, meshes, scene, draw, pointed    what is in the picture
     history   the wanted configuration, and the way back;  address  it, in the URL
-    controls, client            sliders, buttons and tabs as HTML, and their script
-    page, tab, animate          what a tab gets, what it is, and its loops
+    widgets, instruments        viser's sliders and buttons; bars and plots
+    page, tab, animate          what a tab gets, what it is, its loops and jobs
     joints, chain, tasks        the tabs that every day has
-    app       the page as a whole
-    guard     who may talk to it: who has its address, on this machine
+    app, panel                  the page as a whole
+    guard, client               who may talk to it; our part of viser's page
     serve     listens until Ctrl-C
 
 `arm`, `ghost`, `words` and `typed` need nothing new, `shapes` needs trimesh, and the

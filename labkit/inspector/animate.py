@@ -1,8 +1,9 @@
-"""A loop in real time that a tab starts and stops, and that ends with its tab."""
+"""Work that takes time: a loop in real time, and jobs; both end with their tab."""
 
 import asyncio
 import time
 from collections.abc import Callable
+from typing import Any
 
 Step = Callable[[float], bool | None]
 LATE = 0.25  # seconds; a loop that is further behind lets them go
@@ -11,18 +12,26 @@ LATE = 0.25  # seconds; a loop that is further behind lets them go
 class Animation:
     """Calls a step at a steady rate on the server's event loop."""
 
-    def __init__(self, step: Step, hz: float, changed: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        step: Step,
+        hz: float,
+        changed: Callable[[Exception | None], None],
+        work: Callable[[float], Any] | None = None,
+    ) -> None:
         """Prepare; nothing runs yet.
 
         Args:
             step: is given the seconds since the start; returning False ends the loop.
             hz: calls a second. 30 is enough for the eye; let a step do several
                 `mj_step` of its own.
-            changed: called when it starts and when it stops.
+            changed: called when it starts, and when it stops with what stopped it.
+            work: is called before each step, on another thread: it may wait.
         """
         self.step, self.period, self.changed = step, 1.0 / hz, changed
+        self.work = work
         self.task: asyncio.Task[None] | None = None
-        self.error: Exception | None = None
+        self.slow = 1.0  # how many times slower than real time it runs
 
     @property
     def running(self) -> bool:
@@ -32,27 +41,74 @@ class Animation:
     def start(self) -> None:
         """Run from t = 0, unless it runs already; call it from a callback."""
         if self.task is None:
-            self.error = None
             self.task = asyncio.get_running_loop().create_task(self._run())
-            self.changed()
+            self.changed(None)
 
     def stop(self) -> None:
         """Stop, unless it stands."""
         if self.task is not None:
             self.task.cancel()
             self.task = None
-            self.changed()
+            self.changed(None)
 
     async def _run(self) -> None:
-        start, calls = time.perf_counter(), 0
+        start, calls, stopped = time.perf_counter(), 0, None
+        began = start
         try:
-            while self.step(calls * self.period) is not False:
+            while await self._once(calls * self.period) is not False:
                 calls += 1
                 ahead = start + calls * self.period - time.perf_counter()
                 if ahead < -LATE:  # the machine is too slow: slow motion, no jump
                     start -= ahead
+                self.slow = (time.perf_counter() - began) / (calls * self.period)
                 await asyncio.sleep(max(ahead, 0.001))
         except Exception as error:
-            self.error = error
+            stopped = error
         self.task = None
-        self.changed()
+        self.changed(stopped)
+
+    async def _once(self, seconds: float) -> bool | None:
+        if self.work is not None:
+            await asyncio.to_thread(self.work, seconds)
+        return self.step(seconds)
+
+
+class Jobs:
+    """Calls on another thread, one after the other; of those that wait the newest."""
+
+    def __init__(self, ended: Callable[[Exception | None], None]) -> None:
+        """Begin without any.
+
+        Args:
+            ended: called after each, with what stopped it.
+        """
+        self.ended = ended
+        self.next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
+        self.task: asyncio.Task[None] | None = None
+
+    def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
+        """Do this next; call it from a callback.
+
+        Args:
+            work: may wait.
+            done: is given what it returned, on the event loop.
+        """
+        self.next = work, done
+        if self.task is None:
+            self.task = asyncio.get_running_loop().create_task(self._run())
+
+    def stop(self) -> None:
+        """Forget what waits, and what comes of the one at work."""
+        if self.task is not None:
+            self.task.cancel()
+
+    async def _run(self) -> None:
+        while self.next is not None:
+            (work, done), self.next = self.next, None
+            try:
+                done(await asyncio.to_thread(work))
+            except Exception as error:
+                self.ended(error)
+            else:
+                self.ended(None)
+        self.task = None

@@ -6,7 +6,7 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 """
 
 import contextlib
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
 import mujoco
@@ -14,19 +14,17 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
-from labkit.base.exchange import Question, Reply
-from labkit.inspector import address, panel
+from labkit.inspector import address, panel, words
 from labkit.inspector.arm import END, Arm
 from labkit.inspector.chain import Chain
 from labkit.inspector.checks import Standing
-from labkit.inspector.controls import Controls
 from labkit.inspector.draw import Sketch
 from labkit.inspector.ghost import Difference, Seen, compare
 from labkit.inspector.history import History
-from labkit.inspector.hover import Hover, Pointer, pointer
 from labkit.inspector.joints import Joints
 from labkit.inspector.page import Page
-from labkit.inspector.scene import ArmScene
+from labkit.inspector.pointed import Pointed
+from labkit.inspector.scene import GHOST_COLOUR, GREY, ArmScene
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Opened
@@ -48,33 +46,36 @@ class Inspector:
     """The page: what every connected browser sees."""
 
     def __init__(
-        self, server: viser.ViserServer, arm: Arm, about: str, day: DayTabs
+        self,
+        server: viser.ViserServer,
+        arm: Arm,
+        about: str,
+        day: DayTabs,
+        simple: bool = False,
     ) -> None:
         """Draw everything but the meshes; call it on the server's event loop.
 
         Args:
             server: already listening.
             arm: the one that every browser moves.
-            about: the line that says which robot this is.
+            about: what to say of the robot, below all; "" for nothing.
             day: what the day brings.
+            simple: draw a tab's robots with simple meshes, too.
         """
-        self.server, self.arm, self.day = server, arm, day
-        self.controls, self.standing = Controls(), Standing("")
+        self.server, self.arm, self.day, self.simple = server, arm, day, simple
+        self.standing, self.heard_words = Standing(""), 0
         self.history, self.scheduled = History(arm.q), False
         self.student: Student | None = None
         self.seen: Seen | None = None
         self.apart: Difference | None = None
-        self.pointer: Pointer | None = None
-        self.panel = panel.Panel(server.gui, arm, about, self.controls)
-        self.scene, self.hover = ArmScene(server, arm), Hover(server, arm)
+        self.panel = panel.Panel(server.gui, arm, about)
+        self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         self.opened = Opened([Joints, Chain, *day.tabs, Tasks])
-        for name, listener in {
-            "frame": self.choose_frame, "solid": self.make_solid, "tab": self.open_tab,
-            "address": self.go_to, "hover": self.point,
-        }.items():  # fmt: skip
-            self.controls.listen(name, listener)
-        self.controls.values |= {"frame": END, "solid": "false"}
         self.open_tab(Joints.title)
+        opened = self.opened.page
+        assert opened is not None
+        opened.listen(self.panel.frame, lambda _: self.light_frame())
+        opened.listen(self.panel.solid, lambda solid: self.scene.look(opaque=solid))
         self.update()
 
     @property
@@ -117,7 +118,7 @@ class Inspector:
             self.scene.update()
             if moved:
                 self.opened.tell(self.arm.q)
-            self.hover.show(self.pointer)
+                self.pointed.show()
             self.show()
 
     def dress(self, model: mujoco.MjModel, meshes: Meshes) -> None:
@@ -130,21 +131,21 @@ class Inspector:
         ghost = meshes.ghosts
         with self.server.atomic():
             self.scene.dress(meshes.shapes, ghost)
-            self.hover.watch(model)
+            self.pointed.watch(model)
             if ghost and self.opened.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
                 self.opened.page.draw.dress(meshes.shapes)
                 self.opened.tell(self.arm.q)
 
     def show(self) -> None:
-        """Show the numbers, and what every control shows."""
-        frame = self.controls.values["frame"]
-        wide = self.opened.kind.wide
-        self.panel.show(frame, self.seen, self.apart, self.standing, wide)
-        where = address.write(self.q, frame, self.opened.kind.title)
-        self.panel.state.content = self.controls.state(where)
+        """Show the numbers, and where the page is."""
+        self.panel.show(self.seen, self.apart, self.standing)
+        self.panel.state.content = words.state(self.address, self.heard_words)
 
-    refresh = schedule
+    @property
+    def address(self) -> str:
+        """The query that leads here: the configuration, the frame, the tab."""
+        return address.write(self.q, self.panel.frame.value, self.opened.kind.title)
 
     def on_loop(self, call: Callable[[T], None]) -> Callable[[T], None]:
         """Return a function for other threads that has the event loop call this one."""
@@ -156,83 +157,53 @@ class Inspector:
 
         return soon
 
-    # What a tab asks for
-
-    def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
-        """Choose the frames that are drawn, and the one that stands out."""
-        self.scene.light(chosen, shown)
-
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through points, (n, 3)."""
-        self.scene.trace(origins)
-
-    def ask(self, question: Question, done: Callable[[Reply], None]) -> None:
-        """Ask the student's file; the answer comes back on the event loop."""
-        loop, page = self.server.get_event_loop(), self.opened.page
-
-        def still_open(reply: Reply) -> None:
-            if self.opened.page is page:  # the tab may have been left meanwhile
-                done(reply)
-                self.schedule()
-
-        if self.student is None:
-            loop.call_soon(still_open, Reply(kind="missing", error="no file yet"))
-        else:
-            self.student.request(question, self.on_loop(still_open))
-
     # What the browsers and the student's file say
 
-    def receive(self, name: str, value: str) -> int:
-        """Hear a browser's word; a state that knows of it follows, whatever it was.
+    def receive(self, query: str) -> int:
+        """Go where an address says, as far as that is somewhere.
 
         Args:
-            name: of a control.
-            value: what it says; believed by nobody.
+            query: "?q=...&frame=...&tab=..."; believed by nobody.
 
         Returns:
-            The number of this word.
+            The number of this word: a state that knows of it follows.
         """
-        number = self.controls.receive(name, value)
-        self.schedule()
-        return number
-
-    def choose_frame(self, name: str) -> None:
-        """Show another frame's matrices."""
-        if name in self.arm.names:
-            self.controls.values["frame"] = name
-            if self.opened.kind is Joints:
-                self.scene.light(name, None)
-            self.schedule()
-
-    def make_solid(self, value: str) -> None:
-        """Make the arm solid ("true") or see-through."""
-        self.controls.values["solid"] = "true" if value == "true" else "false"
-        self.scene.look(opaque=value == "true")
-        self.schedule()
-
-    def point(self, text: str) -> None:
-        """Note where the pointer is."""
-        self.pointer = pointer(text)
-        self.schedule()
-
-    def go_to(self, query: str) -> None:
-        """Go where an address says, as far as that is somewhere."""
+        self.heard_words += 1
         q, frame, title = address.read(query, self.arm.model.nq)
         self.open_tab(title)
-        self.choose_frame(frame)
+        if frame in self.arm.names:
+            self.panel.frame.value = frame  # type: ignore[misc]
+            self.light_frame()
         if q is not None:
             self.move(q)
+        self.schedule()
+        return self.heard_words
+
+    def heard(self, call: Callable[[], None]) -> None:
+        """Do what a widget is for; where that fails the page says so and goes on."""
+        self.opened.guarded(call)
+        self.schedule()
+
+    def light_frame(self) -> None:
+        """Have the frame that is chosen stand out."""
+        if self.opened.kind is Joints:
+            self.scene.light(self.panel.frame.value, None)
 
     def open_tab(self, title: str) -> None:
         """Leave the open tab with all that it made, and open another one."""
         is_open = self.opened.page and title == self.opened.kind.title
         if title in self.opened.kinds and not is_open:
+            kind = self.opened.kinds[title]
             with self.server.atomic():
                 self.opened.leave()
-                self.panel.open(list(self.opened.kinds), title)
-                self.scene.light(self.controls.values["frame"], None)
+                self.panel.open(list(self.opened.kinds), title, kind.wide)
+                self.panel.explain({"MuJoCo": _rgb(GREY), "YOURS": GHOST_COLOUR}
+                                   if self.day.ghost else {})  # fmt: skip
+                self.scene.hide(False)
+                self.scene.light(self.panel.frame.value, None)
                 self.scene.trace(np.zeros((0, 3)))
-                page = Page(self, Sketch(self.server, self.scene.coarse), title)
+                self.scene.look_from(kind.camera)
+                page = Page(self, Sketch(self.server, self.scene.coarse))
                 self.opened.enter(title, page)
             self.schedule()
 
@@ -252,9 +223,19 @@ class Inspector:
             self.scene.look(agrees=False)
             self.schedule()
 
+    def reload(self, _: None = None) -> None:
+        """Ask the student's file again whatever the open tab asks."""
+        self.opened.tell(self.arm.q)
+        self.schedule()
+
     def judge(self, standing: Standing) -> None:
         """Show how the tasks stand."""
         self.standing = standing
         if isinstance(self.opened.tab, Tasks):
             self.opened.tab.show(standing)
         self.schedule()
+
+
+def _rgb(shares: tuple[float, float, float]) -> tuple[int, int, int]:
+    r, g, b = (round(255 * share) for share in shares)
+    return r, g, b

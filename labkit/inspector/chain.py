@@ -24,7 +24,7 @@ class Chain(Tab):
         super().__init__(page)
         steps = page.arm.steps()
         self.at = next(i for i, step in enumerate(steps) if step.joint)
-        page.buttons([BACK, NEXT, PLAY], self.press)
+        self.buttons = page.buttons([BACK, NEXT, PLAY], self.press)
         self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
         self.product = page.html()
         self.sliders = {
@@ -76,8 +76,9 @@ class Chain(Tab):
             says += words.verdict(self.page.arm.difference(this.link, this.after))
         self.product.content = says
         for joint, slider in self.sliders.items():
-            slider.handle.visible = joint == this.joint
-            slider.set(float(q[self.page.model.joint(joint).qposadr[0]]))
+            slider.visible = joint == this.joint
+            value = float(q[self.page.model.joint(joint).qposadr[0]])
+            slider.value = value  # type: ignore[misc]
         done = steps[: self.at + 1]
         self.page.light(this.link, {step.link for step in done})
-        self.page.trace(np.array([step.after[:3, 3] for step in done]))
+        self.page.host.scene.trace(np.array([step.after[:3, 3] for step in done]))

@@ -20,6 +20,7 @@ from robo47 import se3
 from robo47.checks import Array
 
 ROOT = "/tab"
+APART = 0.07  # metres between two labels
 # The browser remembers the pose of a node that is gone: a name is never given again.
 _NUMBERS = count()
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
@@ -59,16 +60,6 @@ class Sketch:
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
         return f"{ROOT}/{next(_NUMBERS)}"
-
-    def arrow(
-        self,
-        start: ArrayLike,
-        end: ArrayLike,
-        colour: Colour = "blue",
-        radius: float = 0.006,
-    ) -> viser.ArrowsHandle:
-        """Draw one arrow; see `arrows`."""
-        return self.arrows(np.array([[start, end]]), colour, radius)
 
     def arrows(
         self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
@@ -154,6 +145,10 @@ class Sketch:
             font_screen_scale=0.8,
         )  # fmt: skip
 
+    def labels(self, texts: Sequence[str]) -> "Labels":
+        """Write several texts; `show(points)` puts them there, (n, 3)."""
+        return Labels([self.label(text, np.zeros(3)) for text in texts])
+
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
         """Draw another arm; `pose({body: T_world_body})` puts its links somewhere.
 
@@ -183,6 +178,26 @@ class Sketch:
         return Target(self.server.scene.add_transform_controls(
             self.path(), scale=0.18, depth_test=False
         ), T, on_drag)  # fmt: skip
+
+
+class Labels:
+    """Texts in the scene; those that would cover each other become one."""
+
+    def __init__(self, handles: list[viser.LabelHandle]) -> None:
+        """Take the labels, each with its own text."""
+        self.handles, self.texts = handles, [handle.text for handle in handles]
+
+    def show(self, points: ArrayLike) -> None:
+        """Put them at points, (n, 3)."""
+        first: dict[int, str] = {}
+        at = np.asarray(points, dtype=np.float64)
+        for i, text in enumerate(self.texts):
+            near = [k for k in first if np.linalg.norm(at[k] - at[i]) < APART]
+            key = near[0] if near else i
+            first[key] = f"{first[key]} {text}" if near else text
+        for i, handle in enumerate(self.handles):
+            handle.visible = i in first
+            handle.text, handle.position = first.get(i, ""), at[i]
 
 
 class Ellipsoid:

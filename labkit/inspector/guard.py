@@ -21,7 +21,6 @@ import http
 import logging
 import re
 import secrets
-import urllib.parse
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -42,7 +41,7 @@ from robo47.errors import Robo47Error
 LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
-Receive = Callable[[str, str], int]  # a control's name, what it says; its number
+Receive = Callable[[str], int]  # where a page wants to go; the number of this word
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
     "X-Frame-Options": "DENY",
@@ -99,7 +98,8 @@ class Door:
     def __init__(self) -> None:
         """Make a new secret."""
         self.secret = secrets.token_urlsafe(12)
-        self.receive: Receive = lambda name, value: 0
+        self.receive: Receive = lambda query: 0
+        self.first: Callable[[], str] = str  # what a page shows before viser does
 
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass.
@@ -133,20 +133,15 @@ class Door:
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
         path, _, query = request.path.partition("?")
         path = path.strip("/").removeprefix(self.secret)
-        if path == "/do":
-            return connection.respond(http.HTTPStatus.OK, str(self._do(query)))
+        if path == "/go":
+            return connection.respond(http.HTTPStatus.OK, str(self.receive(query)))
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
         response = viser_answers(
             connection, replace(request, path=path or "/", headers=plain)
         )
-        return response and _protected(response, page=not path)
-
-    def _do(self, query: str) -> int:
-        found = urllib.parse.parse_qs(query, keep_blank_values=True)
-        name, value = (found.get(key, [""])[0] for key in ("control", "value"))
-        return self.receive(name, value)
+        return response and _protected(response, None if path else self.first())
 
 
 def foreign(headers: Headers) -> str | None:
@@ -166,9 +161,11 @@ def foreign(headers: Headers) -> str | None:
     return None
 
 
-def _protected(response: Response, page: bool) -> Response:
+def _protected(response: Response, first: str | None) -> Response:
     """Return viser's response with our headers, and its page with our client."""
-    body = with_client(bytes(response.body)) if page else response.body
+    body = bytes(response.body)
+    if first is not None:
+        body = with_client(body, first)
     headers = Headers(response.headers)
     for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
         with contextlib.suppress(KeyError):

@@ -11,7 +11,8 @@ from viser import uplot
 from robo47.checks import Array
 
 KEPT = 2_000  # points of a plot that is added to
-STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e")
+STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
+           "#1e2228")  # fmt: skip
 
 
 class Bars:
@@ -24,45 +25,72 @@ class Bars:
         full: Array,
         unit: str,
         title: str,
+        kind: str,
     ) -> None:
         """Start at zero; see `Page.bars`."""
         self.handle, self.labels, self.full = handle, labels, full
-        self.unit, self.title = unit, title
+        self.unit, self.title, self.kind = unit, title, kind
         self.show(np.zeros(len(labels)))
 
-    def show(self, values: ArrayLike) -> None:
-        """Set every bar, (n,)."""
-        rows = zip(self.labels, np.asarray(values, dtype=float), self.full, strict=True)
+    def show(self, values: ArrayLike, wanted: ArrayLike | None = None) -> None:
+        """Set every bar, (n,), and the marks of what they should be, (n,)."""
+        given = np.asarray(values, dtype=float)
+        marks = np.full(len(given), np.nan) if wanted is None else np.asarray(wanted)
+        rows = zip(self.labels, given, marks, self.full, strict=True)
         title = f"<b>{escape(self.title)}</b>" if self.title else ""
         made = "".join(self._row(*row) for row in rows)
-        self.handle.content = f'<div class="r47-bars">{title}{made}</div>'
+        self.handle.content = f'<div class="r47-bars {self.kind}">{title}{made}</div>'
 
-    def _row(self, label: str, value: float, full: float) -> str:
-        over = not abs(value) <= full
-        share = 50 * min(abs(value) / full, 1.0) if np.isfinite(value) else 0.0
-        left = 50.0 if value >= 0 else 50.0 - share
-        mark = ' class="over"' if over else ""
-        bar = f'<u{mark} style="left:{left:.1f}%;width:{share:.1f}%"></u>'
-        text = f"{value:.4g} {self.unit}{' !' if over else ''}"
-        name, number = escape(label), escape(text)
-        return f"<div><span>{name}</span><s>{bar}</s><em>{number}</em></div>"
+    def clear(self) -> None:
+        """Show no numbers."""
+        self.show(np.full(len(self.labels), np.nan))
+
+    def _at(self, value: float, full: float) -> float:
+        """Return where a value is along its row, per cent."""
+        part = float(np.clip(value / full, -1.0, 1.0)) if np.isfinite(value) else 0.0
+        return 50.0 + 50.0 * part if self.kind == "both" else max(100.0 * part, 0.0)
+
+    def _row(self, label: str, value: float, wanted: float, full: float) -> str:
+        over = self.kind != "scale" and abs(value) > full * (1 + 1e-6)
+        left, right = sorted((self._at(0.0, full), self._at(value, full)))
+        red = ' class="over"' if over else ""
+        bar = f'<u{red} style="left:{left:.1f}%;width:{right - left:.1f}%"></u>'
+        if np.isfinite(wanted):
+            bar += f'<q style="left:{self._at(wanted, full):.1f}%"></q>'
+        number = f"{three(value, full)} {self.unit}{' !' if over else ''}"
+        name = escape(label)
+        return f"<div><span>{name}</span><s>{bar}</s><em>{escape(number)}</em></div>"
+
+
+def three(value: float, most: float) -> str:
+    """Return a number as text, with three digits of the largest that it comes to."""
+    places = max(0, 2 - int(np.floor(np.log10(most))))
+    return f"{round(value, places) + 0.0:.{places}f}" if np.isfinite(value) else "?"
 
 
 class Plot:
     """Curves over one axis; a new point can be added at their right."""
 
     def __init__(
-        self, gui: viser.GuiApi, curves: Sequence[str], x: str, y: str, height: int
+        self,
+        gui: viser.GuiApi,
+        curves: Sequence[str],
+        x: str,
+        y: str,
+        height: int,
+        least: float,
     ) -> None:
         """Start empty; see `Page.plot`."""
-        self.count = len(curves)
+        self.count, self.least = len(curves), least
         self.points: list[list[float]] = []
         series = [uplot.Series(label=x)] + [
             uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)
             for i, name in enumerate(curves)
         ]
-        empty = tuple(np.zeros(1) for _ in series)
+        empty = tuple(np.full(1, least) for _ in series)
         scales = {"x": uplot.Scale(time=False)}
+        if least:
+            scales["y"] = uplot.Scale(distr=3, log=10)
         self.handle = gui.add_uplot(
             empty, tuple(series), title=y or None, scales=scales, height=height
         )
@@ -75,6 +103,8 @@ class Plot:
             ys: one row per curve, (m, n).
         """
         rows = np.atleast_2d(np.asarray(ys, dtype=float))
+        if self.least:  # a logarithm has no zero
+            rows = np.maximum(rows, self.least)
         self.handle.data = (np.asarray(x, dtype=float), *rows)
 
     def add(self, x: float, values: ArrayLike) -> None:
@@ -82,7 +112,7 @@ class Plot:
 
         Args:
             x: larger than the one before.
-            values: (m,).
+            values: (m,); NaN where a curve has none.
         """
         self.points.append([x, *np.asarray(values, dtype=float)])
         self.points = self.points[-KEPT:]
@@ -92,4 +122,4 @@ class Plot:
     def clear(self) -> None:
         """Forget the points that were added."""
         self.points = []
-        self.show(np.zeros(1), np.zeros((self.count, 1)))
+        self.show(np.zeros(1), np.full((self.count, 1), self.least))

@@ -5,8 +5,9 @@ import secrets
 from collections.abc import Callable
 
 import mujoco
+import numpy as np
 
-from labkit.inspector import controls, words
+from labkit.inspector import typed, words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from robo47.checks import Array
@@ -14,8 +15,8 @@ from robo47.checks import Array
 RANDOM, UNDO = "random", "undo"
 # "home" is two things in this course; the text under the buttons says which is which.
 ABOUT = (
-    "ready is READY_Q of the labs, home the model's own key. Arrow keys move a joint "
-    "by 0.01 rad, with Shift by 0.1, with Alt by 0.001. Type pi/2 or 90 deg."
+    "ready is READY_Q of the labs, home the model's own key. In q you can type pi/2 "
+    "or 90 deg, and paste an array. Click a link to see its axis."
 )
 
 
@@ -25,22 +26,23 @@ class Joints(Tab):
     title = "Joints"
 
     def __init__(self, page: Page) -> None:
-        """Make a slider for every joint, and the buttons."""
+        """Make a slider for every joint, the buttons, and a box for all of q."""
         super().__init__(page)
-        page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
+        self.buttons = page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
         self.sliders = [
             page.slider(
                 joint, *page.arm.limits(joint), float(page.q[i]), self.mover(i),
-                unit=self.unit(joint),
+                unit="m" if self.slides(joint) else "",
             )
             for i, joint in enumerate(page.arm.joints)
         ]  # fmt: skip
+        self.box = page.gui.add_text("q", "")
+        page.listen(self.box, self.type)
         self.exact = page.html()
 
-    def unit(self, joint: str) -> str:
-        """Return the unit of a joint's number."""
-        slides = self.page.model.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
-        return "m" if slides else "rad"
+    def slides(self, joint: str) -> bool:
+        """Return whether a joint's number is in metres."""
+        return self.page.model.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
 
     def mover(self, i: int) -> Callable[[float], None]:
         """Return what sets one number of the configuration and leaves the others."""
@@ -52,31 +54,48 @@ class Joints(Tab):
 
         return set_joint
 
+    def type(self, text: str) -> None:
+        """Take the arm where the box says, once that is a configuration."""
+        try:
+            self.page.move(typed.configuration(text, self.page.model.nq))
+            self.page.say("")
+        except ValueError as error:
+            self.page.say(str(error), "bad")
+
     def go_to(self, name: str) -> None:
         """Take the arm to a configuration with a name, or anywhere."""
         if name == UNDO:
-            self.page.undo()
+            self.page.host.undo()
         elif name == RANDOM:
             self.page.move(self.page.arm.random_q(secrets.randbits(32)))
         else:
             self.page.move(self.page.arm.named_q[name])
 
     def on_move(self, q: Array) -> None:
-        """Set every slider, and the line that says q with all its digits."""
+        """Set every slider, and the box that says q with all its digits."""
         for slider, value in zip(self.sliders, q, strict=True):
-            slider.set(float(value))
-        numbers = ", ".join(f"{x:.10g}" for x in q)
+            slider.value = float(value)  # type: ignore[misc]
+        if not self._says(q):  # nothing is taken from under somebody's hand
+            text = ", ".join(f"{x:.10g}" for x in q)
+            self.box.value = text  # type: ignore[misc]
+            self.page.say("")
         degrees = ", ".join(
-            f"{math.degrees(x):.4g}°" if self.unit(joint) == "rad" else f"{x:.4g} m"
+            f"{x:.4g} m" if self.slides(joint) else f"{math.degrees(x):.4g}°"
             for joint, x in zip(self.page.arm.joints, q, strict=True)
         )
-        T = self.page.pose("ee")
         self.exact.content = (
-            words.line(f"q = [{numbers}]", "q")
-            + words.line(degrees, "degrees", "quiet")
+            words.line(degrees, "degrees", "quiet")
             + '<div class="r47-row">'
-            + controls.copy_button("copy q as NumPy", words.numpy_q(q))
-            + controls.copy_button("copy T_world_ee", words.numpy_T(T))
+            + words.copy_button("copy q as NumPy", words.numpy_q(q))
+            + words.copy_button("copy T_world_ee", words.numpy_T(self.page.pose("ee")))
             + "</div>"
             + words.line(ABOUT, "about-buttons", "quiet")
         )
+
+    def _says(self, q: Array) -> bool:
+        """Return whether the box says this already, in whatever words."""
+        try:
+            said = typed.configuration(self.box.value, len(q))
+        except ValueError:
+            return False
+        return np.allclose(said, q, rtol=0.0, atol=1e-9)

@@ -1,33 +1,42 @@
 """The page as a tab sees it: it makes widgets and drawings, which go with the tab."""
 
-from collections.abc import Callable, Collection, Sequence
-from typing import Any
+from collections.abc import Callable, Collection, Mapping
+from typing import TYPE_CHECKING, Any
 
 import mujoco
+import numpy as np
 from numpy.typing import ArrayLike
 
-from labkit.base.exchange import Question, Reply
-from labkit.inspector.animate import Animation, Step
-from labkit.inspector.draw import Sketch
-from labkit.inspector.widgets import Host, Widgets
+from labkit.inspector import words
+from labkit.inspector.animate import Animation, Jobs, Step
+from labkit.inspector.draw import Colour, Sketch, rgb
+from labkit.inspector.own import NoAnswerError, Own
+from labkit.inspector.widgets import Widgets
+from robo47 import kinematics
 from robo47.checks import Array
+
+SLOW = 1.5  # times slower than real time, which is said
+
+if TYPE_CHECKING:
+    from labkit.inspector.app import Inspector
 
 
 class Page(Widgets):
     """One opened tab's view of the page."""
 
-    def __init__(self, host: Host, sketch: Sketch, title: str) -> None:
+    def __init__(self, host: "Inspector", sketch: Sketch) -> None:
         """Begin a tab without widgets, drawings or animations.
 
         Args:
             host: the page as a whole.
             sketch: what to draw with.
-            title: of the tab.
         """
-        super().__init__(host, title)
+        super().__init__(host)
         self.draw, self.scene, self.arm = sketch, host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
         self.animations: list[Animation] = []
+        self.jobs = Jobs(self._ended)
+        self._own: Own | None = None
 
     @property
     def q(self) -> Array:
@@ -42,6 +51,21 @@ class Page(Widgets):
         """Return MuJoCo's T_world_NAME, (4, 4); "ee" is the end effector."""
         return self.arm.pose(name)
 
+    def links(self, q: ArrayLike) -> dict[str, Array]:
+        """Return where every link is at a configuration, for a ghost's `pose`.
+
+        Args:
+            q: of the seven joints, (7,); fingers stay as they are.
+        """
+        whole = self.q
+        whole[: len(np.asarray(q))] = q
+        poses = kinematics.fk_all(self.model, whole)
+        return {
+            name.removeprefix("body:"): T
+            for name, T in poses.items()
+            if name.startswith("body:link")
+        }
+
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser.
 
@@ -49,10 +73,6 @@ class Page(Widgets):
             q: radians and metres, (nq,).
         """
         self.host.move(q)
-
-    def undo(self) -> None:
-        """Take the last move back; several times, one by one."""
-        self.host.undo()
 
     def light(
         self, chosen: str | None = None, shown: Collection[str] | None = None
@@ -63,45 +83,86 @@ class Page(Widgets):
             chosen: short name of the one that stands out; None for no one.
             shown: short names of those drawn at all; None for every one.
         """
-        self.host.light(chosen, shown)
+        self.host.scene.light(chosen, shown)
 
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through points, (n, 3)."""
-        self.host.trace(origins)
+    def hide_arm(self) -> None:
+        """Draw no arm but the tab's own, until the tab is left."""
+        self.host.scene.hide()
+        self.host.panel.solid.visible = False
 
-    def ask(
-        self, function: str, args: Sequence[Any], done: Callable[[Reply], None]
-    ) -> None:
-        """Call a function of the student's file, in the sandbox.
+    def legend(self, colours: Mapping[str, Colour]) -> None:
+        """Say at the end of the panel what the colours in the scene mean.
 
         Args:
-            function: its name.
-            args: arrays, floats, `page.model`, `Path(...)`.
-            done: is given the reply a few milliseconds later; `reply.kind` is "" where
-                the function returned `reply.value`. Without a file: "missing".
+            colours: {what is drawn: its colour, see `draw.COLOURS`}.
         """
-        self.host.ask(Question("view", function, tuple(args)), done)
+        self.host.panel.explain({what: rgb(colour) for what, colour in colours.items()})
 
-    def animate(self, step: Step, hz: float = 30.0) -> Animation:
+    def own(self, library: Any, free: Collection[str] = ()) -> Own:
+        """Return the student's functions; a line of the panel says how they compare.
+
+        They wait for the sandbox: call them in `job`, or in the `work` of `animate`.
+
+        Args:
+            library: the module with the functions of the same names, or {name: it}.
+            free: names of functions that have more than one right answer.
+        """
+        self._whose = self.html()
+        self._own = Own(lambda: self.host.student, library, free)
+        return self._own
+
+    def job(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
+        """Do something that waits; of several that wait the newest is done.
+
+        Args:
+            work: may call `own`.
+            done: is given what it returned.
+        """
+        self.jobs.want(work, done)
+
+    def animate(
+        self, step: Step, hz: float = 30.0, work: Callable[[float], Any] | None = None
+    ) -> Animation:
         """Prepare a loop in real time; `start()` and `stop()` it from a button.
 
         Args:
             step: is given the seconds since the start; returning False ends the loop.
             hz: calls a second.
+            work: called before each step, on another thread: may call `own`.
         """
 
-        def changed() -> None:
-            if made.error is not None:
-                self.say(f"stopped: {type(made.error).__name__}: {made.error}", "bad")
-            self.host.refresh()
+        def told(seconds: float) -> bool | None:
+            more = step(seconds)
+            self._ended(None)
+            if made.slow > SLOW and seconds > 1.0:
+                says = f"slow motion: 1 s of it takes {made.slow:.1f} s here"
+                self.say(f"{says}; your functions are asked as fast as they answer")
+            return more
 
-        made = Animation(step, hz, changed)
+        made = Animation(told if work else step, hz, self._ended, work)
         self.animations.append(made)
         return made
 
+    def _ended(self, error: Exception | None) -> None:
+        """Say what stopped a job or a loop, and how the student's functions compare."""
+        if isinstance(error, NoAnswerError):
+            self.show_whose(str(error), "bad")
+            if self.host.opened.tab is not None:
+                self.host.opened.guarded(self.host.opened.tab.lost)
+        elif error is not None:
+            self.say(f"stopped: {type(error).__name__}: {error}", "bad")
+        elif self._own is not None:
+            self.show_whose(*self._own.says())
+        self.host.schedule()
+
+    def show_whose(self, text: str, kind: str) -> None:
+        """Say whose functions are at work, and how they compare."""
+        self._whose.content = words.judged(text, "whose", kind)
+
     def close(self) -> None:
-        """Stop the loops, forget the controls, remove the drawings."""
+        """Stop the loops, remove the drawings."""
+        self.jobs.stop()
         for animation in self.animations:
             animation.stop()
-        self.host.controls.forget(self.names)
+        self._own = None
         self.draw.clear()

@@ -4,6 +4,8 @@ The triads are there at once; the meshes come later, first the simple ones that 
 collides with, then those that one looks at. Metres.
 """
 
+import asyncio
+import contextlib
 from collections.abc import Collection, Mapping
 
 import numpy as np
@@ -12,14 +14,14 @@ import viser
 from labkit.inspector.arm import Arm
 from labkit.inspector.meshes import Colour, Skin
 from labkit.inspector.shapes import Shape
+from labkit.inspector.tab import View
 from labkit.inspector.triad import Anchor, Triad
 from robo47.checks import Array
 
-# Seen from its right and front; aimed beside the arm, since the panel covers the
-# right third of the page.
-CAMERA, LOOK_AT, FOV = (1.75, -1.45, 0.95), (0.42, 0.24, 0.4), 0.72
+FOV = 0.72  # vertical, radians
 # For a page that is higher than wide: from further away, the arm above the panel.
-PHONE_CAMERA, PHONE_LOOK_AT = (2.7, -2.3, 1.2), (0.2, 0.0, -0.1)
+PHONE: View = ((3.0, -2.6, 1.1), (0.2, 0.0, -0.35))
+CONNECTED = 0.3  # seconds until viser's own first camera has been set
 BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
@@ -41,13 +43,20 @@ class ArmScene:
             server: where to draw.
             arm: what to draw.
         """
-        self.arm = arm
-        _set_stage(server)
+        self.arm, self.server, self.hidden = arm, server, False
+        self.view: View = PHONE
+        set_stage(server)
+
+        @server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            await asyncio.sleep(CONNECTED)
+            self._welcome(client)
+
         self.triads = {
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
@@ -73,9 +82,33 @@ class ArmScene:
 
     def update(self) -> None:
         """Move everything to the arm's present configuration."""
-        self.skin.pose({name: self.arm.body_pose(name) for name in self.skin.bodies})
+        bodies = () if self.hidden else self.skin.bodies
+        self.skin.pose({name: self.arm.body_pose(name) for name in bodies})
         for name, triad in self.triads.items():
             triad.place(self.arm.by_library[self.arm.names[name]])
+
+    def hide(self, hidden: bool = True) -> None:
+        """Draw no arm and no frames, or draw them again."""
+        self.hidden = hidden
+        self.world.show(not hidden, chosen=False)
+        if hidden:
+            self.light(None, ())
+        self.update()
+
+    def look_from(self, view: View) -> None:
+        """Look from another place, in every browser, unless they do already."""
+        if view != self.view:
+            self.view = view
+            camera = self.server.initial_camera
+            (camera.position, camera.look_at), camera.fov = view, FOV
+            for client in self.server.get_clients().values():
+                self._welcome(client)
+
+    def _welcome(self, client: viser.ClientHandle) -> None:
+        """Give a browser its camera."""
+        with contextlib.suppress(Exception):  # it has told nothing of its size yet
+            view = PHONE if client.camera.aspect < 1.0 else self.view
+            client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
         """Draw the student's arm where it is not the real one.
@@ -131,21 +164,13 @@ class ArmScene:
             self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
 
 
-def _set_stage(server: viser.ViserServer) -> None:
+def set_stage(server: viser.ViserServer) -> None:
     """Set camera, backdrop and floor."""
     # viser lights with a photograph of a sky and casts shadows: on a computer without a
     # GPU half a minute before the first picture, and a sixth of the frames.
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_hemisphere("/sky", ground_color=(190, 195, 205), intensity=2)
-    camera = server.initial_camera
-    camera.position, camera.look_at, camera.fov = CAMERA, LOOK_AT, FOV
-
-    @server.on_client_connect
-    async def _(client: viser.ClientHandle) -> None:
-        if client.camera.aspect < 1.0:
-            client.camera.position, client.camera.look_at = PHONE_CAMERA, PHONE_LOOK_AT
-
     backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(

@@ -57,6 +57,38 @@ def shapes(
     return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
 
 
+def thinned(shape: Shape, grid: float) -> Shape:
+    """Return a shape with a quarter of its bytes, for a file that is sent to others.
+
+    Args:
+        shape: its corners that share a cell of a grid, and look the same way, become
+            one in their middle; triangles without an area go.
+        grid: metres.
+    """
+    sides = shape.vertices[shape.faces]
+    facing = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
+    normals = np.zeros_like(shape.vertices)
+    np.add.at(normals, shape.faces, facing[:, None])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.round(normals / np.maximum(lengths, 1e-12))
+    cells = np.round(shape.vertices / grid)
+    _, cell, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    middles = np.zeros((len(count), 3))
+    np.add.at(middles, cell, shape.vertices / count[cell, None])
+    middles = np.round(middles * 4096) / 4096  # m; such numbers are packed better
+    corners = np.column_stack([cell, normals])  # a sharp edge has two at a place
+    _, at, became = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    middles = middles[cell[at]]
+    a, b, c = np.moveaxis(middles[became[shape.faces]], 1, 0)
+    solid = np.linalg.norm(np.cross(b - a, c - a), axis=1) > 0
+    if not solid.any():  # a film of paint on a link
+        return shape
+    faces = np.unique(became[shape.faces][solid], axis=0)
+    used, faces = np.unique(faces, return_inverse=True)
+    faces = faces.reshape(-1, 3).astype(np.int32)
+    return shape._replace(vertices=middles[used], faces=faces)
+
+
 def _joined(parts: list[tuple[Array, Faces]]) -> tuple[Array, Faces]:
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in parts])
     faces = [f + start for (_, f), start in zip(parts, starts[:-1], strict=True)]
@@ -97,6 +129,12 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
     return vertices.astype(np.float64), faces.reshape(-1, 3).astype(np.int32)
 
 
+def _box(size: Array) -> trimesh.Trimesh:
+    made = trimesh.creation.box(extents=2 * size)
+    made.unmerge_vertices()  # else the browser would round its edges off
+    return made
+
+
 def _ellipsoid(size: Array) -> trimesh.Trimesh:
     made = trimesh.creation.icosphere(subdivisions=3)
     made.vertices *= size
@@ -106,7 +144,7 @@ def _ellipsoid(size: Array) -> trimesh.Trimesh:
 _PRIMITIVES: dict[mujoco.mjtGeom, Callable[[Array], trimesh.Trimesh]] = {
     mujoco.mjtGeom.mjGEOM_SPHERE: lambda s: _ellipsoid(np.full(3, s[0])),
     mujoco.mjtGeom.mjGEOM_ELLIPSOID: _ellipsoid,
-    mujoco.mjtGeom.mjGEOM_BOX: lambda s: trimesh.creation.box(extents=2 * s),
+    mujoco.mjtGeom.mjGEOM_BOX: _box,
     mujoco.mjtGeom.mjGEOM_CAPSULE: lambda s: trimesh.creation.capsule(
         radius=s[0], height=2 * s[1]
     ),

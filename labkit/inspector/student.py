@@ -7,35 +7,21 @@ server's event loop. Nothing of the student's runs in this process.
 
 import contextlib
 import threading
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
+from labkit.sandbox.sandbox import Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
-
-
-class Asker(Protocol):
-    """A student's file, loaded: `sandbox.Session`, or a test's fake."""
-
-    @property
-    def alive(self) -> bool:
-        """Whether it still answers."""
-
-    def ask(self, questions: Sequence[Question], seconds: float) -> list[Reply]:
-        """Return one reply per question."""
-
-    def close(self) -> None:
-        """End it."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +36,7 @@ class Source:
     """
 
     script: Path
-    open: Callable[[Path], Asker]
+    open: Callable[[Path], Session]
     explain: Callable[[Path, Reply], str]
     describe: Callable[[str, Reply], str]
 
@@ -82,8 +68,9 @@ class Student(threading.Thread):
         self.news = threading.Condition()
         self.q: Array | None = None
         self.ended = False
-        self.requests: dict[str, tuple[Question, Callable[[Reply], None]]] = {}
-        self._asker: Asker | None = None
+        self.version = 0  # of the file: another one after each save
+        self._lock = threading.RLock()  # a session answers one thread at a time
+        self._asker: Session | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
         self._problem = ""
 
@@ -97,16 +84,37 @@ class Student(threading.Thread):
             self.q = q.copy()
             self.news.notify()
 
-    def request(self, question: Question, done: Callable[[Reply], None]) -> None:
-        """Ask any function, once; a newer request for it takes its place.
+    @property
+    def there(self) -> bool:
+        """Whether there is a file."""
+        return bool(self._stamp)
+
+    @property
+    def problem(self) -> str:
+        """Why the file is not asked, in a sentence; "" where it is."""
+        return self._problem
+
+    def ask(self, questions: Sequence[Question]) -> list[Reply]:
+        """Ask any functions, now, on the caller's thread; see `problem` afterwards.
 
         Args:
-            question: what to call.
-            done: is given the reply, on this thread.
+            questions: what to call.
         """
-        with self.news:
-            self.requests[question.function] = (question, done)
-            self.news.notify()
+        with self._lock:
+            if self._asker is None:
+                ended = Reply(kind="stopped", error="it is not asked")
+                return [ended] * len(questions)
+            try:
+                replies = self._asker.ask(questions, seconds=ASK_SECONDS)
+            except Exception as error:  # ours, or the day's: the page goes on
+                says = f"{type(error).__name__}: {error}"
+                return [Reply(kind="unsendable", error=says)] * len(questions)
+            if not self._asker.alive:
+                kinds = [reply.kind for reply in replies]
+                at = kinds.index("stopped") if "stopped" in kinds else -1
+                function = questions[at].function
+                self._give_up(self.source.describe(function, replies[at]))
+            return replies
 
     def close(self) -> None:
         """End the thread and the sandbox."""
@@ -118,20 +126,18 @@ class Student(threading.Thread):
         """Look, ask, deliver, until it is closed."""
         done: Array | None = None
         while not self.ended:
-            if changed := self._look():
-                done = None
+            with self._lock:
+                if changed := self._look():
+                    done = None
             with self.news:
-                q, requests = self.q, list(self.requests.values())
-                self.requests.clear()
+                q = self.q
             if q is not None and q is not done:
                 done = q
                 self.deliver(self._seen(q))
             if changed:
                 self.saved()  # the checks need both cores; first the ghost
-            for question, then in requests:
-                then(self._one(question))
             with self.news:
-                if self.q is done and not self.requests and not self.ended:
+                if self.q is done and not self.ended:
                     self.news.wait(POLL_SECONDS)
         self._shut()
 
@@ -143,6 +149,7 @@ class Student(threading.Thread):
         self._stamp = stamp
         self._shut()
         self._problem = self._open() if stamp else ""
+        self.version += 1
         return True
 
     def _open(self) -> str:
@@ -165,25 +172,16 @@ class Student(threading.Thread):
             return None
         if self._asker is None or self.ghost is None:
             return Seen(q, problem=self._problem)
-        start, asker = time.perf_counter(), self._asker
-        try:
-            poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
-        except Exception as error:  # ours, or the day's: the page goes on
-            return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
-        if not asker.alive:
-            problem = self._give_up(problem)
-        return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
-
-    def _one(self, question: Question) -> Reply:
-        if self._asker is None:
-            return Reply(kind="missing", error=self._problem)
-        try:
-            (reply,) = self._asker.ask([question], seconds=ASK_SECONDS)
-        except Exception as error:  # ours, or the day's: the page goes on
-            return Reply(kind="unsendable", error=f"{type(error).__name__}: {error}")
-        if not self._asker.alive:
-            self._give_up(self.source.describe(question.function, reply))
-        return reply
+        with self._lock:
+            asker = self._asker
+            try:
+                found = poses_of(asker, self.source, self.ghost, self.model, q)
+            except Exception as error:  # ours, or the day's: the page goes on
+                return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
+            poses, problem = found
+            if not asker.alive:
+                problem = self._give_up(problem)
+        return Seen(q, poses, problem)
 
     def _give_up(self, why: str) -> str:
         """Ask nothing more before the file is saved; return what to say meanwhile."""
@@ -193,7 +191,7 @@ class Student(threading.Thread):
 
 
 def poses_of(
-    asker: Asker, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
+    asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
     """Return the poses that a student's function gives, and the first problem or "".
 

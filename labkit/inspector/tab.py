@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from labkit.inspector.ghost import Ghost
 from labkit.lesson import folder
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from labkit.inspector.page import Page
 
 FILE = "inspector"
+View = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 class Tab:
@@ -23,10 +24,13 @@ class Tab:
     Attributes:
         title: on the tab.
         wide: the tab needs the room of the two matrices above it.
+        camera: from where one looks, and at what, metres; aimed beside the arm, since
+            the panel covers the right third of the page.
     """
 
     title = "a tab"
     wide = False
+    camera: View = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
 
     def __init__(self, page: "Page") -> None:
         """Open the tab: make its widgets and drawings.
@@ -43,11 +47,14 @@ class Tab:
             q: radians and metres, (nq,).
         """
 
+    def lost(self) -> None:
+        """Show no numbers: the student's function gave none."""
+
     def close(self) -> None:
         """Leave the tab; what `page` made is removed after this."""
 
 
-class DayTabs:
+class DayTabs(NamedTuple):
     """What a day brings to the page.
 
     Attributes:
@@ -55,9 +62,8 @@ class DayTabs:
         tabs: in the day's order.
     """
 
-    def __init__(self, ghost: Ghost | None, tabs: list[type[Tab]]) -> None:
-        """Take the ghost and the tabs, as under Attributes."""
-        self.ghost, self.tabs = ghost, tabs
+    ghost: Ghost | None
+    tabs: list[type[Tab]]
 
 
 class Opened:
@@ -89,14 +95,14 @@ class Opened:
         def make() -> None:
             self.tab = self.kind(page)
 
-        self._guarded(make)
+        self.guarded(make)
         self.tell(page.q)
         page.end()
 
     def leave(self) -> None:
         """Close the open tab, and remove all that it made."""
         if self.tab is not None:
-            self._guarded(self.tab.close)
+            self.guarded(self.tab.close)
         if self.page is not None:
             self.page.close()
         self.tab = self.page = None
@@ -104,14 +110,15 @@ class Opened:
     def tell(self, q: Array) -> None:
         """Tell the open tab where the arm is."""
         if self.tab is not None:
-            self._guarded(partial(self.tab.on_move, q.copy()))
+            self.guarded(partial(self.tab.on_move, q.copy()))
 
-    def _guarded(self, call: Callable[[], None]) -> None:
+    def guarded(self, call: Callable[[], None]) -> None:
         """Call a day's code; where it fails the page says so and goes on."""
         try:
             call()
         except Exception as error:
-            assert self.page is not None
+            if self.page is None:  # nobody to tell: the tab is gone
+                return
             what = f"{type(error).__name__}: {error}"
             self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
 
@@ -134,7 +141,9 @@ def day_tabs(day: Day) -> DayTabs:
         raise Robo47Error(
             f"{where} does not load: {type(error).__name__}: {error}"
         ) from error
-    ghost, tabs = getattr(module, "GHOST", None), list(getattr(module, "TABS", []))
+    ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
+    if not isinstance(tabs, list | tuple):
+        raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")
     if ghost is not None and not isinstance(ghost, Ghost):
         raise Robo47Error(f"{where}: GHOST is not a labkit.inspector.ghost.Ghost")
     for tab in tabs:
@@ -142,4 +151,4 @@ def day_tabs(day: Day) -> DayTabs:
             raise Robo47Error(
                 f"{where}: {tab!r} in TABS is not a class of labkit.inspector.tab.Tab"
             )
-    return DayTabs(ghost, tabs)
+    return DayTabs(ghost, list(tabs))

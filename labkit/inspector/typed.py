@@ -6,7 +6,8 @@ import operator
 import re
 from collections.abc import Callable
 
-LONGEST = 60
+LONGEST, MOST = 60, 2_000  # characters of a number, of a configuration
+TURN = 2 * math.pi
 _DEGREES = re.compile(r"\s*(deg|degrees?|°)\s*$", re.IGNORECASE)
 _BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -36,6 +37,27 @@ def number(text: str) -> float:
     if not math.isfinite(value):
         raise ValueError(f"“{text[:LONGEST]}” is no number; write 0.5, pi/2 or 90 deg")
     return value if bare == plain else math.radians(value)
+
+
+def configuration(text: str, count: int) -> list[float]:
+    """Return the numbers of a configuration, radians and metres.
+
+    Args:
+        text: as one types it or as NumPy prints it: "[0, -pi/4, 0, -90 deg, 0, 2, 1]".
+        count: how many there must be.
+
+    Raises:
+        ValueError: the message is for the person.
+    """
+    plain = text[:MOST].strip().removeprefix("np.array(").strip()
+    if plain.startswith("["):
+        plain = plain[1:].rstrip("]), \n")
+    numbers = [number(part) for part in plain.split(",")]
+    if len(numbers) != count:
+        raise ValueError(f"{len(numbers)} numbers; a configuration has {count}")
+    if wild := [part for part in numbers if abs(part) > TURN]:
+        raise ValueError(f"{wild[0]:g} rad is over a turn; for degrees write: 90 deg")
+    return numbers
 
 
 def _value(node: ast.expr) -> float:

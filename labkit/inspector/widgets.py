@@ -1,81 +1,35 @@
-"""The widgets that a tab puts on the page; they go with it."""
+"""The widgets that a tab puts on the page: viser's own; they go with the tab."""
 
-from collections.abc import Callable, Collection, Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import viser
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from labkit.base.exchange import Question, Reply
-from labkit.inspector import controls, words
-from labkit.inspector.arm import Arm
-from labkit.inspector.checks import Standing
-from labkit.inspector.controls import Controls
+from labkit.inspector import words
 from labkit.inspector.instruments import Bars, Plot
 from robo47.checks import Array
 
+if TYPE_CHECKING:
+    from labkit.inspector.app import Inspector
 
-class Host(Protocol):
-    """The page as a whole, as far as a tab's `Page` needs it."""
-
-    server: viser.ViserServer
-    arm: Arm
-    controls: Controls
-    standing: Standing
-
-    @property
-    def q(self) -> Array:
-        """The configuration that was asked for last."""
-
-    def move(self, q: ArrayLike) -> None:
-        """Move the arm."""
-
-    def undo(self) -> None:
-        """Take the last move back."""
-
-    def refresh(self) -> None:
-        """Tell every browser what the controls show."""
-
-    def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
-        """Choose the frames that are drawn."""
-
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through points."""
-
-    def ask(self, question: Question, done: Callable[[Reply], None]) -> None:
-        """Ask the student's file."""
-
-
-class Slider:
-    """A number that a person sets; `value` is what it is, `set` changes it."""
-
-    def __init__(
-        self, name: str, value: float, host: Host, handle: viser.GuiHtmlHandle
-    ) -> None:
-        """Start at a value; `handle.visible` hides it."""
-        self.name, self.value, self.handle = name, value, handle
-        self._host = host
-
-    def set(self, value: float) -> None:
-        """Show another value, without a callback."""
-        self.value = value
-        self._host.controls.values[self.name] = f"{value:.6g}"
-        self._host.refresh()
+Widget = TypeVar("Widget", bound=Any)
+NARROW = "\u202f"  # a space that no line breaks at
+DIGITS = 4  # shown behind the point in a slider's box
 
 
 class Widgets:
     """Sliders, buttons, texts, bars and plots of one opened tab."""
 
-    def __init__(self, host: Host, title: str) -> None:
+    def __init__(self, host: "Inspector") -> None:
         """Begin a tab without widgets.
 
         Args:
             host: the page as a whole.
-            title: of the tab; begins the controls' names.
         """
-        self.host, self.gui, self.title = host, host.server.gui, title
-        self.names: list[str] = []
+        self.host, self.gui = host, host.server.gui
         self.said: viser.GuiHtmlHandle | None = None
 
     def html(self, text: str = "") -> viser.GuiHtmlHandle:
@@ -116,8 +70,8 @@ class Widgets:
         *,
         unit: str = "rad",
         step: float = 0.01,
-    ) -> Slider:
-        """Add a slider with a box for typing.
+    ) -> viser.GuiSliderHandle[float]:
+        """Add a slider with a box for typing; setting `value` moves it.
 
         Args:
             label: what a person reads.
@@ -125,102 +79,87 @@ class Widgets:
             high: the greatest.
             start: at first.
             on_change: is given the new value.
-            unit: behind the box; in "rad", degrees can be typed as "90 deg".
-            step: of an arrow key.
+            unit: behind the label; "" for none.
+            step: between values, and of an arrow key.
         """
-        name = self._name()
-        row = controls.dial(name, label, low, high, unit, step)
-        made = Slider(name, start, self.host, self.html(row))
+        # What the mouse gives are whole steps: from a whole step on, they are round.
+        least, most = np.ceil(low / step) * step, np.floor(high / step) * step
+        text = f"{label} ({unit.replace(' ', NARROW)})" if unit else label
+        start = float(np.clip(start, least, most))
+        handle = self.gui.add_slider(
+            text, float(least), float(most), float(step), start, marks=()
+        )
+        handle.precision = DIGITS
 
-        def listen(text: str) -> None:
-            try:
-                made.set(controls.typed(text, label, low, high, unit))
-            except ValueError as error:
-                self.say(str(error), "bad")
-                self.host.refresh()
-                return
-            self.say("")
-            on_change(made.value)
+        def changed(value: float) -> None:
+            if low <= value <= high:  # viser believes any number
+                on_change(round(value, 6))
 
-        self.host.controls.listen(name, listen, f"{start:.6g}")
-        return made
+        return self.listen(handle, changed)
 
     def buttons(
         self, options: Sequence[str], on_press: Callable[[str], None]
-    ) -> viser.GuiHtmlHandle:
-        """Add a row of buttons.
-
-        Args:
-            options: their texts.
-            on_press: is given the text of the one that was pressed.
-        """
-        name = self._name()
-        self.host.controls.listen(name, _among(options, on_press))
-        return self.html(controls.buttons(name, options))
+    ) -> viser.GuiButtonGroupHandle:
+        """Add a row of buttons; `on_press` is given the text of the one pressed."""
+        return self.listen(self.gui.add_button_group("", options), on_press)
 
     def choice(
-        self,
-        label: str,
-        options: Sequence[str],
-        on_change: Callable[[str], None],
-        start: str | None = None,
-    ) -> None:
-        """Add a drop-down.
-
-        Args:
-            label: what a person reads.
-            options: to choose from.
-            on_change: is given the chosen one.
-            start: chosen at first; the first unless given.
-        """
-        name = self._name()
-
-        def listen(option: str) -> None:
-            self.host.controls.values[name] = option
-            self.host.refresh()
-            on_change(option)
-
-        row = controls.choice(name, label, options)
-        self.html(f'<div class="r47-row">{row}</div>')
-        self.host.controls.listen(name, _among(options, listen), start or options[0])
+        self, label: str, options: Sequence[str], on_change: Callable[[str], None]
+    ) -> viser.GuiDropdownHandle[str]:
+        """Add a drop-down, its first option chosen."""
+        return self.listen(self.gui.add_dropdown(label, tuple(options)), on_change)
 
     def tick(
-        self, label: str, on_change: Callable[[bool], None], start: bool = False
-    ) -> None:
-        """Add a check box.
+        self, label: str, on_change: Callable[[bool], None]
+    ) -> viser.GuiCheckboxHandle:
+        """Add a check box, unticked."""
+        return self.listen(self.gui.add_checkbox(label, False), on_change)
+
+    def listen(self, handle: Widget, then: Callable[[Any], None]) -> Widget:
+        """Have a function called when a person changes a widget; return the widget.
 
         Args:
-            label: what a person reads.
-            on_change: is given whether it is ticked.
-            start: at first.
+            handle: viser's.
+            then: is given the new value; where it fails the page says so and goes on.
         """
-        name = self._name()
+        group = isinstance(handle, viser.GuiButtonGroupHandle)
 
-        def listen(value: str) -> None:
-            self.host.controls.values[name] = value
-            self.host.refresh()
-            on_change(value == "true")
+        @(handle.on_click if group else handle.on_update)
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client is not None:  # else it was the page itself
+                self.host.heard(partial(then, handle.value))
 
-        self.html(f'<div class="r47-row">{controls.tick(name, label)}</div>')
-        options = ("true", "false")
-        self.host.controls.listen(name, _among(options, listen), str(start).lower())
+        return handle
 
     def bars(
-        self, labels: Sequence[str], limits: ArrayLike, unit: str, title: str = ""
+        self,
+        labels: Sequence[str],
+        limits: ArrayLike,
+        unit: str,
+        title: str = "",
+        kind: str = "both",
     ) -> Bars:
-        """Add a bar per number, from zero to both sides; `show(values)` sets them.
+        """Add a bar per number; `show(values, wanted)` sets them, and marks.
 
         Args:
             labels: one per bar.
             limits: the absolute value at which a bar is full, (n,) or one for all.
             unit: behind the numbers.
             title: above.
+            kind: "both" from zero to both sides; "up" from the left, for what is never
+                negative; "scale" too, and its end is no limit: nothing turns red.
         """
         full = np.broadcast_to(np.asarray(limits, dtype=float), (len(labels),))
-        return Bars(self.html(), labels, full, unit, title)
+        return Bars(self.html(), labels, full, unit, title, kind)
 
     def plot(
-        self, curves: Sequence[str], *, x: str = "t (s)", y: str = "", height: int = 150
+        self,
+        curves: Sequence[str],
+        *,
+        x: str = "t (s)",
+        y: str = "",
+        height: int = 150,
+        least: float = 0.0,
     ) -> Plot:
         """Add a plot; `show(x, ys)` or `add(x, values)` fills it.
 
@@ -229,21 +168,26 @@ class Widgets:
             x: the horizontal axis.
             y: the title: what is drawn, with its unit.
             height: pixels.
+            least: the lowest value of a logarithmic axis; 0 for a plain one.
         """
-        return Plot(self.gui, curves, x, y, height)
+        return Plot(self.gui, curves, x, y, height, least)
 
-    def _name(self) -> str:
-        self.names.append(f"{self.title}.{len(self.names)}")
-        return self.names[-1]
+    def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
+        """Add an image; setting `image` to what `as_bytes` makes of one changes it.
+
+        Args:
+            picture: (rows, columns, 3) of bytes, or (rows, columns) of any numbers,
+                drawn from black (the smallest) to white.
+            title: above.
+        """
+        return self.gui.add_image(as_bytes(picture), label=title or None, format="png")
 
 
-def _among(
-    options: Sequence[str], listener: Callable[[str], None]
-) -> Callable[[str], None]:
-    """Return a listener that hears nothing but these texts."""
-
-    def listen(text: str) -> None:
-        if text in options:
-            listener(text)
-
-    return listen
+def as_bytes(picture: Array) -> NDArray[np.uint8]:
+    """Return an image of bytes, (rows, columns, 3), of one that may be of numbers."""
+    if picture.ndim == 3:
+        return np.asarray(picture, dtype=np.uint8)
+    finite = np.nan_to_num(np.asarray(picture, dtype=float))  # no ray: black
+    span = max(float(np.ptp(finite)), 1e-12)
+    grey = np.round(255.0 * (finite - finite.min()) / span).astype(np.uint8)
+    return np.repeat(grey[..., None], 3, axis=2)

@@ -4,6 +4,8 @@ A matrix has its columns named x, y, z (the frame's axes in the world) and p (wh
 origin is); the colours are those of the triad. The style is in `client.css`.
 """
 
+import json
+from collections.abc import Iterable, Mapping
 from html import escape
 
 import numpy as np
@@ -63,11 +65,14 @@ def line(text: str, key: str, kind: str = "") -> str:
     return f'<div class="r47{style}" data-line="{escape(key)}">{escape(text)}</div>'
 
 
-def said(text: str, key: str, kind: str) -> str:
-    """Return a line that stands out, see `line`."""
+def judged(text: str, key: str, kind: str) -> str:
+    """Return a line that stands out, see `line`; good and bad ones with their sign."""
+    if not text:
+        return ""
+    sign = {"good": "✓ ", "bad": "✗ "}.get(kind, "")
     return (
         f'<div class="r47 r47-said r47-{kind}" data-line="{escape(key)}" role="status">'
-        f"{escape(text)}</div>"
+        f"{sign}{escape(text)}</div>"
     )
 
 
@@ -82,7 +87,7 @@ def verdict(difference: float, whose: str = "the library") -> str:
         text = f"{whose}: largest difference {difference:.1e}, they agree"
         return line(f"✓ {text}", "difference", "good")
     text = f"{whose}: largest difference {difference:.1e}, THEY DIFFER"
-    return line(f"✗ {text} (limit {AGREES:.0e})", "difference", "bad")
+    return line(f"✗ {text}", "difference", "bad")
 
 
 def proof(arm: Arm, name: str, seen: Seen | None) -> str:
@@ -151,3 +156,57 @@ def step(this: Step, number: int, of: int, whole: bool) -> str:
         matrix(f"= {product}", this.after, "product"),
     ]
     return "".join(parts)
+
+
+def tab_row(names: Iterable[str], chosen: str) -> str:
+    """Return the row of tabs; a click sends the address of the tab.
+
+    viser's own tabs tell the server nothing, and the server cannot open one.
+
+    Args:
+        names: of the tabs.
+        chosen: the open one.
+    """
+    made = "".join(
+        f'<button type="button" role="tab" data-r47-go="?tab={escape(name)}" '
+        f'aria-selected="{str(name == chosen).lower()}">{escape(name)}</button>'
+        for name in names
+    )
+    return f'<div class="r47-tabs" role="tablist">{made}</div>'
+
+
+def copy_button(label: str, text: str) -> str:
+    """Return a button that copies a text.
+
+    Args:
+        label: on the button.
+        text: what is copied.
+    """
+    return (
+        f'<button type="button" class="r47-copy" data-r47-copy="{escape(text)}">'
+        f"{escape(label)}</button>"
+    )
+
+
+def state(address: str, heard: int) -> str:
+    """Return the hidden element that tells every browser where the page is.
+
+    Args:
+        address: the query behind the page's address, "?q=...".
+        heard: the number of the last word from a browser that it knows of.
+    """
+    told = escape(json.dumps({"address": address, "heard": heard}))
+    return f'<div hidden data-r47-state="{told}"></div>'
+
+
+def legend(colours: Mapping[str, tuple[int, int, int]]) -> str:
+    """Return what the colours in the scene mean.
+
+    Args:
+        colours: {what is drawn: its colour}.
+    """
+    made = "".join(
+        f'<span><i style="background:rgb{rgb}"></i>{escape(what)}</span>'
+        for what, rgb in colours.items()
+    )
+    return f'<div class="r47 r47-legend" data-line="legend">{made}</div>'

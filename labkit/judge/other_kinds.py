@@ -71,12 +71,8 @@ class Mask(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        one = "True or False"
-        return (
-            f"{one}, in shape {self.shape}".replace("None", "any")
-            if self.shape
-            else one
-        )
+        where = f", in shape {self.shape},".replace("None", "any")
+        return f"True or False{where if self.shape else ''}"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return (INVERTED,)
@@ -85,19 +81,14 @@ class Mask(Kind):
         return f"{np.mean(S != T):.0%} of them"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        if np.any((S != 0) & (S != 1)):
-            return Finding("not-true-or-false", f"Expected is {self.expected}.")
+        if (odd := S[(S != 0) & (S != 1)]).size:
+            says = f"It is {odd[0]:g}; {self.expected} is expected."
+            return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
-        says = [f"True {yes} times where False is right"] * (yes > 0)
-        says += [f"False {no} times where True is right"] * (no > 0)
-        slug = (
-            "both-ways"
-            if yes and no
-            else "too-often-true"
-            if yes
-            else "too-seldom-true"
-        )
-        return Finding(slug, f"Of {T.size} it is {', and '.join(says)}.")
+        parts = [f"True {yes} times where False is right"] * (yes > 0)
+        parts += [f"False {no} times where True is right"] * (no > 0)
+        slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
+        return Finding(slug, f"Of {T.size} it is {', and '.join(parts)}.")
 
 
 @dataclass(frozen=True)

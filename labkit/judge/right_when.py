@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from labkit.judge.compare import rigid
+from labkit.judge.compare import rigid, say_factor
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
@@ -84,11 +84,9 @@ def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]
         calls: the arguments of each, of the same shapes; three at least.
         names: of the arguments.
     """
-    some = list(calls)[-QUESTIONS:]
-    if len(some) < AGREE or any(len(names) != len(call) for call in some):
-        return []
+    some = _asked_again(calls, names)
     found = []
-    for k, name in enumerate(names):
+    for k, name in enumerate(names if some else ()):
         columns = [list(neutrals(call[k])) for call in some]
         for choices in zip(*columns, strict=False):
             if len({choice.says for choice in choices}) == 1:
@@ -104,6 +102,82 @@ def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]
                     says = choices[0].says.format(name)
                     found.append(Experiment(says, float(count), changed))
     return found
+
+
+def _asked_again(calls: Sequence[Call], names: Sequence[str]) -> list[Call]:
+    """Return the calls to change; none where too few, or with other arguments."""
+    some = list(calls)[-QUESTIONS:]
+    fit = len(some) >= AGREE and all(len(names) == len(call) for call in some)
+    return some if fit else []
+
+
+def doublings(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
+    """Return calls with one argument doubled, per argument that may be; as above."""
+    some = _asked_again(calls, names)
+    found = []
+    for k, name in enumerate(names if some else ()):
+        if all(_may_be_doubled(call[k]) for call in some):
+            twice = [(*call[:k], 2.0 * call[k], *call[k + 1 :]) for call in some]
+            found.append(Experiment(name, 0.0, twice))
+    return found
+
+
+def _may_be_doubled(x: Any) -> bool:
+    if isinstance(x, np.ndarray):
+        turned = x.shape in ((3, 3), (4, 4)) and rigid(x[None])
+        return bool(x.any()) and not turned
+    return isinstance(x, float) and x != 0.0
+
+
+def growth(before: Sequence[Any], after: Sequence[Any], near: float) -> float | None:
+    """Return by which one factor all answers grew, None where there is none.
+
+    Args:
+        before: answers; None where there was none, which says nothing.
+        after: the same calls' with an argument doubled.
+        near: how far off a right answer may be, relative to its largest entry.
+    """
+    pairs = [(_flat(b), _flat(a)) for b, a in zip(before, after, strict=True)]
+    whole = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
+    if len(whole) < AGREE or any(b.shape != a.shape for b, a in whole):
+        return None
+    one, two = (np.concatenate(some) for some in zip(*whole, strict=True))
+    factor = float(one @ two / (one @ one))
+    off = np.abs(two - factor * one).max()
+    return factor if off <= near * max(1.0, float(np.abs(two).max())) else None
+
+
+def not_doubled(
+    asked: Sequence[Experiment],
+    before: Sequence[Any],
+    after: Sequence[Sequence[Any]],
+    calls: Sequence[Call],
+    truth: Callable[..., Any],
+    near: float,
+) -> str:
+    """Return that answers do not grow with an argument as the right ones do, or "".
+
+    Args:
+        asked: from `doublings`.
+        before: the function's answers without.
+        after: per experiment its answers.
+        calls: the arguments of each without.
+        truth, near: as in `conclude`.
+    """
+    base = [_or_none(truth, call) for call in calls]
+    for one, given in zip(asked, after, strict=True):
+        right = [_or_none(truth, call) for call in one.calls]
+        if any(answer is None for answer in right):
+            continue
+        mine, its = growth(before, given, near), growth(base, right, near)
+        if mine is None or (its is not None and np.isclose(mine, its, rtol=1e-3)):
+            continue
+        if np.isclose(mine, 1.0, rtol=near):
+            return f"With {one.says} doubled, your answer stays the same; it must not."
+        if its is not None:
+            says = f"With {one.says} doubled, your answer becomes {say_factor(mine)}"
+            return f"{says} times what it was; the right one {say_factor(its)} times."
+    return ""
 
 
 def conclude(

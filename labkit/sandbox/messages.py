@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, Path, Question, Reply
+from labkit.base.exchange import MOST, NUMBERS, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.sandbox.inside import wire
@@ -81,20 +81,28 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
         elif isinstance(arg, int | float):
             packed[key] = {"number": arg}
     plain = {key: arg for key, arg in args.items() if key not in packed}
-    packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    try:
+        packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
+    except wire.UnsendableError as error:
+        asked = ", ".join(sorted({one.function for one in questions}))
+        raise Robo47Error(f"a question to {asked} holds {error}") from None
     return [
         {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
         for one in questions
     ]
 
 
-def read(came: Sequence[dict[str, Any]]) -> list[Reply]:
+def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
     """Return messages as replies, believing nothing in them.
+
+    Args:
+        came: as they came.
+        most: numbers in an answer.
 
     Returns:
         One per message, up to the first that somebody forged.
     """
-    values = wire.unpack_values([message.get("value") for message in came])
+    values = wire.unpack_values([message.get("value") for message in came], most)
     found: list[Reply] = []
     with contextlib.suppress(Exception):  # a forged message can be anything
         for message, value in zip(came, values, strict=False):
@@ -107,7 +115,8 @@ def _copy_of(robot: Robot | mujoco.MjModel) -> dict[str, Any]:
     """Return a robot as it travels; only an unchanged one is what `load` returns."""
     if isinstance(robot, mujoco.MjModel):
         return copy_model(robot)
-    return copy_model(robot.model, "" if robot.change else robot.entry)
+    known = isinstance(robot.entry, str) and not robot.change
+    return copy_model(robot.model, str(robot.entry) if known else "")
 
 
 def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:

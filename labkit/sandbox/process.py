@@ -8,7 +8,7 @@ import secrets
 import subprocess
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -19,9 +19,10 @@ from labkit.sandbox.wall import command, wall
 from robo47.errors import FaultError
 
 START_SECONDS, LOAD_SECONDS = 60.0, 10.0
-RESIDENT_BYTES = 1024**3
-MODEST = RESIDENT_BYTES // 2  # who holds more is why the machine's memory ran out
+GB = 1024**3
+MODEST = 0.5  # who holds more of its share is why the machine's memory ran out
 LONGEST_LINE, MOST_WAITING = 2_000_000, 16  # bytes of a reply, replies unread
+PER_NUMBER = 11  # bytes: eight, as text
 MOST_BYTES = 50_000_000  # of all replies to what is asked at once
 POLL_SECONDS = 0.05
 ENDLESS = "it runs on and on, as a loop without an end does"
@@ -33,16 +34,20 @@ _starter = ThreadPoolExecutor(1, thread_name_prefix="robo47-start")
 class Process:
     """One interpreter; it has no folder of its own, everything comes by a pipe."""
 
-    def __init__(self) -> None:
+    def __init__(self, extras: Sequence[str] = ()) -> None:
         """Start it; it gets ready while the caller prepares a request.
+
+        Args:
+            extras: packages that student code may import, pinned.
 
         Raises:
             FaultError: this machine starts no process now.
         """
-        self.wall = wall()
+        self.wall, self.extras = wall(), tuple(extras)
         self.secret = b""
         self.answers = 0
         self._room = MOST_BYTES
+        self.memory, self.longest = 1.0, LONGEST_LINE  # GB, bytes
         self.killed = False  # ended by a signal of somebody's
         self._oom_kills = processes.oom_kills()
         self._most = 0  # bytes of memory it was seen with
@@ -56,7 +61,7 @@ class Process:
             for run in (self._read, self._write)
         ]
         try:
-            self.process = _starter.submit(_start, command(self.wall)).result()
+            self.process = _starter.submit(_start, command(self.wall, extras)).result()
             for thread in self._threads:
                 thread.start()
         except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
@@ -74,6 +79,8 @@ class Process:
             FaultError: the process does not start, or this machine ended it.
         """
         self.secret = secrets.token_hex(16).encode("ascii")
+        self.memory = request["memory"]
+        self.longest = max(LONGEST_LINE, PER_NUMBER * request["numbers"])
         self._send({**request, "secret": self.secret.decode("ascii")})
         try:
             ready = self._message(START_SECONDS)
@@ -92,7 +99,7 @@ class Process:
 
     def ask(self, calls: Iterable[dict[str, Any]]) -> None:
         """Send questions; `next` returns what came of each."""
-        self._room = MOST_BYTES
+        self._room = max(MOST_BYTES, MOST_WAITING * self.longest)
         for call in calls:
             self._send(call)
 
@@ -136,8 +143,9 @@ class Process:
                 break
             except queue.Empty:
                 self._most = max(self._most, processes.resident_bytes(self.process))
-                if self._most > RESIDENT_BYTES:
-                    raise EndedError("it used more than 1 GB of memory") from None
+                if self._most > self.memory * GB:
+                    says = f"it used more than {self.memory:g} GB of memory"
+                    raise EndedError(says) from None
                 now = time.monotonic()
                 deadline += self._others(now - looked)
                 if now > deadline and self._in.empty():  # it can be us who were late
@@ -170,7 +178,7 @@ class Process:
             return "it closed the checker's own channel"
         self.killed = processes.was_killed(self.process)
         if self.killed and processes.oom_kills() > self._oom_kills:
-            if self._most < MODEST:
+            if self._most < MODEST * self.memory * GB:
                 raise _fault("ran out of memory and ended the checker's process")
             return "it used more memory than this machine has"
         return f"it ended Python (exit code {code})"
@@ -193,7 +201,7 @@ class Process:
         assert stream is not None
         with stream:
             with contextlib.suppress(OSError):
-                for line in iter(lambda: stream.readline(LONGEST_LINE), b""):
+                for line in iter(lambda: stream.readline(self.longest), b""):
                     self._deliver(line)
             self._deliver(None)
 

@@ -23,6 +23,7 @@ from labkit.base.exchange import (
     CHANNEL,
     EndedError,
     Exchange,
+    Limits,
     LoadError,
     Question,
     Reply,
@@ -67,6 +68,7 @@ class Sandbox:
         library: Mapping[str, str] | None = None,
         needs: Mapping[str, Iterable[str]] | None = None,
         added: str = "",
+        limits: Limits | None = None,
     ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
@@ -79,6 +81,7 @@ class Sandbox:
             needs: the tasks that each task builds on. What builds on a task that was
                 stopped is not asked: its replies are of the kind "waits".
             added: code of the kit's, as if it stood at the end of the file.
+            limits: what it may take.
 
         Raises:
             LoadError: the file does not load.
@@ -86,17 +89,20 @@ class Sandbox:
             Robo47Error: there is no such file, or it is no script.
         """
         robots = messages.robots_of([exchange.question for exchange in exchanges])
+        limits = limits or Limits()
+        more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
         request = messages.request(
-            script, robots, library, added, keep=True, cpu_seconds=CPU_SECONDS
-        )
-        deadline, killed = time.monotonic() + RUN_SECONDS, False
+            script, robots, library, added, keep=True, cpu_seconds=CPU_SECONDS + more,
+            memory=limits.memory, numbers=limits.numbers,
+        )  # fmt: skip
+        deadline, killed = time.monotonic() + RUN_SECONDS + more, False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
-            rounds = _Rounds(left, deadline)
+            rounds = _Rounds(left, deadline, limits)
             if time.monotonic() > deadline:
                 for exchange in left:
                     exchange.reply = stopped(TOO_LONG)
                 break
-            with contextlib.closing(self._take()) as process:
+            with contextlib.closing(self._take(limits.extras)) as process:
                 try:
                     process.load(request)
                     rounds.ask(process, robots)
@@ -115,36 +121,46 @@ class Sandbox:
         robots: Robots = (),
         library: Mapping[str, str] | None = None,
         added: str = "",
+        limits: Limits | None = None,
     ) -> "Session":
         """Return the student's file, loaded, for many rounds of questions.
 
         Args:
             script: the file.
             robots: those that questions will hold.
-            library, added: see `run`.
+            library, added, limits: see `run`.
 
         Raises:
             LoadError: the file does not load.
             Robo47Error: there is no such file, it is no script, or no process starts.
         """
+        limits = limits or Limits()
         request = messages.request(
-            script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS
-        )
-        process = self._take()
+            script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
+            memory=limits.memory, numbers=limits.numbers,
+        )  # fmt: skip
+        process = self._take(limits.extras)
         try:
             process.load(request)
         except BaseException:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        self._sessions = [*alive, Session(process, robots)]
+        self._sessions = [*alive, Session(process, robots, limits)]
         with contextlib.suppress(FaultError):  # a spare, for the next save
-            self._warm = Process()
+            self._warm = self._new(limits.extras)
         return self._sessions[-1]
 
-    def _take(self) -> Process:
-        process, self._warm = self._warm or Process(), None
-        return process
+    def _take(self, extras: tuple[str, ...]) -> Process:
+        """Return the warm process, or a new one where that lacks what is asked for."""
+        process, self._warm = self._warm, None
+        if process and extras and process.extras != extras:
+            process.close()
+            process = None
+        return process or self._new(extras)
+
+    def _new(self, extras: tuple[str, ...]) -> Process:
+        return Process(extras) if extras else Process()
 
 
 class Session:
@@ -153,9 +169,9 @@ class Session:
     A page asks it many times a second.
     """
 
-    def __init__(self, process: Process, robots: Robots) -> None:
+    def __init__(self, process: Process, robots: Robots, limits: Limits) -> None:
         """Take a process that has loaded the file, and the robots it was given."""
-        self._process, self._robots = process, robots
+        self._process, self._robots, self._limits = process, robots, limits
         self._ended: Reply | None = None
 
     @property
@@ -183,7 +199,7 @@ class Session:
                 came.append(self._process.next(seconds))
             except (EndedError, FaultError) as error:
                 self._end(str(error))
-        replies = messages.read(came)
+        replies = messages.read(came, self._limits.numbers)
         if len(replies) < len(came):
             self._end(CHANNEL)
         missing = len(questions) - len(replies)
@@ -202,12 +218,16 @@ class Session:
 class _Rounds:
     """Questions asked in order, then in reverse order of the file loaded anew."""
 
-    def __init__(self, left: list[Exchange], deadline: float) -> None:
-        self.left, self.deadline = left, deadline
+    def __init__(self, left: list[Exchange], deadline: float, limits: Limits) -> None:
+        self.left, self.deadline, self.numbers = left, deadline, limits.numbers
         self.first: dict[Exchange, Reply] = {}
         self.second: dict[Exchange, Reply] = {}
         self.ended: tuple[Exchange, Reply] | None = None  # where, and why
+        self.call: defaultdict[str, float] = defaultdict(lambda: CALL_SECONDS)
         self.spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
+        for task, seconds in limits.seconds.items():
+            if seconds > TASK_SECONDS:
+                self.call[task], self.spare[task] = seconds / 3.0, seconds
 
     def ask(self, process: Process, robots: Robots) -> None:
         """Ask all of them in both rounds, or until the process ends."""
@@ -229,13 +249,13 @@ class _Rounds:
             started, waited = time.monotonic(), process.waited
             left = self.deadline + waited - started
             try:
-                came.append(process.next(min(CALL_SECONDS, self.spare[task], left)))
+                came.append(process.next(min(self.call[task], self.spare[task], left)))
             except EndedError as error:
                 late = time.monotonic() > self.deadline + process.waited
                 self.ended = exchange, stopped(TOO_LONG) if late else error.reply
                 break
             self.spare[task] -= time.monotonic() - started - (process.waited - waited)
-        found = messages.read(came)
+        found = messages.read(came, self.numbers)
         into.update(zip(asked, found, strict=False))
         if len(found) < len(came):
             self.ended = asked[len(found)], stopped(CHANNEL)

@@ -33,9 +33,11 @@ MOST = 50  # walkers of one target
 DRAWN = 1000  # random configurations that the nearest ones are chosen from
 ROUNDS = 20
 FEW = 16  # targets that are walked to one by one: more of them share their calls better
-TRIES = 6  # starts of each of those before they go on together
-# Patient from the caller's start, impatient from a random one.
-FIRST, AGAIN = Patience(60, 5, 0.9), Patience(30, 3, 0.5)
+TRIES = 16  # starts of each of those before they go on together
+# Patient from the caller's start, impatient from a random one; with less damping a
+# walker takes fewer steps, but ends farther from a target that is out of reach.
+FIRST, AGAIN = Patience(60, 5, 0.9, 0.5), Patience(30, 3, 0.5, 0.5)
+BOLD = AGAIN._replace(damping=0.1)
 
 
 @dataclass(frozen=True)
@@ -149,7 +151,7 @@ def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
             continue
         drawn = _pool(S.tobytes(), M.tobytes(), low.tobytes(), high.tobytes())
         for q in _nearest(problem, np.array([i]), TRIES, *drawn).T.tolist():
-            found, off = walker.walk(q, AGAIN)
+            found, off = walker.walk(q, BOLD)
             if off < miss[i]:
                 best[:, i], miss[i] = found, off
             if off <= STOP**2:
@@ -164,7 +166,7 @@ def _walk(
 
     Walkers end when one of them reaches their common target, or they no longer gain.
     """
-    steps, every, enough = patience
+    steps, every, enough, damping = patience
     best, miss = q.copy(), np.full(q.shape[1], np.inf)
     before, walker = np.full(q.shape[1], np.inf), np.arange(q.shape[1])
     solved = np.zeros(problem.goals.shape[-1], dtype=bool)
@@ -183,7 +185,7 @@ def _walk(
             q, J, e, ee = q[:, on], J[..., on], e[:, on], ee[on]
         if not len(walker):
             break
-        q = _step(problem, q, J, e, 0.5 * ee + FLOOR)
+        q = _step(problem, q, J, e, damping * ee + FLOOR)
     return best, miss
 
 

@@ -23,17 +23,19 @@ EYE = np.eye(6)
 
 
 class Patience(NamedTuple):
-    """When a walker gives up: where too much of its squared error is left.
+    """How a walker goes, and when it gives up.
 
     Attributes:
         steps: at most.
-        every: how many steps lie between two looks at the gain.
-        enough: what must be left, as a share, for the walker to go on.
+        every: how many steps lie between two looks at the squared error.
+        enough: where a larger share than this of it is left, the walker gives up.
+        damping: the squared damping as a share of the squared error.
     """
 
     steps: int
     every: int
     enough: float
+    damping: float
 
 
 class Walker:
@@ -58,7 +60,7 @@ class Walker:
                 if ee >= patience.enough * before:
                     break
                 before = ee
-            q = self._step(q, np.array(J), np.array(e), 0.5 * ee + FLOOR)
+            q = self._step(q, np.array(J), np.array(e), patience.damping * ee + FLOOR)
         return best, miss
 
     def _downhill(self, q: list[float]) -> tuple[list[Floats], Floats]:

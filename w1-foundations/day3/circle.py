@@ -3,7 +3,7 @@
 The slider turns the radius. With 0.36 m both arms draw the same circle; the top of one
 of 0.38 m is out of reach, and there the plain pseudo-inverse asks for more speed than
 there is.
-Both arms are the library's, and so are the numbers; step 5 of the lab draws yours.
+Both go by the student's own `pose_error` and `dls_step`.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, kinematics, panda, verify
+from robo47 import jacobian, panda, verify
 from robo47.arm import Arm
 from robo47.checks import Array
 
@@ -35,25 +35,18 @@ class Pen:
             damping: of every step; 0 is the plain pseudo-inverse.
         """
         self.arm, self.q, self.damping = arm, q, damping
-        self.path = [arm.at(q).T_world_ee[:3, 3]]
+        self.now = arm.at(q)
+        self.path = [self.now.T_world_ee[:3, 3]]
         self.off, self.rate = [0.0], [0.0]
 
-    def step(self, T_now: Array, T_next: Array) -> None:
-        """Go on by DT towards the circle's next pose.
-
-        Args:
-            T_now: where the hand should be, (4, 4).
-            T_next: where it should be DT later, (4, 4).
-        """
-        now = self.arm.at(self.q)
-        T = now.T_world_ee
-        wanted = jacobian.pose_error(T_now, T_next) / DT
-        wanted += GAIN * jacobian.pose_error(T, T_now)
-        q_dot = jacobian.dls_step(now.J_site, wanted, self.damping)
-        self.off.append(1000 * float(np.linalg.norm(T_now[:3, 3] - T[:3, 3])))
+    def go(self, q_dot: Array, T_goal: Array) -> None:
+        """Go on by DT, having been where T_goal should be, (4, 4)."""
+        p = self.now.T_world_ee[:3, 3]
+        self.off.append(1000 * float(np.linalg.norm(T_goal[:3, 3] - p)))
         self.rate.append(float((np.abs(q_dot) / SPEED).max()))
         self.q = self.q + DT * q_dot
-        self.path.append(self.arm.at(self.q).T_world_ee[:3, 3])
+        self.now = self.arm.at(self.q)
+        self.path.append(self.now.T_world_ee[:3, 3])
 
 
 class Circle(Tab):
@@ -61,25 +54,26 @@ class Circle(Tab):
 
     title = "Circle"
     wide = True
+    camera = ((2.1, -0.9, 0.75), (0.2, 0.35, 0.5))
 
     def __init__(self, page: Page) -> None:
         """Draw the circle and both arms at its start; nothing runs yet."""
         super().__init__(page)
         self.arm = panda.arm(page.model)
         self.limits = page.model.jnt_range[:7]
-        says = "Both arms are robo47.jacobian's: blue is damped, red is not."
-        page.html(words.line(says, "library"))
+        self.own = page.own(jacobian)
         page.slider("radius", 0.3, 0.4, RADIUS, self.turn, unit="m", step=0.005)
         page.buttons([DRAW, AGAIN], self.press)
         self.numbers = page.html()
         title = "fastest joint so far, in parts of its limit"
-        self.bars = page.bars(NAMES, 1.0, "", title)
-        self.loop = page.animate(self.step, 1 / DT)
+        self.bars = page.bars(NAMES, 1.0, "", title, "up")
+        self.loop = page.animate(self.step, 1 / DT, work=self.draw)
+        page.hide_arm()
+        page.legend({"damped": "blue", "without damping": "red", "the circle": "grey"})
         self.ghosts = [page.draw.ghost(colour) for colour in ("blue", "red")]
         start = np.zeros((2, 3))
         self.goal = page.draw.curve(start, "grey", 2.0)
         self.lines = [page.draw.curve(start, colour) for colour in ("blue", "red")]
-        page.light("ee", set())
         self.turn(RADIUS)
 
     def turn(self, radius: float) -> None:
@@ -87,6 +81,7 @@ class Circle(Tab):
         self.loop.stop()
         self.radius, self.steps = radius, 0
         arm = (self.arm.screws, self.arm.M_home)
+        # the start is the library's
         self.circle, q = verify.circle(arm, self.limits, radius, TIMES)
         self.pens = [Pen(self.arm, q, damping) for damping in (DAMPING, 0.0)]
         points = self.circle[:, :3, 3]
@@ -101,21 +96,31 @@ class Circle(Tab):
             (self.loop.stop if self.loop.running else self.loop.start)()
 
     def step(self, seconds: float) -> bool:
-        """Go on by DT; after a lap there is no more."""
-        self.draw()
+        """Show both arms; after a lap there is no more."""
         self.show()
         return self.steps < len(TIMES) - 1
 
-    def draw(self) -> None:
-        """Move both arms by DT."""
-        for pen in self.pens:
-            pen.step(*self.circle[self.steps : self.steps + 2])
+    def draw(self, seconds: float = 0.0) -> None:
+        """Move both arms by DT, by the student's own functions."""
+        pens = self.pens
+        T_now, T_next = self.circle[self.steps : self.steps + 2]
+        along, *back = self.own.many(
+            ("pose_error", T_now, T_next),
+            *(("pose_error", pen.now.T_world_ee, T_now) for pen in pens),
+        )
+        wanted = [along / DT + GAIN * e for e in back]
+        steps = self.own.many(*(
+            ("dls_step", pen.now.J_site, e, pen.damping)
+            for pen, e in zip(pens, wanted, strict=True)
+        ))  # fmt: skip
+        for pen, q_dot in zip(pens, steps, strict=True):
+            pen.go(q_dot, T_now)
         self.steps += 1
 
     def show(self) -> None:
         """Draw both arms and their lines, and say how far off each has been."""
         for pen, ghost, line in zip(self.pens, self.ghosts, self.lines, strict=True):
-            ghost.pose(_links(self.page, pen.q))
+            ghost.pose(self.page.links(pen.q))
             line.points = _segments([*pen.path[:1], *pen.path])
         self.bars.show([max(pen.rate) for pen in self.pens])
         told = "; ".join(
@@ -129,14 +134,3 @@ class Circle(Tab):
 def _segments(points: list[Array]) -> Array:
     p = np.array(points, dtype=np.float32)
     return np.stack([p[:-1], p[1:]], axis=1)
-
-
-def _links(page: Page, q: Array) -> dict[str, Array]:
-    whole = page.q
-    whole[:7] = q
-    poses = kinematics.fk_all(page.model, whole)
-    return {
-        name.removeprefix("body:"): T
-        for name, T in poses.items()
-        if name.startswith("body:link")
-    }

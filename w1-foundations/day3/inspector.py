@@ -1,19 +1,17 @@
 """Day 3 in the inspector: the tab Jacobian; the tab Circle is in `circle.py`.
 
-The columns of J_site stand as arrows at the hand, the manipulability ellipsoid around
-it, and the singular values as bars: the smallest turns red near a singularity. A target
-can be dragged, and the arm follows by inverse kinematics; a slider swings the elbow
-while the hand stands still.
+The columns of the student's own J stand as arrows at the hand, the library's as thin
+lines; a column that differs is red. A target can be dragged, and the student's own
+`solve_ik` puts a second arm there; a slider swings the elbow by their own `null_step`.
 """
 
 import numpy as np
 
-from labkit.base.exchange import Reply
 from labkit.inspector import words
 from labkit.inspector.arm import END
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, panda, screws, verify
+from robo47 import jacobian, panda, screws
 from robo47.checks import Array
 
 from .circle import Circle
@@ -21,8 +19,9 @@ from .circle import Circle
 JOINTS = 7
 NEAR_SINGULAR = 0.05  # the smallest singular value that is shown in red below
 COLUMN, BALL = 0.35, 0.2  # metres drawn for 1 m/s per rad/s
-STEPS, CORRECTIONS = 8, 3  # damped steps per drag; corrections per move of the elbow
-DAMPING, MOST = 0.02, 0.25  # of a step; radians that the elbow's slider goes at once
+SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
+REACHED = 1e-3  # radians and metres together
+PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
 
 class Jacobian(Tab):
@@ -30,115 +29,138 @@ class Jacobian(Tab):
 
     title = "Jacobian"
     wide = True
+    camera = ((1.5, -1.3, 0.95), (0.5, 0.22, 0.5))
 
     def __init__(self, page: Page) -> None:
         """Draw the columns at the hand and a target where the hand is."""
         super().__init__(page)
         self.S, self.M = panda.screws(page.model), panda.home_pose(page.model)
         self.limits = page.model.jnt_range[:JOINTS]
-        self.elbow = page.slider("elbow", -2.0, 2.0, 0.0, self.swing)
+        self.own = page.own(jacobian, free=("solve_ik",))
+        self.elbow = page.slider("swing the elbow", -2.0, 2.0, 0.0, self.swing)
         self.at = 0.0  # where the slider was
-        self.bars = page.bars(
-            [f"sigma {i}" for i in range(1, 7)], 2.0, "", "singular values of J_site"
-        )
-        self.least, self.numbers, self.own = page.html(), page.html(), page.html()
-        zeros = np.zeros((JOINTS, 2, 3))
-        self.columns = page.draw.arrows(zeros, "orange")
-        self.names = [page.draw.label(f"J{i + 1}", np.zeros(3)) for i in range(JOINTS)]
-        self.ball = page.draw.ellipsoid("purple")
         page.tick("drag a target", self.drag)
+        self.numbers = page.html()
+        names = [f"sigma {i}" for i in range(1, JOINTS)]
+        title = "singular values of J_site (rad/s and m/s per rad/s)"
+        self.bars = page.bars(names, 2.5, "", title, "scale")
+        self.least = page.html()
+        zeros = np.zeros((JOINTS, 2, 3))
+        self.truth = page.draw.lines(zeros, "black", 1.5)
+        self.columns = page.draw.arrows(zeros, "purple")
+        self.wrong = page.draw.arrows(zeros, "red", 0.008)
+        self.names = page.draw.labels([f"J{i + 1}" for i in range(JOINTS)])
+        self.ball = page.draw.ellipsoid("grey", 0.25)
+        self.ghost = page.draw.ghost("orange")
         self.target = page.draw.target(page.pose(END), self.follow)
-        self.target.handle.visible = False
+        self.target.handle.visible = self.shown = False
         page.light(END, {END})
-        self.on_move(page.q)
+        page.legend({
+            "column of J: v of the hand": "purple", "YOURS, wrong": "red",
+            "the library's": "black", "how fast it can go": "grey",
+            "your solve_ik": "orange",
+        })  # fmt: skip
+
+    def on_move(self, q: Array) -> None:
+        """Ask for the columns in the configuration."""
+        if self.shown:
+            self.follow(self.target.T)
+        else:
+            self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
+
+    def ask(self, q: Array) -> tuple[Array, Array, Array]:
+        """Return the hand's place, the student's J_site and the library's."""
+        p = screws.fk_space(self.S, self.M, q)[:3, 3]
+        J = self.own.site_jacobian(self.own.space_jacobian(self.S, q), p)
+        return p, J, self.J_site(q)
 
     def J_site(self, q: Array) -> Array:
         """Return the library's J_site of the hand's origin, (6, 7)."""
         p = screws.fk_space(self.S, self.M, q)[:3, 3]
         return jacobian.site_jacobian(jacobian.space_jacobian(self.S, q), p)
 
-    def on_move(self, q: Array) -> None:
-        """Show columns, ellipsoid and singular values of the configuration."""
-        q = q[:JOINTS]
-        T, J = screws.fk_space(self.S, self.M, q), self.J_site(q)
-        p = T[:3, 3]
-        ends = p + COLUMN * J[3:].T
-        self.columns.points = np.stack(
-            [np.broadcast_to(p, ends.shape), ends], axis=1
-        ).astype(np.float32)
-        for label, end in zip(self.names, ends, strict=True):
-            label.position = end
+    def show(self, found: tuple[Array, Array, Array]) -> None:
+        """Show columns, ellipsoid and singular values."""
+        p, J, right = found
+        off = np.abs(J - right).max(axis=0) > SAME
+        arrows = _arrows(p, J)
+        long = np.linalg.norm(arrows[:, 1] - p, axis=1) > SHORT
+        for drawn, some in ((self.columns, long & ~off), (self.wrong, long & off)):
+            drawn.visible = bool(some.any())
+            if some.any():
+                drawn.points = arrows[some]
+        self.truth.points = _arrows(p, right)
+        self.names.show(arrows[:, 1] + 0.03 * (arrows[:, 1] - p))
         self.ball.show(J[3:] @ J[3:].T, p, BALL)
         sigma = np.linalg.svd(J, compute_uv=False)
-        self.bars.show(sigma)
+        self.bars.show(sigma, np.linalg.svd(right, compute_uv=False))
         kind = "bad" if sigma[-1] < NEAR_SINGULAR else "good"
         w = jacobian.manipulability(J)
-        says = f"smallest singular value {sigma[-1]:.4f}; manipulability {w:.4f}"
+        says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
         self.least.content = words.line(says, "sigma", kind)
-        self._compare(q, J)
 
-    def _compare(self, q: Array, J: Array) -> None:
-        """Say how J q_dot compares with MuJoCo's, and ask for the student's."""
-        whole = self.page.q
-        whole[:JOINTS] = q
-        if self.page.model.nq == JOINTS:
-            off = np.abs(J - verify.mujoco_site_jacobian(self.page.model, whole)).max()
-            says = f"robo47.jacobian differs from mj_jacSite by {off:.1e}"
-            self.numbers.content = words.line(says, "mujoco")
-        self.page.ask("space_jacobian", (self.S, q.copy()), self._students)
-
-    def _students(self, reply: Reply) -> None:
-        """Say how the student's space_jacobian compares with the library's."""
-        value = reply.value
-        if (
-            reply.kind
-            or not isinstance(value, np.ndarray)
-            or value.shape != (6, JOINTS)
-        ):
-            says, kind = "YOUR space_jacobian: nothing to show yet", "quiet"
-        else:
-            right = jacobian.space_jacobian(self.S, self.page.q[:JOINTS])
-            off = float(np.abs(value - right).max())
-            says = f"YOUR space_jacobian differs from the library's by {off:.1e}"
-            kind = "good" if off < 1e-8 else "bad"
-        self.own.content = words.line(says, "own", kind)
+    def lost(self) -> None:
+        """Show no columns, and no second arm."""
+        self.columns.visible = self.wrong.visible = self.ball.ball.visible = False
+        self.bars.clear()
+        self.least.content = self.numbers.content = ""
+        self.ghost.pose({})
 
     def drag(self, shown: bool) -> None:
         """Show the target where the hand is, or hide it."""
         self.target.place(self.page.pose(END))
-        self.target.handle.visible = shown
+        self.target.handle.visible = self.shown = shown
+        self.ghost.pose({})
+        self.numbers.content = ""
 
     def follow(self, T_goal: Array) -> None:
-        """Take some damped steps towards the target, within the limits."""
-        q = self.page.q
-        for _ in range(STEPS):
-            q[:JOINTS] = self._corrected(q[:JOINTS], T_goal)
-        left = jacobian.pose_error(screws.fk_space(self.S, self.M, q[:JOINTS]), T_goal)
+        """Have the student's own solve_ik take the second arm to the target."""
+        q0 = np.clip(self.page.q[:JOINTS], *self.limits.T)
+        self.page.job(
+            lambda: self.own.solve_ik(self.S, self.M, T_goal, q0, self.limits),
+            lambda q: self.stand(q, T_goal),
+        )
+
+    def stand(self, q: Array, T_goal: Array) -> None:
+        """Draw the second arm at q, (7,), and say how far its hand is off."""
+        self.ghost.pose(self.page.links(q))
+        left = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
         mm, rad = 1000 * np.linalg.norm(left[3:]), np.linalg.norm(left[:3])
-        self.page.say(f"{mm:.1f} mm and {rad:.3f} rad short of the target")
-        self.page.move(q)
+        out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))
+        kind = "good" if np.linalg.norm(left) < REACHED and not out else "bad"
+        says = f"the hand is {mm:.2f} mm and {rad:.4f} rad short of the target"
+        says += "; OUT OF LIMITS" if out else ""
+        self.numbers.content = words.line(says, "reached", kind)
 
     def swing(self, value: float) -> None:
-        """Swing the elbow by what the slider has moved; the hand stays."""
+        """Swing the elbow by what the slider has moved; the hand should stay."""
+        self.page.job(lambda: self.swung(self.page.q, value), self.moved)
+
+    def swung(self, q: Array, value: float) -> tuple[Array, float]:
+        """Return the configuration after some null steps, and the hand's way in mm."""
         by, self.at = float(np.clip(value - self.at, -MOST, MOST)), value
-        q = self.page.q
-        T = screws.fk_space(self.S, self.M, q[:JOINTS])
-        for _ in range(10):
-            along = jacobian.null_step(self.J_site(q[:JOINTS]), np.eye(JOINTS)[2])
+        before = screws.fk_space(self.S, self.M, q[:JOINTS])[:3, 3]
+        for _ in range(PART):
+            along = self.own.null_step(self.J_site(q[:JOINTS]), np.eye(JOINTS)[2])
             size = np.linalg.norm(along)
             if size > 1e-6:
-                q[:JOINTS] += 0.1 * by * along / size
-        for _ in range(CORRECTIONS):
-            q[:JOINTS] = self._corrected(q[:JOINTS], T)
-        left = jacobian.pose_error(screws.fk_space(self.S, self.M, q[:JOINTS]), T)
-        self.page.say(f"the hand has moved by {1000 * np.linalg.norm(left[3:]):.3f} mm")
+                q[:JOINTS] += by / PART * along / size
+        after = screws.fk_space(self.S, self.M, q[:JOINTS])[:3, 3]
+        return q, 1000 * float(np.linalg.norm(after - before))
+
+    def moved(self, found: tuple[Array, float]) -> None:
+        """Move the arm, and say what the hand did meanwhile."""
+        q, mm = found
+        kind = "good" if mm < 2.0 else "bad"
+        says = f"the elbow swings, the hand has moved by {mm:.2f} mm"
+        self.numbers.content = words.line(says, "swung", kind)
         self.page.move(q)
 
-    def _corrected(self, q: Array, T_goal: Array) -> Array:
-        e = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
-        damping = float(np.sqrt(e @ e / 2) + DAMPING * min(1.0, np.linalg.norm(e)))
-        step = jacobian.dls_step(self.J_site(q), e, max(damping, 1e-6))
-        return np.clip(q + step, *self.limits.T)
+
+def _arrows(p: Array, J: Array) -> Array:
+    """Return the columns' velocities as arrows at p, (7, 2, 3)."""
+    ends = p + COLUMN * J[3:].T
+    return np.stack([np.broadcast_to(p, ends.shape), ends], axis=1).astype(np.float32)
 
 
 TABS = [Jacobian, Circle]

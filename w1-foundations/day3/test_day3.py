@@ -3,7 +3,6 @@
 import importlib.util
 import json
 import re
-from unittest.mock import MagicMock
 
 import mujoco
 import numpy as np
@@ -13,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from conftest import ROOT, load_script, need
-from labkit.base.exchange import Reply
+from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
@@ -442,56 +440,68 @@ def test_the_elbow_swings_while_the_hand_stands(arm):
 # --- the inspector's tab, without a browser ---
 
 
-@pytest.fixture
-def tab():
+def tab_with(functions=None, name="Jacobian"):
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
-    inspector = folder.load(DAY, "inspector")
-    page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
-    page.draw.curve.side_effect = lambda *_: MagicMock()
-    page.html.side_effect = lambda *text: MagicMock()
-    S, M, _ = ARM
-    page.pose.return_value = screws.fk_space(S, M, panda.READY_Q)
-    return inspector.Jacobian(page)
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return getattr(folder.load(DAY, "inspector"), name)(page)
 
 
-def test_the_tab_shows_the_columns_at_the_hand(tab):
+def test_the_tab_shows_ones_own_columns_and_the_wrong_ones_in_red():
     S, M, _ = ARM
     J = own_jacobians((S, M), panda.READY_Q[None])["J_site"][0]
+    tab = tab_with(vars(lab))
+    tab.on_move(panda.READY_Q)
     arrows = tab.columns.points[:, 1] - tab.columns.points[:, 0]
-    assert_same(arrows / 0.35, J[3:].T, 1e-5)
+    assert_same(arrows / 0.35, J[3:, :6].T, 1e-5)  # joint7 turns about the hand
     assert "sigma" in tab.least.content
+    assert "the same as the library's" in tab.own.says()[0]
+    tab = tab_with({**vars(lab), "site_jacobian": sign_of_v})
+    tab.on_move(panda.READY_Q)
+    red = tab.wrong.points[:, 1] - tab.wrong.points[:, 0]
+    assert len(red) >= 6
+    says, kind = tab.own.says()
+    assert kind == "bad"
+    assert "site_jacobian by" in says
+    assert "space_jacobian by" not in says
 
 
-def test_a_dragged_target_is_reached_and_a_moved_elbow_leaves_the_hand(tab):
+def sign_of_v(J_space, p):
+    J = J_space.copy()
+    J[3:] += screws.skew(p) @ J[:3]
+    return J
+
+
+def test_a_dragged_target_is_reached_and_a_swung_elbow_leaves_the_hand():
     S, M, limits = ARM
-    T = screws.fk_space(S, M, panda.READY_Q)
-    goal = T.copy()
+    goal = screws.fk_space(S, M, panda.READY_Q)
     goal[:3, 3] += [0.02, 0.03, -0.01]
+    tab = tab_with(vars(lab))
     tab.follow(goal)
-    q = tab.page.move.call_args.args[0]
-    assert np.linalg.norm(jacobian.pose_error(screws.fk_space(S, M, q), goal)) < 1e-3
-    tab.page.q = panda.READY_Q.copy()
+    assert "0.00 mm and 0.0000 rad short" in tab.numbers.content
+    assert tab.ghost.pose.called
     tab.swing(0.2)
     q = tab.page.move.call_args.args[0]
-    assert np.linalg.norm(jacobian.pose_error(screws.fk_space(S, M, q), T)) < 1e-4
     assert np.abs(q - panda.READY_Q).max() > 0.05
+    assert "good" in tab.numbers.content
     assert verify.beyond(limits, q) == 0.0
+    tab = tab_with({**vars(lab), "null_step": lambda J, dq: dq})
+    tab.swing(0.2)
+    assert "bad" in tab.numbers.content
 
 
-def test_the_tab_compares_the_students_jacobian_by_value(tab):
-    right = lab.space_jacobian(ARM[0], panda.READY_Q)
-    tab._students(Reply(value=right))
-    assert "good" in tab.own.content
-    tab._students(Reply(value=right + 0.1))
-    assert "bad" in tab.own.content
-    tab._students(Reply(kind="missing"))
-    assert "nothing to show" in tab.own.content
+def test_without_a_file_the_library_is_at_work_and_is_called_that():
+    tab = tab_with()
+    tab.on_move(panda.READY_Q)
+    says, kind = tab.own.says()
+    assert kind == "quiet"
+    theirs = "the library's space_jacobian, site_jacobian (there is no file yet)"
+    assert theirs in says
 
 
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
-def test_the_circles_tab_draws_what_the_lab_draws(tab, radius):
-    shown = folder.load(DAY, "circle").Circle(tab.page)
+def test_the_circles_tab_draws_what_the_lab_draws(radius):
+    shown = tab_with(vars(lab), "Circle")
     shown.turn(radius)
     path, q = circle(radius)
     assert_same(shown.pens[0].q, q, 1e-12)

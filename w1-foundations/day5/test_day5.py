@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-from unittest.mock import MagicMock
 
 import mujoco
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from compare import assert_same
 from scipy.integrate import solve_ivp
 
-from conftest import ROOT, load_script, need
+from conftest import ROOT, load_script, need, paper
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from labkit.log import read_rows
@@ -399,15 +398,19 @@ def test_the_motors_limits_are_those_of_the_guide(bench):
 
 @pytest.fixture
 def tab():
-    """Return the tab on a page that only listens."""
+    """Return the tab on a page that only listens; the lab is the student's file."""
+    return tab_of(vars(lab))
+
+
+def tab_of(functions):
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = folder.load(find_day(5), "inspector")
-    page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
-    return inspector.Control(page)
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return folder.load(find_day(5), "inspector").Control(page)
 
 
 def frames(tab, seconds):
     for k in range(round(25 * seconds)):
+        tab.work(k / 25)
         tab.step(k / 25)
     return tab.plot.add.call_args.args
 
@@ -417,17 +420,38 @@ def test_the_tab_shows_the_measured_error_on_the_predicted_one(tab):
     t, (measured, predicted) = frames(tab, 0.16)
     assert t == pytest.approx(0.16)
     assert predicted == pytest.approx(1e2 * lab.error_response(np.array([t]), 20, 1)[0])
-    assert measured == pytest.approx(predicted, abs=2.0)
+    assert measured == pytest.approx(predicted, abs=4.0)
+    assert tab.own.says()[1] == "good"
     tab.choose("springs")
     assert frames(tab, 0.4)[1][0] > 50
 
 
-def test_the_tab_swings_hangs_and_says_where_the_loop_breaks(tab):
+def test_the_tab_swings_hangs_and_integrates(tab):
     tab.press("swing")
-    assert frames(tab, 0.4)[1][0] < 0.5
+    assert frames(tab, 0.4)[1][0] < 1.5
+    assert np.isnan(tab.predicted)  # nobody predicts it
     tab.hang(True)
     assert frames(tab, 0.4)[1][0] > 2.0
-    tab.tune(420.0)
-    assert "over the limit" in tab.page.say.call_args.args[0]
-    tab.tune(400.0)
+    tab.press("0.1 rad off")
+    tab.choose("with an integral (PID)")
+    assert frames(tab, 2.0)[1][0] < 0.2
+
+
+def test_the_tab_says_where_the_loop_breaks_and_that_it_chatters(tab):
+    assert tab.stiffest == pytest.approx(224, abs=1)
+    tab.tune(200)
     assert tab.page.say.call_args.args[0] == ""
+    tab.tune(290)
+    assert "every 4 ms breaks at 224 rad/s" in tab.page.say.call_args.args[0]
+    tab.press("0.1 rad off")
+    frames(tab, 1.0)
+    assert "It CHATTERS: joint" in tab.clock.content
+
+
+def test_the_tab_pushes_away_with_a_wrong_sign():
+    negative = {"pd_torque": lambda *args: -lab.pd_torque(*args)}
+    tab = tab_of({**vars(lab), **negative})
+    tab.choose("springs")
+    tab.press("0.1 rad off")
+    assert frames(tab, 0.4)[1][0] > 300
+    assert "pd_torque by" in tab.own.says()[0]

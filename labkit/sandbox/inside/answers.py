@@ -23,15 +23,19 @@ _roughly: Any = np.may_share_memory
 class Answers:
     """The student's module and the answers that it gave so far."""
 
-    def __init__(self, module: ModuleType, models: list[Any], keep: bool) -> None:
+    def __init__(
+        self, module: ModuleType, models: list[Any], keep: bool, most: int
+    ) -> None:
         """Begin.
 
         Args:
             module: loaded from the student's file.
             models: what makes a fresh copy of each model.
             keep: hold on to every answer, to tell which share their memory.
+            most: numbers in one answer.
         """
         self.module, self.models, self.keep = module, models, keep
+        self.most = most
         self.kept: list[Any] = []
         self.arrays: list[np.ndarray] = []
 
@@ -52,7 +56,7 @@ class Answers:
             return {"missing": True}
         args = [self._argument(packed) for packed in call["args"]]
         value = function(*args)
-        reply = {"value": wire.pack_value(value)}
+        reply = {"value": wire.pack_value(value, self.most)}
         names = _names(function, len(args))
         trio = zip(call["args"], args, names, strict=True)
         reply["changed"] = [name for was, arg, name in trio if _differs(arg, was)]

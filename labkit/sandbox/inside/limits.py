@@ -14,7 +14,7 @@ try:
 except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
-MEMORY = 2 * 1024**3  # bytes of address space; NumPy itself takes some 0.2 GB of it
+GB = 1024**3  # NumPy itself takes some 0.2 of address space
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000  # <linux/sched.h>: CLONE_NEW...
 _PDEATHSIG = 1  # <linux/prctl.h>
 
@@ -40,19 +40,20 @@ def leave_network() -> bool:
         return False
 
 
-def tighten(cpu_seconds: int) -> None:
+def tighten(cpu_seconds: float, memory: float) -> None:
     """Bound memory, processor time and open files; forbid files, processes, threads.
 
     Call it once the imports are done: NumPy may start threads of its own.
 
     Args:
         cpu_seconds: of processor time, for the whole life of the process.
+        memory: GB that it may hold; of address space it gets one more.
     """
     if resource is None:
         return
     wanted = {
-        "RLIMIT_AS": MEMORY,
-        "RLIMIT_CPU": cpu_seconds,
+        "RLIMIT_AS": int((memory + 1.0) * GB),
+        "RLIMIT_CPU": int(cpu_seconds),
         "RLIMIT_FSIZE": 0,  # files in memory (memfd) too
         "RLIMIT_NOFILE": 64,
         "RLIMIT_CORE": 0,

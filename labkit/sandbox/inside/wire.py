@@ -13,14 +13,14 @@ import numpy as np
 # What a student's function may return. Wider than float64, since an array of integers
 # or of 32-bit floats is a mistake (or none) that the judge has words for.
 DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"}
-LARGEST, PARTS = 100_000, 100  # numbers and arrays in one answer; a pose has 16
+LARGEST, PARTS = 3_000_000, 100  # numbers in a question, arrays in an answer
 
 
 class UnsendableError(ValueError):
     """A value that does not travel; its text completes "it returned ..."."""
 
 
-def pack_array(array: np.ndarray) -> dict[str, Any]:
+def pack_array(array: np.ndarray, most: int = LARGEST) -> dict[str, Any]:
     """Return an array of numbers as JSON.
 
     Raises:
@@ -32,7 +32,7 @@ def pack_array(array: np.ndarray) -> dict[str, Any]:
     code = plain.dtype.str[1:]
     if code not in DTYPES:
         raise UnsendableError(f"an array of dtype {plain.dtype}; expected float64")
-    if plain.size > LARGEST:
+    if plain.size > most:
         raise UnsendableError(f"an array of shape {plain.shape}, far too large")
     data = plain.astype("<" + code).tobytes()
     return {
@@ -42,7 +42,7 @@ def pack_array(array: np.ndarray) -> dict[str, Any]:
     }
 
 
-def unpack_array(packed: Any) -> np.ndarray:
+def unpack_array(packed: Any, most: int = LARGEST) -> np.ndarray:
     """Return a writable array from what `pack_array` made, or somebody forged.
 
     Raises:
@@ -57,13 +57,17 @@ def unpack_array(packed: Any) -> np.ndarray:
         raise ValueError(f"not a packed array: {code} {shape}")
     dtype = np.dtype("<" + code)
     size = math.prod(shape)
-    if size > LARGEST or size * dtype.itemsize != len(data):
+    if size > most or size * dtype.itemsize != len(data):
         raise ValueError(f"a packed array of {len(data)} bytes for shape {shape}")
     return np.frombuffer(data, dtype).reshape(shape).astype(dtype.newbyteorder("="))
 
 
-def pack_value(value: Any) -> Any:
+def pack_value(value: Any, most: int = LARGEST) -> Any:
     """Return what a student's function returned as JSON.
+
+    Args:
+        value: it.
+        most: how many numbers it may hold.
 
     Raises:
         UnsendableError: not None, a number, an array, or a tuple or list of those.
@@ -71,17 +75,17 @@ def pack_value(value: Any) -> Any:
     if value is None:
         return None
     if isinstance(value, (np.ndarray, np.generic, float, int)):
-        return {"array": pack_array(np.asarray(value))}
+        return {"array": pack_array(np.asarray(value), most)}
     if isinstance(value, (tuple, list)) and value:
         plain = (np.ndarray, np.generic, float, int)
         arrays = any(isinstance(item, np.ndarray) for item in value)
         if arrays and all(isinstance(item, plain) for item in value):
             parts = [np.asarray(item) for item in value[:PARTS]]
-            if sum(part.size for part in parts) > LARGEST:
+            if sum(part.size for part in parts) > most:
                 raise UnsendableError(f"{len(parts)} arrays, far too large together")
             return {"tuple": list(map(pack_array, parts))}
         try:
-            return {"array": pack_array(np.array(value))}
+            return {"array": pack_array(np.array(value), most)}
         except ValueError:  # rows of different lengths
             raise UnsendableError(
                 f"a {type(value).__name__} that is no array"
@@ -89,7 +93,7 @@ def pack_value(value: Any) -> Any:
     raise UnsendableError(f"a {type(value).__name__}; expected a NumPy array")
 
 
-def unpack_value(packed: Any) -> Any:
+def unpack_value(packed: Any, most: int = LARGEST) -> Any:
     """Return None, an array or a tuple of arrays.
 
     Raises:
@@ -98,14 +102,14 @@ def unpack_value(packed: Any) -> Any:
     if packed is None:
         return None
     if isinstance(packed, dict) and "array" in packed:
-        return unpack_array(packed["array"])
+        return unpack_array(packed["array"], most)
     parts = packed.get("tuple") if isinstance(packed, dict) else None
     if isinstance(parts, list) and len(parts) <= PARTS:
-        return tuple(map(unpack_array, parts))
+        return tuple(unpack_array(part, most) for part in parts)
     raise ValueError("not a packed value")
 
 
-def unpack_values(some: list[Any]) -> list[Any]:
+def unpack_values(some: list[Any], most: int) -> list[Any]:
     """Return each value, or the ValueError that says why it is none.
 
     Returns:
@@ -114,7 +118,7 @@ def unpack_values(some: list[Any]) -> list[Any]:
     found: list[Any] = []
     for packed in some:
         try:
-            found.append(unpack_value(packed))
+            found.append(unpack_value(packed, most))
         except ValueError as error:
             found.append(error)
         except Exception:

@@ -1,0 +1,91 @@
+"""Write a page to show: a week's numbers, whose functions, the pick in 3D.
+
+    make proof                            metrics/proof.html, of your week
+    make proof ARGS="--out week1.html"    somewhere else
+    python3 scripts/proof.py --of CLONE --name NAME --out FILE
+                                          of a student's clone, for a teacher
+
+Every function is checked and every finished lab is run again now, in the sandbox; the
+arm picks the cube up with the functions that pass. One file, opened from disk.
+"""
+
+import tempfile
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+from labkit.base import cli, store
+from labkit.base.git import GitError
+from labkit.fresh import FRESH
+from labkit.lesson.day import chosen_week, days_of
+from labkit.lesson.week import Week
+from labkit.proof import facts, page
+from labkit.proof.pick import pick
+from labkit.sandbox.sandbox import Sandbox
+from robo47.errors import Robo47Error
+from robo47.paths import METRICS_CSV, ROOT, shown
+
+
+def main() -> int:
+    """Find everything out, write the page, say where it is."""
+    parser = cli.parser(__doc__)
+    add = parser.add_argument
+    add("--week", type=int, help="default: the one begun last")
+    add("--of", type=Path, metavar="CLONE", help="a student's clone, not your own")
+    add("--name", default="", help="the student's; default: the last commit's author")
+    add("--out", type=Path, default=METRICS_CSV.with_name("proof.html"), metavar="FILE")
+    options = parser.parse_args()
+    if not options.out.parent.is_dir():
+        folder = shown(options.out.parent.absolute())
+        raise Robo47Error(f"{folder} is no folder; choose another place with --out")
+    begun, week = time.monotonic(), chosen_week(options.week)
+    try:
+        clone = facts.open_clone(options.of or ROOT, options.name, own=not options.of)
+        proof = found(week, clone)
+    except (OSError, GitError) as error:
+        raise Robo47Error(f"{error}") from None
+    write(options.out, page.render(proof))
+    size = options.out.stat().st_size / 1e6
+    print(f"wrote {shown(options.out.absolute())}: {size:.1f} MB, one file to open or")
+    print(f"send, in {time.monotonic() - begun:.0f} s; it says what it does not prove")
+    return cli.EXIT_OK
+
+
+def found(week: Week, clone: facts.Clone) -> page.Proof:
+    """Check a week's days, run its labs and the capstone.
+
+    Raises:
+        Robo47Error: nothing of it is begun.
+    """
+    days = days_of(week)
+    with ExitStack() as stack:
+        sandbox = stack.enter_context(Sandbox())
+        folders, known = [], []
+        for day in days:
+            kept = tempfile.TemporaryDirectory(prefix="robo47-grade-")
+            folders.append(Path(stack.enter_context(kept)).resolve())
+            with cli.busy(f"day {day.number}"):
+                known.append(facts.facts_of(day, clone, folders[-1], sandbox))
+            own, total = len(known[-1].own), len(known[-1].states)
+            print(f"  day {day.number}: {own} of {total} functions theirs", flush=True)
+        if all("not begun" in one.states.values() for one in known):
+            raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
+        with cli.busy("the pick"):
+            picked = pick(known, folders, sandbox)
+    fresh = store.read(FRESH) if clone.own else {}
+    return page.Proof(clone, known, picked, fresh, teacher=not clone.own)
+
+
+def write(path: Path, text: str) -> None:
+    """Write the page whole.
+
+    Raises:
+        Robo47Error: it cannot be written.
+    """
+    try:
+        store.replace(path, text.encode("utf-8", "replace"))
+    except OSError as error:
+        raise Robo47Error(
+            f"cannot write {shown(path.absolute())}: {error.strerror or error}."
+            " Choose another place with --out."
+        ) from None

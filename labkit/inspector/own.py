@@ -1,0 +1,133 @@
+"""The student's functions, asked in the sandbox, beside the library's of the same name.
+
+    own = page.own(dynamics)                   # the library's module of the day
+    tau = own.gravity_torque(J, masses, coms, g)      # on a thread: it waits
+
+Where there is no file yet, or the function is still to do, the library's value comes
+back, and `says` names it as the library's. What stops, hangs, or is no number of the
+right shape raises NoAnswerError: nothing else is passed off as the student's.
+"""
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from labkit.base.exchange import Question
+from labkit.inspector.student import Student
+
+SAME = 1e-7  # of the largest number: what one calls the same
+UNWRITTEN = ("missing", "NotImplementedError")
+Call = tuple[Any, ...]  # a function's name, then its arguments
+
+
+class NoAnswerError(Exception):
+    """A function of the student's gave no answer; the message says why."""
+
+
+class Own:
+    """The functions of one day's file, and how they compare with the library's."""
+
+    def __init__(
+        self,
+        student: Callable[[], Student | None],
+        library: Any,
+        free: Collection[str] = (),
+    ) -> None:
+        """Ask nobody yet.
+
+        Args:
+            student: who is asked; None before the page knows the file.
+            library: a module, or {name: function}.
+            free: names of functions that have more than one right answer.
+        """
+        self._free = free
+        self._student = student
+        self._library = library if isinstance(library, Mapping) else vars(library)
+        self.version = 0
+        self._forget()
+
+    def _forget(self) -> None:
+        self._apart: dict[str, float] = {}
+        self._lent: dict[str, str] = {}
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Return a function of the student's by its name."""
+        return partial(self._one, name)
+
+    def _one(self, name: str, *args: Any) -> Any:
+        return self.many((name, *args))[0]
+
+    def many(self, *calls: Call) -> list[Any]:
+        """Return the answers to several calls, asked at once.
+
+        Args:
+            calls: (name, argument, ...) each.
+
+        Raises:
+            NoAnswerError: one of them gave none.
+        """
+        right = [self._library[name](*args) for name, *args in calls]
+        student = self._student()
+        there = student is not None and student.there
+        version = student.version if student is not None and there else -1
+        if version != self.version:
+            self.version = version
+            self._forget()
+        if student is None or not there:
+            why = "there is no file yet" if student else "yours is being opened"
+            self._lent |= {name: why for name, *_ in calls}
+            return right
+        questions = [Question("view", name, tuple(args)) for name, *args in calls]
+        replies = student.ask(questions)
+        if student.problem:
+            raise NoAnswerError(f"YOUR {student.problem}")
+        return [
+            self._answer(student, name, reply, truth)
+            for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
+        ]
+
+    def _answer(self, student: Student, name: str, reply: Any, right: Any) -> Any:
+        """Return one function's answer, having compared it."""
+        if reply.kind in UNWRITTEN:
+            self._lent[name] = "yours is not written yet"
+            return right
+        if problem := student.source.describe(name, reply):
+            raise NoAnswerError(f"YOUR {problem}")
+        ours, theirs = _parts(right), _parts(reply.value)
+        if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
+            got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
+            raise NoAnswerError(f"YOUR {name} returned {got}")
+        if not all(np.isfinite(x).all() for x in theirs):
+            raise NoAnswerError(f"YOUR {name} returned NaN, or a number without end")
+        for mine, truth in zip(theirs, ours, strict=True):
+            off = float(np.abs(mine - truth).max(initial=0.0))
+            scale = 1.0 + float(np.abs(truth).max(initial=0.0))
+            before = self._apart.get(name, 0.0)
+            judged = name not in self._free and off > SAME * scale
+            self._apart[name] = max(before, off if judged else 0.0)
+        return reply.value if isinstance(reply.value, tuple) else theirs[0]
+
+    def says(self) -> tuple[str, str]:
+        """Return whose functions were at work, and how they compare; its kind."""
+        wrong = [f"{name} by {x:.3g}" for name, x in self._apart.items() if x]
+        if wrong:
+            return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
+        lent = self._lent
+        why = next(iter(lent.values()), "")
+        theirs = f"the library's {', '.join(lent)} ({why})" if lent else ""
+        if not self._apart:
+            return f"At work: {theirs}" if theirs else "", "quiet"
+        names = ", ".join(self._apart)
+        judged = any(name not in self._free for name in self._apart)
+        text = f"YOUR {names}" + (": the same as the library's" if judged else "")
+        return f"{text}; besides {theirs}" if theirs else text, "good"
+
+
+def _parts(value: Any) -> Sequence[Any]:
+    """Return an answer as arrays, one unless it is a tuple."""
+    if value is None:
+        return []
+    some = value if isinstance(value, tuple) else (value,)
+    return [np.asarray(part, dtype=float) for part in some]

@@ -1,0 +1,86 @@
+"""Names the link that was clicked and shows the axis that its joint turns about."""
+
+import mujoco
+import numpy as np
+import viser
+from numpy.typing import ArrayLike
+
+from labkit.inspector.arm import Arm
+from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS
+
+AXIS = 0.3  # metres, to both sides
+COLOUR = (150, 70, 150)
+
+
+class Pointed:
+    """What was clicked, its name and its axis in the scene."""
+
+    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+        """Make the axis and the name, hidden until a link is clicked."""
+        self.server, self.arm = server, arm
+        self.model: mujoco.MjModel | None = None
+        self.body = 0
+        self.line = server.scene.add_line_segments(
+            "/pointed/axis", np.zeros((1, 2, 3), np.float32), COLOUR,
+            thickness=3, thickness_units="screen", visible=False,
+        )  # fmt: skip
+        self.label = server.scene.add_label(
+            "/pointed/name", "", visible=False, font_screen_scale=0.9
+        )
+
+        @server.scene.on_click()  # type: ignore[arg-type]
+        async def _(event: viser.SceneClickEvent) -> None:
+            self.body = self.find(event.ray_origin, event.ray_direction)
+            self.show()
+
+    def watch(self, model: mujoco.MjModel) -> None:
+        """Look for links from now on.
+
+        Args:
+            model: the arm's, with its shapes.
+        """
+        self.data = mujoco.MjData(model)
+        self.model = model
+
+    def show(self) -> None:
+        """Name what was clicked, where it is now; or nothing."""
+        self.label.visible = self.line.visible = bool(self.body)
+        if not self.body or self.model is None:
+            return
+        self._pose()
+        name = self.model.body(self.body).name
+        self.label.position = self.data.xpos[self.body]
+        joint = int(self.model.body_jntadr[self.body])
+        self.line.visible = joint >= 0
+        if joint < 0:
+            self.label.text = f"{name}: no joint of its own"
+            return
+        kind = mujoco.mjtJoint(self.model.jnt_type[joint])
+        does = "slides along" if kind == mujoco.mjtJoint.mjJNT_SLIDE else "turns about"
+        self.label.text = f"{name}: {self.model.joint(joint).name} {does} this axis"
+        anchor, axis = self.data.xanchor[joint], self.data.xaxis[joint]
+        ends = [anchor - AXIS * axis, anchor + AXIS * axis]
+        self.line.points = np.array([ends], dtype=np.float32)
+
+    def find(self, origin: ArrayLike, direction: ArrayLike) -> int:
+        """Return the id of the body that a ray meets first; 0 for none.
+
+        Args:
+            origin: metres, (3,).
+            direction: (3,).
+        """
+        start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)
+        if self.model is None or not (np.isfinite([start, ray]).all() and ray.any()):
+            return 0
+        self._pose()
+        simple = np.isin(self.model.geom_group, COLLISION_GROUPS).any()
+        groups = COLLISION_GROUPS if simple else VISIBLE_GROUPS
+        wanted = np.array([g in groups for g in range(6)], dtype=np.uint8)
+        geom, ray = np.array([-1], dtype=np.int32), ray / np.linalg.norm(ray)
+        mujoco.mj_ray(self.model, self.data, start, ray, wanted, True, -1, geom)
+        return int(self.model.geom_bodyid[geom[0]]) if geom[0] >= 0 else 0
+
+    def _pose(self) -> None:
+        assert self.model is not None
+        self.data.qpos[:] = self.arm.q
+        mujoco.mj_kinematics(self.model, self.data)

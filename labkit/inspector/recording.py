@@ -1,0 +1,99 @@
+"""A scene recorded as one HTML file: orbit it, move through its time, no server.
+
+    film = Recording(model)
+    for qpos in ...:
+        film.pose(qpos)
+        film.wait(1 / 30)
+    path.write_text(film.page())
+
+The file holds viser's player and what was drawn; it opens from disk. Metres, seconds.
+"""
+
+import mujoco
+import numpy as np
+import viser
+from numpy.typing import ArrayLike
+
+from labkit.inspector.draw import Sketch
+from labkit.inspector.guard import LocalServer
+from labkit.inspector.meshes import Skin
+from labkit.inspector.scene import set_stage
+from labkit.inspector.shapes import shapes, thinned
+from robo47 import se3
+from robo47.checks import Array
+
+FRAMES = 30  # a second
+GRID = 1 / 256  # m; with the robot's own meshes a file would have 3 MB
+# What viser's player needs of a page's policy. Its workers compile what they run.
+ALLOWED = (
+    "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
+    "; img-src data: blob:; connect-src data: blob:"
+)
+CAMERA, LOOK_AT = (1.35, -1.05, 0.85), (0.25, 0.0, 0.42)
+
+
+class Recording:
+    """What a robot does, with all that is drawn around it."""
+
+    def __init__(self, model: mujoco.MjModel, back: float = 1.0) -> None:
+        """Begin with the model at zero.
+
+        Args:
+            model: with the looks that are to be seen.
+            back: how far the camera stands back; 1 suits an arm at ready.
+        """
+        self.model, self.data = model, mujoco.MjData(model)
+        self.server = LocalServer(0)
+        set_stage(self.server)
+        camera = self.server.initial_camera
+        position = LOOK_AT + back * np.subtract(CAMERA, LOOK_AT)
+        camera.position, camera.look_at = position, LOOK_AT
+        seen = [thinned(shape, GRID) for shape in shapes(model)]
+        self.skin = Skin(self.server, "/arm")
+        self.skin.put_on(seen)
+        self.draw = Sketch(self.server, seen)
+        self._recorded: viser.infra.StateSerializer | None = None
+        self.seconds = 0.0
+
+    def pose(self, qpos: ArrayLike) -> None:
+        """Move the model to a configuration; see `poses`."""
+        self.skin.pose(self.poses(qpos))
+
+    def poses(self, qpos: ArrayLike) -> dict[str, Array]:
+        """Return {body: T_world_body (4, 4)} of what is seen, for a ghost.
+
+        Args:
+            qpos: a configuration; a shorter one is that of the first joints, (n,).
+        """
+        q = np.asarray(qpos, dtype=float)
+        self.data.qpos[: len(q)] = q
+        mujoco.mj_kinematics(self.model, self.data)
+        found = {name: self.data.body(name) for name in self.skin.bodies}
+        return {
+            name: se3.make_T(body.xmat.reshape(3, 3), body.xpos)
+            for name, body in found.items()
+        }
+
+    def wait(self, seconds: float = 1 / FRAMES) -> None:
+        """Let time go by; what was drawn so far is there from the beginning."""
+        if self._recorded is None:
+            self._recorded = self.server.get_scene_serializer()
+        self._recorded.insert_sleep(seconds)
+        self.seconds += seconds
+
+    def page(self, title: str, nonce: str = "") -> str:
+        """Return the HTML file, and end the recording.
+
+        Args:
+            title: of the window.
+            nonce: of its scripts, where a page's policy (`ALLOWED`) lets no other run.
+        """
+        self.wait(0.0)
+        assert self._recorded is not None
+        text = self._recorded.as_html()
+        self.server.stop()
+        text = text.replace("<title>Viser</title>", f"<title>{title}</title>", 1)
+        if nonce:  # viser's own script adds one more
+            text = text.replace("<script", f'<script nonce="{nonce}"')
+            text = text.replace('e.type="module"', f'e.nonce="{nonce}";e.type="module"')
+        return text

@@ -1,0 +1,237 @@
+"""The proof as one HTML file; the only script in it is the film's player."""
+
+import datetime
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
+
+import mujoco
+
+import robo47
+from labkit.base import html
+from labkit.base.words import count, number_of
+from labkit.check.lab_run import TRIALS
+from labkit.inspector.recording import ALLOWED
+from labkit.proof.facts import Clone, DayFacts, Number
+from labkit.proof.pick import Picked, film
+from labkit.report.week_labs import name_of
+
+STYLE = """
+body { max-width: 980px; } td.n, th.n { text-align: right; }
+td.wide { white-space: normal; min-width: 140px; }
+iframe { display: block; width: 100%; height: min(70vh, 560px); border: 0; }
+.film { padding: 0; overflow: hidden; } li { margin: 4px 0; }
+@media (max-width: 500px) { th, td { padding-right: 8px; } .card { padding: 10px; }
+  .film { padding: 0; } iframe { height: 420px; } }
+"""
+WORTH = {
+    "pass": ("pass", "by the file as it is"),
+    "fail": ("fail", "beyond its limit"),
+    "none": ("none", "no row of their own in the log"),
+    "stale": ("none", "the file changed since"),
+    "unsigned": ("none", "by no file that is named"),
+    "borrowed": ("none", "partly borrowed"),
+}
+NOT_PROVED = (
+    "Who wrote the code. A name in git is what somebody typed; commit times are, too.",
+    "That it was understood. Ask why; the worksheets hold the drawings and the words.",
+    "That a real arm would do it. This one is a simulation, and its model is known.",
+    "That this page is as the kit wrote it. Run the commit yourself: make fresh.",
+)
+
+
+@dataclass(frozen=True)
+class Proof:
+    """All that the page says.
+
+    Attributes:
+        clone: whose.
+        days: of a week, in order.
+        picked: the capstone.
+        fresh: what `make fresh` found last: commit, date, how many numbers are wrong
+            and how many things missing; {} where nobody asked.
+        teacher: whether a teacher's kit found all this.
+    """
+
+    clone: Clone
+    days: Sequence[DayFacts]
+    picked: Picked
+    fresh: dict[str, Any] = field(default_factory=dict)
+    teacher: bool = False
+
+
+def render(proof: Proof) -> str:
+    """Return the whole page.
+
+    The film is put in last and by a name that nobody could know before: no text from
+    outside can stand in its place, and no script runs but with its number.
+    """
+    nonce = secrets.token_urlsafe(16)
+    place = f"film {nonce}"
+    title = f"{escape(proof.clone.name)}: {_week(proof.days)}"
+    page = html.page(
+        title,
+        _about(proof),
+        _tiles(proof),
+        _pick(proof.picked, place),
+        _numbers(proof.days),
+        _functions(proof.days),
+        _commit(proof),
+        _not_proved(),
+        style=STYLE,
+        policy=ALLOWED.format(nonce=nonce),
+    )
+    if proof.picked.result is None:
+        return page
+    played = escape(film(proof.picked.result).page("The pick", nonce))
+    return page.replace(place, played, 1)
+
+
+def _week(days: Sequence[DayFacts]) -> str:
+    heading = days[0].day.week.heading
+    return escape(heading[0].lower() + heading[1:])
+
+
+def _about(proof: Proof) -> str:
+    who = "a teacher's kit" if proof.teacher else "the student's own kit"
+    return (
+        f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
+        f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted."
+    )
+
+
+def _tiles(proof: Proof) -> str:
+    numbers = [number for one in proof.days for number in one.numbers]
+    right = sum(map(_right, numbers))
+    own = sum(len(one.own) for one in proof.days)
+    total = sum(len(one.states) for one in proof.days)
+    result = proof.picked.result
+    placed = "–" if result is None else f"{result.place_mm:.1f} mm"
+    theirs = proof.picked.yours == proof.picked.total
+    role = "none" if result is None else "fail" if result.failed else "pass" * theirs
+    fresh, mood = _fresh(proof)
+    return html.tiles([
+        ("pass" if own == total else "", f"{own} of {total}", "functions theirs"),
+        (
+            "pass" if right == len(numbers) else "",
+            f"{right} of {len(numbers)}",
+            "numbers, run again here",
+        ),
+        (role, placed, "from the cube to its mark"),
+        (mood, fresh, "a fresh clone"),
+    ])  # fmt: skip
+
+
+def _right(number: Number) -> bool:
+    return number.again is not None and number.metric.passes(number.again)
+
+
+def _fresh(proof: Proof) -> tuple[str, str]:
+    """Return what a fresh clone of the last commit gave, and its colour's class."""
+    if not proof.fresh or proof.fresh.get("commit") != proof.clone.history.commit:
+        return "not tried", "none"
+    wrong = proof.fresh.get("wrong")
+    return ("same numbers", "pass") if wrong == 0 else ("not the same", "fail")
+
+
+def _pick(picked: Picked, place: str) -> str:
+    result = picked.result
+    whose = f"{picked.yours} of the {picked.total} functions that move it are theirs"
+    if picked.yours < picked.total:
+        whose += "; the kit's own do the rest"
+    if result is None:
+        why = f"It stopped: {escape(picked.stopped)}." if picked.stopped else ""
+        words = why or "None of the functions that move the arm is theirs yet."
+        return html.section("The pick", f"<p>{words}</p>")
+    words = (
+        f"<p>The arm picks the cube up and puts it down {result.place_mm:.1f} mm from"
+        f" its mark; 10 mm are allowed. {whose}. On its way no joint is more than"
+        f" {result.joint_mrad:.2f} mrad off, the hand {result.line_mm:.1f} mm from its"
+        f" lines. Drag to turn it.</p>"
+    )
+    return html.section(
+        "The pick",
+        words,
+        f'<div class="card film"><iframe title="The pick in 3D" sandbox="allow-scripts"'
+        f' srcdoc="{place}"></iframe></div>',
+    )
+
+
+def _numbers(days: Sequence[DayFacts]) -> str:
+    rows = [_number(one, number) for one in days for number in one.numbers]
+    faults = "".join(
+        f"<p class=fail>Day {one.day.number}, the lab here: {escape(one.fault)}</p>"
+        for one in days
+        if one.fault
+    )
+    head = "<th>day</th><th>number</th><th class=n>run again</th><th>limit</th>"
+    about = (
+        f'<p class="muted">Run again: the day\'s lab with their functions, now, with'
+        f" {TRIALS} random inputs a step. Small: what their own run logged, by which"
+        " file.</p>"
+    )
+    return html.section("The numbers", about, faults, html.table(head, rows))
+
+
+def _number(one: DayFacts, number: Number) -> str:
+    role, worth = WORTH[number.worth]
+    logged = "" if number.logged is None else f"log: {number_of(number.logged)}, "
+    again = "none" if number.again is None else "pass" if _right(number) else "fail"
+    value = "–" if number.again is None else number_of(number.again)
+    return (
+        f"<tr><td>{one.day.number}</td>"
+        f"<td class=wide>{escape(name_of(one.day, number.metric))}<br>"
+        f'<small class="{role}">{logged}{worth}</small></td>'
+        f'<td class="n {again}">{value}</td><td>{escape(number.metric.limit)}</td></tr>'
+    )
+
+
+def _functions(days: Sequence[DayFacts]) -> str:
+    rows = []
+    for one in days:
+        others: dict[str, list[str]] = {}
+        for name, state in one.states.items():
+            if state != "passed":
+                others.setdefault(state, []).append(name)
+        rest = "<br>".join(
+            f"{escape(state)}: {_code(names)}" for state, names in others.items()
+        )
+        rows.append(
+            f"<tr><td>{one.day.number}</td><td class=wide>{_code(one.own) or '–'}</td>"
+            f"<td class=wide>{rest or '–'}</td></tr>"
+        )
+    head = "<th>day</th><th>theirs, and right</th><th>not theirs, or not right</th>"
+    return html.section("Whose functions", html.table(head, rows))
+
+
+def _code(names: Sequence[str]) -> str:
+    return ", ".join(f"<code>{escape(name)}</code>" for name in names)
+
+
+def _commit(proof: Proof) -> str:
+    history, said = proof.clone.history, proof.fresh
+    if not history.commit:
+        return html.section("The commit", "<p>Nothing is committed.</p>")
+    words = [f"<p>The last commit: <code>{escape(history.commit)}</code>.</p>"]
+    left = [one for one in proof.days if one.left]
+    words += [f"<p>Day {one.day.number}: {escape(one.left)}</p>" for one in left] or [
+        "<p>It holds all files of the days that were begun, as they ran here.</p>"
+    ]
+    found, mood = _fresh(proof)
+    if mood == "none":
+        words.append("<p>No fresh clone of it was run: <code>make fresh</code>.</p>")
+    else:
+        lacks = said.get("missing")
+        things = f"; {count(lacks, 'thing')} of the hand-in missing" if lacks else ""
+        words.append(
+            f'<p class="{mood}">A fresh clone of it was run on'
+            f" {escape(str(said.get('date')))}: {found}{things}.</p>"
+        )
+    return html.section("The commit", *words)
+
+
+def _not_proved() -> str:
+    lines = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
+    return html.section("What this does not prove", f"<ul>{lines}</ul>")

@@ -1,0 +1,84 @@
+"""The capstone with a student's functions, in the sandbox; as a film."""
+
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from labkit.base.text import visible
+from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
+from labkit.inspector.recording import FRAMES, Recording
+from labkit.lesson import folder
+from labkit.proof.facts import DayFacts
+from labkit.sandbox.sandbox import Sandbox
+from robo47 import capstone, scenes
+from robo47.capstone.phases import Result
+
+CALLS, SECONDS = 200_000, 240.0  # of a pick; with all functions right it needs 30,000
+TITLE_AT = (0.0, 0.0, 1.15)  # m, where the film says which phase it is
+
+
+class Picked(NamedTuple):
+    """What came of it.
+
+    Attributes:
+        result: None where the arm stopped.
+        stopped: why it did, in a line.
+        yours: how many of its functions are the student's.
+        total: of how many.
+    """
+
+    result: Result | None
+    stopped: str
+    yours: int
+    total: int
+
+
+def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
+    """Pick the cube up with the functions that pass, the library's for the rest.
+
+    Args:
+        days: of a week.
+        folders: where each day's files are.
+        sandbox: where they run.
+    """
+    fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
+    names = {name for some in capstone.USES.values() for name in some}
+    for facts, place in zip(days, folders, strict=True):
+        wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
+        if wanted:
+            script, lab = place / facts.day.script, folder.lab(facts.day)
+            own = behind_wall(facts.day, script, sandbox, lab, budget)
+            for name in wanted:
+                setattr(fns, name, own[name])
+            yours += len(wanted)
+    if not yours:
+        return Picked(None, "", 0, len(names))
+    try:
+        with np.errstate(all="ignore"):
+            result = capstone.pick(fns)
+        if np.isfinite(result.qpos).all():
+            return Picked(result, "", yours, len(names))
+        why = "the arm flew off"
+    except EnoughAsked:
+        why = "it took too long"
+    except (FirstFailure, Exception) as error:  # what a strange answer leads to
+        why = visible(error, 300)
+    return Picked(None, why, yours, len(names))
+
+
+def film(result: Result) -> Recording:
+    """Return a pick, phase by phase, as `capstone.pick` simulated it."""
+    model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, meshes=True)
+    recording = Recording(model, back=1.2)
+    begins = [begin for _, begin in result.phases]
+    label = recording.draw.label("", TITLE_AT)
+    for t in np.arange(0.0, result.seconds, 1 / FRAMES):
+        with suppress(IndexError):
+            label.text = result.phases[int(np.searchsorted(begins, t, "right")) - 1][0]
+        row = min(int(np.searchsorted(result.t, t)), len(result.t) - 1)
+        recording.pose(result.qpos[row])
+        recording.wait()
+    return recording

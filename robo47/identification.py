@@ -1,0 +1,274 @@
+"""What an arm weighs and how it rubs, found from measured torques by least squares.
+
+The torque of a motion is linear in ten numbers per link, tau = Y(q, qd, qdd) phi, so a
+model can be fitted, and what a motion cannot show can be counted. Conventions:
+
+- phi of a body is (m, m c, Ixx, Iyy, Izz, Ixy, Ixz, Iyz), (10,): its mass, its mass
+  times its centre, and the entries of its inertia about the *origin* of its own axes
+  (not about its centre). kg, kg m, kg m^2.
+- Twists are (omega; v), wrenches (moment; force); `J_space` is the space Jacobian.
+- Gravity is the vector g = (0, 0, -9.81), as in `robo47.dynamics`.
+- Bodies and motions broadcast over leading dimensions; a fit takes one matrix.
+- A wrong shape or a number that is not finite is a ValueError, in every function.
+
+Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
+*Robotics* (2009), section 7.3; Golub and Van Loan, *Matrix Computations*, section 5.5;
+Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
+parameter identification" (2018).
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, se3
+from robo47.checks import Array
+from robo47.screws import ad, adjoint, skew
+
+PER_LINK = 10  # numbers that say how a rigid body moves
+_UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
+
+
+def inertia_of(phi: ArrayLike) -> Array:
+    """Return the 6x6 inertia of a body from its ten numbers: [[I, [h]], [[h]^T, m 1]].
+
+    With h = m c and I about the origin nothing is left of a product: it is linear.
+
+    Args:
+        phi: as above, (..., 10).
+
+    Returns:
+        G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+    """
+    phi = checks.array(phi, "phi", (PER_LINK,))
+    G = np.zeros((*phi.shape[:-1], 6, 6))
+    for k, (i, j) in enumerate(_UPPER):
+        G[..., i, j] = G[..., j, i] = phi[..., 4 + k]
+    H = skew(phi[..., 1:4])
+    G[..., :3, 3:], G[..., 3:, :3] = H, np.swapaxes(H, -1, -2)
+    G[..., 3:, 3:] = phi[..., 0, None, None] * np.eye(3)
+    return G
+
+
+def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array:
+    """Return phi of bodies that are given as Day 4 gives them.
+
+    Args:
+        masses: kg, (...).
+        coms: centres of mass, metres, (..., 3).
+        inertias: about the centres of mass, kg m^2, (..., 3, 3).
+
+    Returns:
+        phi, (..., 10).
+    """
+    m = checks.array(masses, "masses", ())[..., None]
+    c = checks.array(coms, "coms", (3,))
+    C, about = skew(c), checks.array(inertias, "inertias", (3, 3))
+    about = about + m[..., None] * C @ np.swapaxes(C, -1, -2)
+    i, j = np.transpose(_UPPER)
+    return np.concatenate([m, m * c, about[..., i, j]], axis=-1)
+
+
+def link_regressor(V: ArrayLike, A: ArrayLike) -> Array:
+    """Return what each of a body's ten numbers costs in wrench: G A - ad(V)^T G V.
+
+    Column k is that wrench with G of the k-th unit vector.
+
+    Args:
+        V: the body's twist, in its own axes about its own origin, (..., 6).
+        A: its acceleration, gravity as an acceleration of the base included, (..., 6).
+
+    Returns:
+        (..., 6, 10): times phi it is the wrench (moment; force) that moves the body.
+    """
+    V, A = checks.array(V, "V", (6,)), checks.array(A, "A", (6,))
+    G = inertia_of(np.eye(PER_LINK))
+    V, A, turned = V[..., None, :, None], A[..., None, :, None], ad(V)[..., None, :, :]
+    columns = G @ A - np.swapaxes(turned, -1, -2) @ (G @ V)
+    return np.swapaxes(columns[..., 0], -1, -2)
+
+
+def arm_regressor(
+    J_space: ArrayLike, T_links: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
+) -> Array:
+    """Return Y, with which the torque of an arm's links is Y phi.
+
+    Velocities and accelerations add up outwards, as in `dynamics.inverse_dynamics`;
+    each is turned into its link, X V with X = Ad(T^-1), and the wrench back, X^T F.
+
+    Args:
+        J_space: space Jacobian, (..., 6, n).
+        T_links: `T_world_link`, (..., n, 4, 4).
+        qd: joint velocities, rad/s, (..., n).
+        qdd: joint accelerations, rad/s^2, (..., n).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        Y, (..., n, 10 n): ten columns per link; without rotors and friction.
+    """
+    J = checks.array(J_space, "J_space", (6, "n"))
+    n = J.shape[-1]
+    qd, qdd = checks.array(qd, "qd", (n,)), checks.array(qdd, "qdd", (n,))
+    S = np.swapaxes(J, -1, -2)
+    own = S * qd[..., None]
+    V = np.cumsum(own, axis=-2)
+    A = np.cumsum(S * qdd[..., None] + _times(ad(V), own), axis=-2)
+    A = A - np.append(np.zeros(3), checks.array(g, "g", (3,)))
+    X = adjoint(se3.inverse(checks.array(T_links, "T_links", (n, 4, 4))))
+    wrenches = link_regressor(_times(X, V), _times(X, A))  # (..., n, 6, 10)
+    seen = np.swapaxes(X @ J[..., None, :, :], -1, -2)  # the joints from each link
+    felt = np.swapaxes(seen @ wrenches, -3, -2)  # (..., joint, link, 10)
+    felt = np.tri(n).T[..., None] * felt  # a joint carries its own link and those after
+    return felt.reshape(*felt.shape[:-2], PER_LINK * n)
+
+
+def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
+    """Return the columns of rotors, viscous and dry friction: qdd, qd, sign(qd).
+
+    Args:
+        qd: joint velocities, rad/s, (..., n).
+        qdd: joint accelerations, rad/s^2, (..., n).
+
+    Returns:
+        (..., n, 3 n): times (armature, damping, dry friction) it is their torque.
+    """
+    qd, qdd = checks.same_size(qd=qd, qdd=qdd)
+    blocks = [each[..., None] * np.eye(qd.shape[-1]) for each in (qdd, qd, np.sign(qd))]
+    return np.concatenate(np.broadcast_arrays(*blocks), axis=-1)
+
+
+def identifiable(Y: ArrayLike, rtol: float) -> tuple[int, float]:
+    """Return how many combinations of parameters a motion shows, and how unevenly.
+
+    Args:
+        Y: regressor of all samples, stacked, (n, p).
+        rtol: a singular value counts above this times the largest.
+
+    Returns:
+        (rank, condition): how many count; the largest over the smallest that counts.
+    """
+    _, s, _ = _kept(Y, rtol)
+    return len(s), float(s[0] / s[-1])
+
+
+def fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
+    """Return the smallest parameters that explain the torques best.
+
+    V S^-1 U^T tau over the singular values that count (Golub and Van Loan, 5.5).
+
+    Args:
+        Y: regressor, (n, p).
+        tau: measured torques, N m, (n,).
+        rtol: as in `identifiable`.
+
+    Returns:
+        phi, (p,).
+    """
+    U, s, Vt = _kept(Y, rtol)
+    return Vt.T @ (U.T @ checks.array(tau, "tau", (len(U),)) / s)
+
+
+def predict_with_sigma(
+    Y: ArrayLike, tau: ArrayLike, Y_new: ArrayLike, rtol: float
+) -> tuple[Array, Array]:
+    """Return torques of new motions, and how sure the fit is of each.
+
+    The noise is estimated from the residual, noise^2 = r.r / (n - rank); it goes
+    through the fit, so sigma is noise |V^T y / s| for a row y of Y_new.
+
+    Args:
+        Y: regressor that is fitted to, (n, p), with n above its rank.
+        tau: measured torques, N m, (n,).
+        Y_new: regressor of the new motions, (m, p).
+        rtol: as in `identifiable`.
+
+    Returns:
+        (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
+        noise of a new measurement. What a motion never showed has no sigma.
+    """
+    Y, (_, s, Vt) = _stacked(Y), _kept(Y, rtol)
+    Y_new = checks.array(Y_new, "Y_new", (Y.shape[1],))
+    if len(Y) <= len(s):
+        raise ValueError(f"{len(Y)} rows leave no residual at rank {len(s)}")
+    phi = fit(Y, tau, rtol)
+    residual = np.asarray(tau) - Y @ phi
+    noise = np.linalg.norm(residual) / np.sqrt(len(Y) - len(s))
+    return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt.T / s, axis=-1)
+
+
+def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
+    """Return what m and m c of a load on the hand cost in torque: -J^T (R h x g; m g).
+
+    A weight m g at R c has the moment R h x g = -[g] R h about the site.
+
+    Args:
+        J_site: site Jacobian, (..., 6, n).
+        R_site: `R_world_site`, (..., 3, 3).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        (..., n, 4): times (m, m c) it is the torque that holds the load.
+    """
+    J = checks.array(J_site, "J_site", (6, "n"))
+    R, g = checks.array(R_site, "R_site", (3, 3)), checks.array(g, "g", (3,))
+    W = np.zeros((*R.shape[:-2], 6, 4))
+    W[..., 3:, 0], W[..., :3, 1:] = g, -skew(g) @ R
+    return -np.swapaxes(J, -1, -2) @ W
+
+
+def payload_from_holds(
+    J_site: ArrayLike, R_site: ArrayLike, extra: ArrayLike, g: ArrayLike
+) -> Array:
+    """Return what hangs on the hand, from torques that hold it still in some poses.
+
+    Args:
+        J_site: site Jacobians, (k, 6, n).
+        R_site: `R_world_site`, (k, 3, 3).
+        extra: torques with the load minus those without, N m, (k, n).
+        g: gravity, m/s^2, (3,).
+
+    Returns:
+        (m, m c), kg and kg m in the site's axes, (4,). Poses that only turn about
+        gravity leave a part of c unseen; the smallest is returned.
+    """
+    rows = load_regressor(J_site, R_site, g)
+    extra = checks.array(extra, "extra", rows.shape[-2:-1])
+    found, *_ = np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=1e-9)
+    return np.asarray(found, dtype=np.float64)
+
+
+def least_pseudo(phi: ArrayLike) -> Array:
+    """Return the least eigenvalue of a body's pseudo-inertia; no body is below 0.
+
+    [[S, h], [h^T, m]] with S = tr(I)/2 - I, the integral of r r^T (Wensing 2018).
+
+    Args:
+        phi: as above, (..., 10).
+    """
+    G, phi = inertia_of(phi), np.asarray(phi, dtype=np.float64)
+    about = G[..., :3, :3]
+    trace = np.trace(about, axis1=-2, axis2=-1)[..., None, None]
+    P = np.empty((*phi.shape[:-1], 4, 4))
+    P[..., :3, :3] = trace / 2.0 * np.eye(3) - about
+    P[..., 3, :3] = P[..., :3, 3] = phi[..., 1:4]
+    P[..., 3, 3] = phi[..., 0]
+    return np.linalg.eigvalsh(P)[..., 0]
+
+
+def _kept(Y: ArrayLike, rtol: float) -> tuple[Array, Array, Array]:
+    """Return U, s and V^T of the singular values that count."""
+    U, s, Vt = np.linalg.svd(_stacked(Y), full_matrices=False)
+    rank = int(np.sum(s > rtol * s[0]))
+    if not rank:
+        raise ValueError("Y is zero, or rtol is 1 or more: nothing counts")
+    return U[:, :rank], s[:rank], Vt[:rank]
+
+
+def _stacked(Y: ArrayLike) -> Array:
+    Y = checks.array(Y, "Y", ("n", "p"))
+    if Y.ndim != 2:
+        raise ValueError(f"Y has shape {Y.shape}; stack its samples: (n, p)")
+    return Y
+
+
+def _times(A: Array, x: Array) -> Array:
+    return (A @ x[..., None])[..., 0]

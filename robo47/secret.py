@@ -1,0 +1,232 @@
+"""A Panda that differs from its file, and the motions and holds that find out how.
+
+The plumbing of identification: everything that needs a model of MuJoCo's. What is found
+with it is the subject of `robo47.identification`. Radians, seconds, kilograms, N m.
+"""
+
+import copy
+from collections.abc import Callable
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robo47 import checks, identification, simulate, verify
+from robo47.arm import Arm
+from robo47.checks import Array
+from robo47.fast.arm_state import ArmState
+from robo47.panda import ARM_JOINTS, READY_Q
+from robo47.panda.loading import Edit
+
+MASS, CENTRE = 0.2, 0.01  # up to a fifth of a mass, and 10 mm, are different
+DAMPING, DRY = (0.4, 1.6), (0.2, 0.8)  # N m s/rad; N m, half for the small joints
+BASE, HARMONICS, SECONDS = 0.1, 5, 10.0  # Hz; of the excitation
+RANGE_SHARE, SPEED_SHARE = 0.8, 0.9  # of what the joints may do
+REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of Day 5's swing
+RADIUS = 0.04  # m, of the ball that is hung on the hand
+OMEGA, RATE = 20.0, 100.0  # rad/s of the springs that hold the arm; Hz
+SLOW_RATE = 10.0  # Hz: gravity is in no hurry
+AWAY, REST = 0.1, 2.0  # rad that a hold begins beside its pose; s
+
+
+class Motion(NamedTuple):
+    """n states of the arm: q, qd and qdd in rad, rad/s and rad/s^2, (n, 7) each."""
+
+    q: Array
+    qd: Array
+    qdd: Array
+
+
+def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
+    """Return a copy whose links weigh otherwise, and whose joints rub otherwise.
+
+    Args:
+        model: any Panda; what its hand carries stays as it is.
+        seed: the same one makes the same robot.
+    """
+    rng, secret = np.random.default_rng(seed), copy.copy(model)
+    joints = [secret.joint(name) for name in ARM_JOINTS]
+    links = [int(secret.jnt_bodyid[joint.id]) for joint in joints]
+    dofs = [int(joint.dofadr[0]) for joint in joints]
+    secret.body_mass[links] *= rng.uniform(1.0 - MASS, 1.0 + MASS, 7)
+    secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))
+    secret.dof_damping[dofs] = rng.uniform(*DAMPING, 7)
+    secret.dof_frictionloss[dofs] = rng.uniform(*DRY, 7) * [1, 1, 1, 1, 0.5, 0.5, 0.5]
+    return settled(secret)
+
+
+def settled(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return a model that was changed in place, made consistent again.
+
+    MuJoCo's friction is scaled with the mass that it had when it was compiled.
+    """
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return model
+
+
+def load(mass: float, com: ArrayLike) -> Edit:
+    """Return an edit for `panda.load`: a ball hangs on the hand.
+
+    Args:
+        mass: kg.
+        com: where its centre is, in the axes of `attachment_site`, metres, (3,).
+    """
+
+    def edit(spec: mujoco.MjSpec) -> None:
+        site = spec.site("attachment_site")
+        ball = site.parent.add_body(name="load", pos=site.pos, quat=site.quat)
+        ball.mass, ball.ipos, ball.explicitinertial = mass, com, True
+        ball.inertia = [0.4 * mass * RADIUS**2] * 3
+
+    return edit
+
+
+def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
+    """Return a motion that shows much: random harmonics, as far and fast as allowed.
+
+    Args:
+        model: whose ranges count.
+        seed: of the harmonics.
+        n: samples in its ten seconds.
+    """
+    sin, cos = np.random.default_rng(seed).normal(size=(2, HARMONICS, 7))
+    w = 2.0 * np.pi * BASE * np.arange(1, HARMONICS + 1)
+
+    def at(t: Array) -> Motion:
+        s, c = np.sin(np.outer(t, w)), np.cos(np.outer(t, w))
+        return Motion(
+            s @ sin + c @ cos,
+            (c * w) @ sin - (s * w) @ cos,
+            -(s * w**2) @ sin - (c * w**2) @ cos,
+        )
+
+    low, high = simulate.limits(model)[0].T
+    whole = at(np.linspace(0.0, SECONDS, 2000, endpoint=False))
+    least, most = whole.q.min(axis=0), whole.q.max(axis=0)
+    fastest = SPEED_SHARE * simulate.SPEED_LIMITS / np.abs(whole.qd).max(axis=0)
+    scale = np.minimum(RANGE_SHARE * (high - low) / (most - least), fastest)
+    q, qd, qdd = at(np.arange(n) * SECONDS / n)
+    middle = (low + high) / 2.0 - scale * (least + most) / 2.0
+    return Motion(middle + scale * q, scale * qd, scale * qdd)
+
+
+def swing(n: int = 200) -> Motion:
+    """Return n samples of Day 5's swing of all joints together, five times in 10 s."""
+    t = np.pi * np.arange(n)[:, None] * SECONDS / n
+    c, s = np.cos(t), np.sin(t)
+    return Motion(
+        READY_Q + REACH * (1.0 - c) / 2.0,
+        REACH * np.pi * s / 2.0,
+        REACH * np.pi**2 * c / 2.0,
+    )
+
+
+def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
+    """Return n random states, up to 2 rad/s and 10 rad/s^2 in each joint."""
+    rng = np.random.default_rng(seed)
+    q = verify.random_q(model, n, seed)
+    return Motion(q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
+
+
+def numbers(known: Arm) -> Array:
+    """Return the 91 numbers that an arm's model holds: links, rotors, friction.
+
+    Returns:
+        phi of the links one after the other, armature, damping, dry friction 0, (91,).
+    """
+    links = identification.parameters(known.masses, known.coms, known.inertias)
+    return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
+
+
+def torques(model: mujoco.MjModel, motion: Motion) -> Array:
+    """Return the torques, N m, (n, 7), that MuJoCo finds for a motion.
+
+    Its dry friction has the sign of qd + qdd / b with b about 105 1/s, a property of
+    its constraint solver: below 0.1 rad/s it need not be that of qd.
+    """
+    return verify.mujoco_inverse_dynamics(model, *motion)
+
+
+def hold(
+    model: mujoco.MjModel, known: Arm, q: ArrayLike, side: float, seconds: float = REST
+) -> tuple[Array, Array]:
+    """Return where the arm came to rest on springs, and what the springs gave there.
+
+    Gravity, Coriolis forces and damping of the known arm are made up for, so what the
+    springs give is what is not known: other masses, a load, dry friction.
+
+    Args:
+        model: the robot, with motors.
+        known: what its controller takes it for.
+        q: where it is to be held, rad, (7,).
+        side: 1 lets every joint come down to its angle in the sense in which it lifts
+            the hand, -1 come up to it; so dry friction points the one or the other way.
+        seconds: how long it is waited.
+
+    Returns:
+        (q at rest in rad, torque of the springs in N m), (7,) each.
+    """
+    q = checks.array(q, "q", (7,))
+
+    def springs(q_now: Array, qd: Array) -> Array:
+        return known.at(q_now).M @ (OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd)
+
+    def law(t: float, q_now: Array, qd: Array) -> Array:
+        return springs(q_now, qd) + known.at(q_now).bias(qd) + known.damping * qd
+
+    lifts = np.where(known.at(q).J_site[5] < -1e-9, -1.0, 1.0)
+    data = simulate.start(model, q + side * AWAY * lifts)
+    run = simulate.run(model, data, law, seconds, rate=RATE)
+    return run.q[-2], run.tau[-1] - known.at(run.q[-2]).gravity_torque
+
+
+def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, Array]:
+    """Return `hold` of k poses from either side: q and torques, (2, k, 7) each."""
+    poses = checks.array(poses, "poses", (7,))
+    found = [[hold(model, known, q, side) for q in poses] for side in (1.0, -1.0)]
+    at, torque = np.moveaxis(np.array(found), 2, 0)
+    return at, torque
+
+
+def hands(known: Arm, q: ArrayLike) -> tuple[Array, Array]:
+    """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations."""
+    now = [known.at(x) for x in checks.array(q, "q", (7,))]
+    return (
+        np.array([x.J_site for x in now]),
+        np.array([x.T_world_ee[:3, :3] for x in now]),
+    )
+
+
+def rises(
+    model: mujoco.MjModel,
+    known: Arm,
+    still: Callable[[ArmState], Array],
+    load: ArrayLike,
+    seconds: float = REST,
+) -> float:
+    """Return how far the hand rises, m, on torques that should just hold the arm.
+
+    The robot's dry friction is taken off, so that nothing else holds it.
+
+    Args:
+        model: the robot, with motors.
+        known: where its hand and links are.
+        still: from the arm at a configuration to the torque that holds it empty, (7,).
+        load: (m, m c) that its hand is said to carry, in the site's axes, (4,).
+        seconds: how long it floats.
+    """
+    m, *h = checks.array(load, "load", (4,))
+    free = copy.copy(model)
+    free.dof_frictionloss[:] = 0.0
+
+    def law(t: float, q: Array, qd: Array) -> Array:
+        now = known.at(q)
+        weight = m * known.gravity, np.cross(now.T_world_ee[:3, :3] @ h, known.gravity)
+        return still(now) - now.J_site.T @ np.concatenate(weight[::-1])
+
+    run = simulate.run(
+        settled(free), simulate.start(free, READY_Q), law, seconds, rate=SLOW_RATE
+    )
+    heights = [known.at(q).T_world_ee[2, 3] for q in run.q[[0, -1]]]
+    return float(heights[1] - heights[0])

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("proof")  # labkit/commands/proof.py

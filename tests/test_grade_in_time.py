@@ -1,0 +1,223 @@
+"""Deadlines: the last commit in time counts, whatever is pushed, amended or forced."""
+
+import os
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from make_class import DAY, DEADLINE, WEEK, commit
+
+from labkit.base.git import before
+from labkit.grade import sheet
+from labkit.grade.in_time import read_in_time
+from labkit.grade.journal import Journal
+from labkit.grade.package import collect
+from labkit.grade.pull import pull_all
+from labkit.grade.result import Mark, Result, counted
+from labkit.grade.roster import Student
+from labkit.grade.sheet import Graded
+from labkit.handin import item_names
+
+pytestmark = pytest.mark.kit
+SCRIPT = f"{WEEK}/work/{DAY.script}"
+HOUR = 3600
+
+
+def save(clone: Path, text: str, when: int) -> str:
+    """Write a student's script, commit it and return the commit."""
+    (clone / SCRIPT).parent.mkdir(parents=True, exist_ok=True)
+    (clone / SCRIPT).write_text(text)
+    commit(clone, when)
+    return git(clone, "rev-parse", "HEAD")
+
+
+def git(clone: Path, *arguments: str) -> str:
+    done = subprocess.run(
+        ["git", *arguments], cwd=clone, check=True, capture_output=True, text=True
+    )
+    return done.stdout.strip()
+
+
+@pytest.fixture
+def clone(tmp_path):
+    (tmp_path / "mia").mkdir()
+    return tmp_path / "mia"
+
+
+def collected(clone, deadline=DEADLINE):
+    """Return the package, with the script's text."""
+    package = collect(Student("Mia", "mia", clone), DAY, deadline=deadline)
+    return package, package.handin.files.get(SCRIPT, b"").decode()
+
+
+def test_a_broken_commit_after_the_deadline_counts_for_nothing(clone):
+    good = save(clone, "good = 1", DEADLINE - HOUR)
+    save(clone, "broken(", DEADLINE + 60)
+    save(clone, "broken((", DEADLINE + 120)
+    package, text = collected(clone)
+    assert (text, package.commit, package.late) == ("good = 1", good, 2)
+    assert package.committed == DEADLINE - HOUR
+    assert collected(clone, None)[1] == "broken(("  # without a deadline the last one
+
+
+def test_a_commit_at_the_very_deadline_is_in_time(clone):
+    save(clone, "x = 1", DEADLINE)
+    package, text = collected(clone)
+    assert (text, package.late) == ("x = 1", 0)
+
+
+def test_who_has_nothing_in_time_is_graded_late(clone):
+    save(clone, "late = 1", DEADLINE + 90 * 60)
+    package, text = collected(clone)
+    assert (text, package.late, package.committed) == ("late = 1", 1, DEADLINE + 5400)
+
+
+def test_uncommitted_work_counts_as_long_as_nothing_is_late(clone):
+    save(clone, "x = 1", DEADLINE - HOUR)
+    (clone / SCRIPT).write_text("x = 2")
+    assert collected(clone)[1] == "x = 2"
+    commit(clone, DEADLINE + HOUR)
+    assert collected(clone)[1] == "x = 1"
+
+
+def test_helpers_worksheet_and_pictures_are_those_of_that_commit(clone):
+    sheet_, helper = DAY.files["worksheet"], f"{WEEK}/work/helper.py"
+    (clone / sheet_).parent.mkdir(parents=True)
+    (clone / sheet_).write_text("![a](../figures/mine.png) ![b](gone.png)")
+    picture = clone / WEEK / "figures" / "mine.png"
+    picture.parent.mkdir()
+    picture.write_bytes(b"\x89PNG\r\n\0\xff")
+    (clone / WEEK / "work").mkdir()
+    (clone / helper).write_text("y = 1")
+    save(clone, "import helper", DEADLINE - HOUR)
+    (clone / helper).write_text("y = 2")
+    picture.unlink()
+    commit(clone, DEADLINE + HOUR)
+    handin, history, _ = read_in_time(DAY, clone, DEADLINE)
+    assert handin.files[helper] == b"y = 1"
+    assert set(handin.pictures) == {f"{WEEK}/figures/mine.png"}
+    assert history.holds(helper, b"y = 1")
+
+
+def test_a_file_too_large_to_look_at_is_said_so_as_in_the_folder(clone):
+    save(clone, "x = 1\n" * 400_000, DEADLINE - HOUR)
+    save(clone, "x = 1", DEADLINE + HOUR)
+    handin, _, _ = read_in_time(DAY, clone, DEADLINE)
+    assert "2.4 MB" in handin.unread[SCRIPT]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows makes no links for us")
+def test_links_of_a_commit_are_not_followed(clone):
+    (clone / SCRIPT).parent.mkdir(parents=True)
+    os.symlink("/etc/passwd", clone / SCRIPT)
+    commit(clone, DEADLINE - HOUR)
+    (clone / SCRIPT).unlink()
+    save(clone, "x = 1", DEADLINE + HOUR)
+    assert read_in_time(DAY, clone, DEADLINE)[0].files == {}
+
+
+@pytest.fixture
+def pulled(tmp_path, monkeypatch):
+    """Return the student's own folder, and what pulls their repository into ours."""
+    monkeypatch.setenv("GIT_ALLOW_PROTOCOL", "file")
+    origin = tmp_path / "origin"
+    origin.mkdir()
+    save(origin, "good = 1", DEADLINE - HOUR)
+    (tmp_path / "class").mkdir()
+    student = Student("Mia", "mia", tmp_path / "class" / "mia", url=origin.as_uri())
+
+    def pull():
+        ((_, problem),) = pull_all([student])
+        assert problem == ""
+        return student.path
+
+    return origin, pull
+
+
+def amend(origin: Path, text: str, when: int) -> None:
+    """Rewrite the last commit, as a forced push would show it."""
+    git(origin, "update-ref", "-d", "HEAD")
+    save(origin, text, when)
+
+
+def test_an_amended_and_forced_push_is_taken(pulled):
+    origin, pull = pulled
+    pull()
+    amend(origin, "better = 1", DEADLINE - 60)
+    assert collected(pull())[1] == "better = 1"
+
+
+def test_work_in_time_that_a_late_forced_push_takes_back_still_counts(pulled):
+    origin, pull = pulled
+    pull()
+    amend(origin, "worse(", DEADLINE + HOUR)
+    clone = pull()
+    package, text = collected(clone)
+    assert (text, package.late) == ("good = 1", 1)
+    assert (clone / SCRIPT).read_text() == "worse("
+    assert collected(clone, None)[1] == "worse("
+    shutil.rmtree(clone / ".git" / "refs" / "robo47")
+    assert before(clone, DEADLINE) == ("", 1)
+
+
+def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:
+    ids = counted(DAY)
+    marks = [Mark(one, "passed" if i < passed else "todo") for i, one in enumerate(ids)]
+    items = tuple(Mark(name, "todo") for name in item_names(DAY))
+    return Result(tuple(marks), items, kit=kit, seed=seed)
+
+
+def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
+    def open_journal():
+        return Journal(tmp_path / "j", [DAY], DEADLINE, deadline=True, seed=4711)
+
+    journal = open_journal()
+    packages = []
+    for i, passed in enumerate((3, 8, 2)):
+        save(clone, f"x = {i}", DEADLINE - HOUR + i)
+        packages.append(collected(clone)[0])
+        journal.keep("mia", packages[-1], result(passed))
+    journal.close()
+    journal = open_journal()  # also tomorrow
+    best, package = journal.best("mia", packages[-1])
+    assert (best.score[0], package.commit) == (8, packages[1].commit)
+    assert journal.find("mia", packages[-1]).score[0] == 2
+    journal.keep("mia", packages[0], result(1, seed=5))  # other inputs: begins anew
+    assert journal.best("mia", packages[-1])[0].score[0] == 1
+    journal.close()
+
+
+def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
+    journal = Journal(tmp_path / "j", [DAY], 0, deadline=False)
+    save(clone, "x = 1", DEADLINE)
+    package = collected(clone)[0]
+    journal.keep("mia", package, result(8, kit="0.1.0"))
+    newer = replace(package, kit="newer", version="0.2.0")
+    assert journal.find("mia", newer) is None
+    assert journal.find("mia", newer, frozen=True).kit == "0.1.0"
+    journal.close()
+
+
+@pytest.mark.parametrize(
+    ("minutes", "late", "expected"),
+    [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, ("", ""))],
+)
+def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expected):
+    one = Graded(Student("A", "a", Path()), result(4), "", minutes, late=late)
+    assert one.late_by == expected
+    assert one.percent == 50.0
+
+
+def test_a_table_for_handing_on_says_nothing_of_who_it_is():
+    told = replace(result(2), error="no such folder mia", refused=("read /home/mia",))
+    mia = Graded(
+        Student("Mia M", "mia", Path(), id="m@x.org"), told, "abc123", 5, "mia"
+    )
+    text = sheet.as_csv(DAY, sheet.nameless([mia], 4711)).decode("utf-8-sig")
+    head, row = text.splitlines()
+    assert "mia" not in row.lower()
+    assert "abc123" not in row
+    assert row.split(",")[head.split(",").index("percent")] == "25.0"
+    assert sheet.nameless([mia], 4711)[0].student != sheet.nameless([mia], 1)[0].student

@@ -1,0 +1,164 @@
+"""Identification against MuJoCo, Pinocchio, SciPy, NumPy, Day 4 and worked cases."""
+
+import json
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+import scipy.linalg
+from compare import assert_same
+
+from robo47 import dynamics, identification, panda, secret, verify
+from robo47.screws import ad
+
+DATA = Path(__file__).parent / "data"
+G_EARTH = np.array([0.0, 0.0, -9.81])
+rng = np.random.default_rng(8)
+
+
+def bodies(n=20):
+    """Return masses, centres and inertias of n bodies of 40 points each."""
+    points, weights = rng.normal(size=(n, 40, 3)), rng.uniform(0.1, 1, (n, 40))
+    m = weights.sum(axis=1)
+    c = (weights[..., None] * points).sum(axis=1) / m[:, None]
+    d = points - c[:, None]
+    P = np.einsum("nk,nki,nkj->nij", weights, d, d)
+    return m, c, np.trace(P, axis1=1, axis2=2)[:, None, None] * np.eye(3) - P
+
+
+def columns(arm, q, qd, qdd):
+    """Return Y of the links at q, (n, 7, 70), and the 70 numbers of the arm."""
+    now = [arm.at(x) for x in q]
+    J, T = np.array([x.J_space for x in now]), np.array([x.T_links for x in now])
+    Y = identification.arm_regressor(J, T, qd, qdd, arm.gravity)
+    return Y, secret.numbers(arm)[:70]
+
+
+def deficient(shape=(30, 8), rank=5):
+    """Return a matrix of that rank and a vector beside it."""
+    left, right = rng.normal(size=(shape[0], rank)), rng.normal(size=(rank, shape[1]))
+    return left @ right, rng.normal(size=shape[0])
+
+
+def test_ten_numbers_are_day_4s_inertia():
+    m, c, about = bodies()
+    phi = identification.parameters(m, c, about)
+    G = dynamics.spatial_inertia(m, c, about)
+    assert_same(identification.inertia_of(phi), G, 1e-12)
+
+
+def test_a_links_regressor_is_newton_and_eulers_wrench():
+    m, c, about = bodies()
+    G, phi = (
+        dynamics.spatial_inertia(m, c, about),
+        identification.parameters(m, c, about),
+    )
+    V, A = rng.normal(size=(2, 20, 6))
+    turned = np.swapaxes(ad(V), 1, 2) @ G @ V[..., None]
+    Y = identification.link_regressor(V, A)
+    assert_same(Y @ phi[..., None], G @ A[..., None] - turned, 1e-12)
+
+
+def test_the_arms_regressor_is_mj_inverse_on_either_panda(either_panda):
+    arm, motion = panda.arm(either_panda), secret.anywhere(either_panda, 8, 50)
+    Y, phi = columns(arm, *motion)
+    motors = identification.motor_features(motion.qd, motion.qdd)
+    friction = np.concatenate([arm.armature, arm.damping, np.zeros(7)])
+    tau = verify.mujoco_inverse_dynamics(either_panda, *motion)
+    assert_same(Y @ phi + motors @ friction, tau, 1e-11)
+
+
+def test_pinocchio_agrees(either_panda):
+    kept = json.loads((DATA / "dynamics_oracle.json").read_text())["panda_nohand"]
+    q, qd, qdd = (np.array(kept[name]) for name in ("q", "qd", "qdd"))
+    arm = panda.arm(either_panda)
+    Y, phi = columns(arm, q, qd, qdd)
+    # MuJoCo 3 reproduces the file's inertias, which Pinocchio reads, to 5e-7.
+    tol = 1e-4 if mujoco.__version__.startswith("3.") else 1e-12
+    assert_same(Y @ phi + arm.armature * qdd, np.array(kept["rnea"]), tol)
+
+
+def test_a_hinge_feels_its_load_as_day_4_has_it():
+    J = np.zeros((6, 7))
+    J[1, 0] = 1.0
+    T, still = np.array([np.eye(4)] * 7), np.zeros(7)
+    Y = identification.arm_regressor(J, T, still, np.eye(7)[0], G_EARTH)
+    assert_same(Y[0, :10], [0, -9.81, 0, 0, 0, 1, 0, 0, 0, 0], 1e-15)
+    load = identification.parameters(1.0, [1.0, 0, 0], np.zeros((3, 3)))
+    assert Y[0, :10] @ load == pytest.approx(-8.81)
+
+
+def test_rank_and_fit_are_those_of_numpy_and_scipy():
+    Y, tau = deficient()
+    rank, condition = identification.identifiable(Y, 1e-9)
+    s = scipy.linalg.svdvals(Y)
+    assert rank == np.linalg.matrix_rank(Y) == 5
+    assert condition == pytest.approx(s[0] / s[4])
+    phi = identification.fit(Y, tau, 1e-9)
+    assert_same(phi, scipy.linalg.lstsq(Y, tau, cond=1e-9)[0], 1e-12)
+    assert_same(phi, np.linalg.pinv(Y) @ tau, 1e-12)
+
+
+def test_sigma_is_how_far_predictions_scatter():
+    Y, _ = deficient()
+    phi, Y_new = rng.normal(size=8), rng.normal(size=(4, 5)) @ np.linalg.svd(Y)[2][:5]
+    found, said = zip(
+        *(
+            identification.predict_with_sigma(Y, Y @ phi + noise, Y_new, 1e-9)
+            for noise in 0.1 * rng.normal(size=(2000, 30))
+        ),
+        strict=True,
+    )
+    scatter = np.std(found, axis=0)
+    assert_same(np.sqrt(np.mean(np.square(said), axis=0)) / scatter, np.ones(4), 0.06)
+    one = identification.predict_with_sigma(np.ones((4, 1)), [1, 3, 1, 3], [[1]], 1e-9)
+    assert_same(one, [[2.0], [1 / np.sqrt(3)]], 1e-12)
+
+
+def test_a_load_is_weighed_to_rounding_where_nothing_rubs():
+    model = panda.load("panda_nohand", drive="torque")
+    com = np.array([0.02, -0.03, 0.06])
+    loaded = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, com))
+    q = verify.random_q(model, 6, 8)
+    extra = verify.mujoco_bias(loaded, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
+    J, R = secret.hands(panda.arm(model), q)
+    found = identification.payload_from_holds(J, R, extra, G_EARTH)
+    assert_same(found, [0.5, *0.5 * com], 1e-13)
+    slide = np.zeros((1, 6, 7))
+    slide[0, 5, 0] = 1.0
+    least = identification.payload_from_holds(
+        slide, np.eye(3)[None], 9.81 * np.eye(7)[:1], G_EARTH
+    )
+    assert_same(least, [1, 0, 0, 0], 1e-15)
+
+
+def test_points_make_a_body_and_a_positive_inertia_may_not():
+    phi = identification.parameters(*bodies())
+    assert identification.least_pseudo(phi).min() > 0.0
+    point = identification.parameters(2.0, [1.0, 2, 3], np.zeros((3, 3)))
+    assert_same(identification.least_pseudo(point), 0.0, 1e-13)
+    none = [1, 0, 0, 0, 1, 1, 3, 0, 0, 0]
+    assert np.linalg.eigvalsh(identification.inertia_of(none)).min() > 0.0
+    assert identification.least_pseudo(none) == pytest.approx(-0.5)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: identification.inertia_of(np.ones(9)), "phi has shape (9,)"),
+        (lambda: identification.motor_features(np.ones(7), np.ones(6)), "qdd has"),
+        (lambda: identification.fit(np.ones((2, 3, 4)), np.ones(2), 0.1), "stack"),
+        (lambda: identification.fit(np.zeros((3, 2)), np.ones(3), 0.1), "nothing"),
+        (
+            lambda: identification.predict_with_sigma(
+                np.eye(2), np.ones(2), np.eye(2), 1e-9
+            ),
+            "2 rows leave no residual",
+        ),
+    ],
+)
+def test_a_wrong_argument_is_named(call, words):
+    with pytest.raises(ValueError) as caught:  # noqa: PT011 (the words are compared)
+        call()
+    assert words in str(caught.value)

@@ -1,0 +1,222 @@
+"""A page to show: what is theirs, run again, and nothing from outside gets a say."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+pytest.importorskip("viser", reason="the extra view")
+
+from conftest import ROOT
+from labkit.base.git import History
+from labkit.grade.roster import Student
+from labkit.lesson.day import days_of, find_day
+from labkit.proof import facts, page
+from labkit.proof.class_pages import write_pages
+from labkit.proof.pick import Picked, pick
+from labkit.sandbox.sandbox import Sandbox
+from robo47 import capstone
+
+pytestmark = pytest.mark.kit
+
+EVIL = "<script>document.title='evil'</script>\"' onload=alert(1) {film}"
+
+
+@pytest.fixture(scope="module")
+def sandbox():
+    with Sandbox() as it:
+        yield it
+
+
+def git(folder, *words):
+    identity = ["-c", f"user.name={EVIL}", "-c", "user.email=a@example.org"]
+    done = ["git", *identity, *words]
+    subprocess.run(done, cwd=folder, check=True, capture_output=True)
+
+
+def a_clone(folder, changed=None, days=(1,)):
+    """Write the kit's labs into a folder as somebody's own, and commit them."""
+    for number in days:
+        day = find_day(number)
+        script = folder / day.files["script"]
+        script.parent.mkdir(parents=True, exist_ok=True)
+        text = day.source.read_text("utf-8")
+        for before, after in (changed or {}).items():
+            assert before in text
+            text = text.replace(before, after)
+        script.write_text(text + "\n# mine\n", "utf-8")
+    git(folder, "init", "--quiet")
+    git(folder, "add", "-A")
+    git(folder, "commit", "--quiet", "-m", EVIL)
+    return facts.open_clone(folder)
+
+
+class Seen(HTMLParser):
+    """The tags of a page, and its words."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.words, self.attributes = [], "", []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += [name for name, _ in attrs]
+
+    def handle_data(self, data):
+        self.words += data
+
+
+def half_done(tmp_path, sandbox):
+    """Return the proof of somebody who wrote Day 1 alone."""
+    clone, days, folders = a_clone(tmp_path / "of"), days_of(1), []
+    for day in days:
+        folders.append(tmp_path / str(day.number))
+        folders[-1].mkdir()
+    known = [
+        facts.facts_of(day, clone, folder, sandbox)
+        for day, folder in zip(days, folders, strict=True)
+    ]
+    return page.Proof(clone, known, pick(known, folders, sandbox))
+
+
+def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path, sandbox):
+    (tmp_path / "of").mkdir()
+    proof = half_done(tmp_path, sandbox)
+    first, *rest = proof.days
+    functions = [f for task in first.day.tasks for f in task.functions]
+    assert sorted(first.own) == sorted(functions)
+    assert not any(one.own for one in rest)
+    assert all(number.metric.passes(number.again) for number in first.numbers)
+    assert [number.worth for number in first.numbers] == ["none", "none"]
+    used = set(capstone.USES[1]) & set(functions)
+    assert proof.picked.yours == len(used)
+    assert not proof.picked.result.failed
+    text = page.render(proof)
+    assert len(text.encode()) < 3_000_000
+    assert f"{len(functions)} of " in Seen(text).words
+    assert "the kit's own do the rest" in Seen(text).words
+
+
+def test_a_transposed_jacobian_is_not_theirs_and_its_numbers_are_not_run(
+    tmp_path, sandbox
+):
+    clone = tmp_path / "of"
+    clone.mkdir()
+    wrong = "\n\n_right = space_jacobian\n\n\n"
+    wrong += "def space_jacobian(*a):\n    return _right(*a).T\n"
+    day = find_day(3)
+    source = day.source.read_text("utf-8")
+    mark = '\n\nif __name__ == "__main__":'
+    assert mark in source
+    it = a_clone(clone, {mark: wrong + mark}, days=[3])
+    (tmp_path / "files").mkdir()
+    found = facts.facts_of(day, it, tmp_path / "files", sandbox)
+    assert found.states["space_jacobian"] == "wrong"
+    assert "space_jacobian" not in found.own
+    assert all(number.again is None for number in found.numbers)
+
+
+def hostile():
+    """Return a proof in which all that comes from outside wants to be a tag."""
+    day = find_day(1)
+    numbers = [facts.Number(metric, 1e-15, "stale", None) for metric in day.metrics]
+    states = {EVIL: "passed", "Rz": EVIL}
+    one = facts.DayFacts(day, states, numbers, EVIL, EVIL)
+    history = History(True, EVIL, 0, EVIL)
+    clone = facts.Clone(Student(EVIL, EVIL, Path(EVIL)), history=history)
+    fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
+    return page.Proof(clone, [one], Picked(None, EVIL, 3, 35), fresh)
+
+
+def test_nothing_from_outside_becomes_a_tag():
+    text = page.render(hostile())
+    seen = Seen(text)
+    assert "script" not in seen.tags
+    assert not [name for name in seen.attributes if name.startswith("on")]
+    for what in ("Whose functions", "a fresh clone", "What this does not prove"):
+        assert what in seen.words
+    assert seen.words.count("<script>") >= 7
+
+
+def a_pick():
+    return capstone.pick(capstone.library())
+
+
+def test_no_script_runs_but_the_players():
+    proof = replace(hostile(), picked=Picked(a_pick(), "", 35, 35))
+    text = page.render(proof)
+    first, second = page.render(proof), text
+    nonces = {t.partition("'nonce-")[2].partition("'")[0] for t in (first, second)}
+    assert len(nonces) == 2  # nobody can know it before
+    seen = Seen(text)
+    assert seen.tags.count("iframe") == 1
+    assert "script" not in seen.tags
+    assert "unsafe-inline'; script-src 'nonce-" in text
+
+
+@pytest.mark.browser
+def test_the_pick_plays_on_the_page_and_the_evil_does_not(tmp_path, chromium):
+    playwright = pytest.importorskip("playwright.sync_api")
+    file = tmp_path / "proof.html"
+    proof = replace(hostile(), picked=Picked(a_pick(), "", 35, 35))
+    bad = "<script>document.title='evil'</script><p id=there>"
+    text = page.render(proof).replace("<section>", f"{bad}<section>", 1)
+    file.write_text(text, "utf-8")  # as if escaping had failed
+    with playwright.sync_playwright() as play:
+        browser = play.chromium.launch(
+            executable_path=chromium,
+            args=["--use-gl=angle", "--use-angle=swiftshader", "--no-sandbox"],
+        )
+        tab = browser.new_page(viewport={"width": 390, "height": 844})
+        tab.goto(file.as_uri())
+        clock = tab.frame_locator("iframe").locator("input").first
+        clock.wait_for(timeout=60_000)
+        assert tab.locator("#there").count() == 1
+        assert tab.title() != "evil"
+        assert tab.evaluate("document.documentElement.scrollWidth") == 390
+        browser.close()
+
+
+def test_an_arm_that_stops_is_told_and_not_filmed():
+    class Failing:
+        def session(self, *_):
+            return SimpleNamespace(
+                ask=lambda questions: [SimpleNamespace(kind="stopped", value=None)]
+            )
+
+    day = find_day(1)
+    known = facts.DayFacts(day, {"make_T": "passed"}, [])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("labkit.check.lab_run.stops_with", lambda reply: "It hangs.")
+        found = pick([known], [day.source.parent], Failing())
+    assert found == Picked(None, "make_T hangs", 1, found.total)
+
+
+def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
+    (tmp_path / "ada").mkdir()
+    a_clone(tmp_path / "ada")
+    class_ = [Student("Ada -x", "ada", tmp_path / "ada")]
+    class_.append(Student("Bob", "bob", tmp_path / "bob"))
+    written = list(write_pages(class_, 1, tmp_path / "proof", 1))
+    assert written[0][1] == ""
+    assert "nothing is begun" in written[1][1]
+    text = (tmp_path / "proof" / "ada.html").read_text("utf-8")
+    assert "Ada -x: week 1" in text
+    assert "a teacher's kit" in Seen(text).words
+    assert not (tmp_path / "proof" / "bob.html").exists()
+
+
+def test_a_place_that_cannot_be_written_is_told_before_the_work(tmp_path):
+    command = [sys.executable, ROOT / "scripts" / "proof.py", "--of", tmp_path]
+    done = subprocess.run(
+        [*command, "--out", tmp_path / "no" / "where.html"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert "--out" in done.stderr

@@ -1,0 +1,80 @@
+"""The secret robot, its motions and how it is held."""
+
+import numpy as np
+import pytest
+from compare import assert_same
+
+from robo47 import identification, panda, secret, simulate, verify
+
+AT = np.array([0.02, -0.03, 0.06])
+
+
+@pytest.fixture(scope="module")
+def model():
+    return panda.load("panda_nohand", drive="torque")
+
+
+def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
+    before = model.body_mass.copy()
+    one, again, other = (secret.changed(model, seed) for seed in (1, 1, 2))
+    assert_same(one.body_mass, again.body_mass, 0.0)
+    assert np.abs(one.body_mass - other.body_mass).max() > 0.01
+    assert_same(model.body_mass, before, 0.0)
+    share = one.body_mass[before > 0] / before[before > 0]
+    assert 0.0 < np.abs(share - 1.0).max() <= secret.MASS
+
+
+def test_the_motions_are_their_own_derivatives_and_keep_the_limits(model):
+    for motion, dt in (
+        (secret.excitation(model, 5, 20_000), 5e-4),
+        (secret.swing(20_000), 5e-4),
+    ):
+        q, qd, qdd = motion
+        assert_same((q[2:] - q[:-2]) / (2 * dt), qd[1:-1], 1e-5)
+        assert_same((qd[2:] - qd[:-2]) / (2 * dt), qdd[1:-1], 1e-4)
+        low, high = simulate.limits(model)[0].T
+        assert ((q > low) & (q < high)).all()
+        assert (np.abs(qd) < simulate.SPEED_LIMITS).all()
+
+
+def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd(model):
+    robot, motion = secret.changed(model, 3), secret.anywhere(model, 3, 100)
+    slow = motion._replace(qd=motion.qd / 40.0)
+    free = secret.changed(model, 3)
+    free.dof_frictionloss[:] = 0.0
+    secret.settled(free)
+    rub = secret.torques(robot, slow) - secret.torques(free, slow)
+    b = 2.0 / (0.95 * 0.02)  # 1/s, of MuJoCo's default solimp and solref
+    full = np.abs(slow.qd + slow.qdd / b) > 0.01  # near 0 it is a ramp
+    sign = np.sign(slow.qd + slow.qdd / b)
+    assert_same((rub / robot.dof_frictionloss)[full], sign[full], 1e-9)
+    assert (sign != np.sign(slow.qd)).mean() > 0.2
+
+
+def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load(model):
+    arm, q = panda.arm(model), panda.READY_Q
+    at, torque = secret.hold(model, arm, q, 1.0)
+    assert_same(at, q, 1e-6)
+    assert_same(torque, np.zeros(7), 1e-3)
+    hung = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
+    at, torque = secret.hold(hung, arm, q, 1.0)
+    extra = verify.mujoco_bias(hung, at, 0 * at) - verify.mujoco_bias(model, at, 0 * at)
+    assert_same(torque, extra, 1e-4)
+
+
+def test_an_arm_floats_on_what_it_really_weighs(model):
+    arm, still = panda.arm(model), lambda now: now.gravity_torque
+    hung = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
+    load = np.append(0.5, 0.5 * AT)
+    assert abs(secret.rises(hung, arm, still, load)) < 1e-12
+    assert secret.rises(hung, arm, still, 0 * load) < -0.4
+    assert secret.rises(hung, arm, still, 1.2 * load) > 0.05
+
+
+def test_the_numbers_of_a_known_arm_are_its_torque(model):
+    arm, motion = panda.arm(model), secret.anywhere(model, 4, 5)
+    for q, qd, qdd, tau in zip(*motion, secret.torques(model, motion), strict=True):
+        now = arm.at(q)
+        Y = identification.arm_regressor(now.J_space, now.T_links, qd, qdd, arm.gravity)
+        Y = np.hstack([Y, identification.motor_features(qd, qdd)])
+        assert_same(Y @ secret.numbers(arm), tau, 1e-11)

@@ -1,0 +1,211 @@
+"""8.3 `arm_regressor(J_space, T_links, qd, qdd, g)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import Row
+from robo47 import dynamics
+from robo47.identification import arm_regressor, inertia_of, link_regressor
+from robo47.screws import ad, adjoint
+from robo47.se3 import inverse
+
+from .states import DOWN, moving
+
+ROWS = tuple(f"the row of joint{i}" for i in range(1, 8))
+row = Row(Matrix((7, 70), rows=ROWS, scale=10.0))
+
+
+@row.inputs
+def _(rng):
+    drawn = moving(rng)
+    J, T, qd, qdd, g = drawn[0]
+    hinge, still = np.zeros((6, 7)), np.zeros(7)
+    hinge[1, 0] = 1.0
+    case = (hinge, np.array([np.eye(4)] * 7), still, np.eye(7)[0], g)
+    alone = [(still, still, g), (still, qdd, 0 * g), (qd, still, 0 * g)]
+    tipped = (J, T, qd, qdd, np.array([3.0, -5.0, 7.0]))
+    return [case, *((J, T, *one) for one in alone), tipped, *drawn]
+
+
+def walk(
+    J, T, qd, qdd, g,
+    base=lambda g: np.append(np.zeros(3), -g),
+    own=lambda S, acc: S * acc,
+    turned=lambda V, S, speed: ad(V) @ S * speed,
+    into=lambda T: adjoint(inverse(T)),
+    back=lambda X: X.T,
+    felt=lambda i: slice(0, i + 1),
+):  # fmt: skip
+    """Return Y by the walk out along the arm, with other parts.
+
+    Args:
+        J, T, qd, qdd, g: as in `arm_regressor`.
+        base: the acceleration that it starts with.
+        own: what a joint adds to the acceleration.
+        turned: what the acceleration has for ad(V) S qd.
+        into: from the pose of a link to the matrix for V and A.
+        back: from that matrix to the one for the wrench.
+        felt: the joints that feel link i.
+    """
+    V, A, Y = np.zeros(6), base(g), np.zeros((7, 70))
+    for i, S in enumerate(J.T):
+        V = V + S * qd[i]
+        A = A + own(S, qdd[i]) + turned(V, S, qd[i])
+        X, at = into(T[i]), felt(i)
+        costs = back(X) @ link_regressor(X @ V, X @ A)
+        Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
+    return Y
+
+
+def rotated(T):
+    """Return the matrix for twists of a pose that only turns."""
+    at_origin = np.array(T)
+    at_origin[:3, 3] = 0.0
+    return adjoint(inverse(at_origin))
+
+
+for slug, says, other in (
+    (
+        "base-acceleration-sign",
+        "the base accelerates with +g: to stand on the ground feels like a lift that "
+        "starts upwards, -g",
+        {"base": lambda g: np.append(np.zeros(3), g)},
+    ),
+    (
+        "gravity-forgotten",
+        "gravity is missing: A starts at 0 at the base",
+        {"base": lambda g: np.zeros(6)},
+    ),
+    (
+        "gravity-as-omega",
+        "the base's acceleration stands in the angular half; a twist is (omega; v)",
+        {"base": lambda g: np.append(-g, np.zeros(3))},
+    ),
+    (
+        "acceleration-forgotten",
+        "S qdd is missing: the joints' own acceleration costs nothing",
+        {"own": lambda S, acc: 0 * S},
+    ),
+    (
+        "bracket-forgotten",
+        "A lacks ad(V) S qd: a joint that is carried round changes its direction",
+        {"turned": lambda V, S, speed: 0 * S},
+    ),
+    (
+        "bracket-sign",
+        "A has ad(S) V qd, which is minus ad(V) S qd",
+        {"turned": lambda V, S, speed: ad(S) @ V * speed},
+    ),
+    (
+        "pose-not-inverted",
+        "V and A are turned with Ad(T); from the world into the link it takes Ad(T^-1)",
+        {"into": adjoint},
+    ),
+    (
+        "offset-left-out",
+        "V and A are turned, but not shifted: p of the link is not in X",
+        {"into": rotated},
+    ),
+    (
+        "in-world-axes",
+        "nothing is turned into the links; phi of a link is in its own axes, about its "
+        "own origin",
+        {"into": lambda T: np.eye(6)},
+    ),
+    (
+        "wrench-back-with-X",
+        "the wrench comes back with X; power is the same from both sides, so it takes "
+        "X^T",
+        {"back": lambda X: X},
+    ),
+    (
+        "wrench-back-with-the-inverse",
+        "the wrench comes back with X^-1, as a twist would; a wrench takes X^T",
+        {"back": np.linalg.inv},
+    ),
+    (
+        "wrench-not-carried-back",
+        "the wrench is turned back, but not carried to the world's origin: its force "
+        "has a moment there",
+        {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)},
+    ),
+    (
+        "every-joint-feels-every-link",
+        "joints feel links before their own; a joint carries its own link and those "
+        "after it",
+        {"felt": lambda i: slice(0, 7)},
+    ),
+    (
+        "cut-early",
+        "the joint that carries a link as its own does not feel it: the slice ends one "
+        "too early",
+        {"felt": lambda i: slice(0, i)},
+    ),
+    (
+        "own-link-only",
+        "each joint feels its own link only; it carries those after it, too",
+        {"felt": lambda i: slice(i, i + 1)},
+    ),
+):
+
+    @row.wrong(slug, says, "the Y so")
+    def _(J_space, T_links, qd, qdd, g, other=other):
+        return walk(J_space, T_links, qd, qdd, g, **other)
+
+
+@row.wrong
+def V_and_A_not_turned(J_space, T_links, qd, qdd, g):
+    """V is used in world axes, only A is turned into the link => Y with V as it is"""
+    V, A, Y = np.zeros(6), np.append(np.zeros(3), -g), np.zeros((7, 70))
+    for i, S in enumerate(J_space.T):
+        V, X = V + S * qd[i], adjoint(inverse(T_links[i]))
+        A = A + S * qdd[i] + ad(V) @ S * qd[i]
+        costs = X.T @ link_regressor(V, X @ A)
+        Y[: i + 1, 10 * i : 10 * i + 10] = J_space[:, : i + 1].T @ costs
+    return Y
+
+
+@row.wrong
+def grouped_by_number(J_space, T_links, qd, qdd, g):
+    """the columns are grouped by number, all masses first; they are grouped by link,
+    ten each => the right one with its columns in that order"""
+    Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
+    return np.swapaxes(Y, 1, 2).reshape(7, 70)
+
+
+row.of_argument(
+    "g",
+    Change(
+        "gravity-typed-in",
+        "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
+        lambda g: DOWN,
+        "the Y with that gravity",
+        "the lab's robot stands upright",
+    ),
+)
+row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])
+
+
+@row.right  # Seventy robots with one number each, through Day 4's inverse dynamics.
+def _(J_space, T_links, qd, qdd, g):
+    units, Y = inertia_of(np.eye(10)), []
+    for i in range(7):
+        X = adjoint(inverse(T_links[i]))
+        for unit in units:
+            G = np.zeros((7, 6, 6))
+            G[i] = X.T @ unit @ X
+            Y.append(dynamics.inverse_dynamics(J_space, G, qd, qdd, g))
+    return np.array(Y).T
+
+
+@row.right  # V after A: ad(V) S is the same with the V of the link before.
+def _(J_space, T_links, qd, qdd, g):
+    V, A, Y = np.zeros(6), np.append(np.zeros(3), -g), np.zeros((7, 70))
+    for i, S in enumerate(J_space.T):
+        A = A + S * qdd[i] + ad(V) @ S * qd[i]
+        V, X = V + S * qd[i], adjoint(inverse(T_links[i]))
+        seen = X @ J_space[:, : i + 1]
+        costs = link_regressor(X @ V, X @ A)
+        Y[: i + 1, 10 * i : 10 * i + 10] = seen.T @ costs
+    return Y

@@ -1,0 +1,118 @@
+"""Day 8 in the inspector: the tab Weigh.
+
+Hang a ball on the hand of the lab's secret robot, choose a pose, and let it be held
+from both sides. What `robo47.identification` finds stands beside what hangs there, with
+its sigma; the blue ball is where the load is said to be.
+"""
+
+import numpy as np
+
+from labkit.inspector import words
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
+from robo47 import identification, panda, secret
+from robo47.checks import Array
+
+SEED, RTOL = 47, 1e-9
+HERE, FIVE, FORGET = "hold here", "five poses", "forget"
+
+
+class Weigh(Tab):
+    """What the arm weighs: a load, its estimate, and how sure that is."""
+
+    title = "Weigh"
+    wide = True
+
+    def __init__(self, page: Page) -> None:
+        """Draw the load; nothing is held yet."""
+        super().__init__(page)
+        model = panda.load("panda_nohand", drive="torque")
+        self.arm, self.empty = panda.arm(model), secret.changed(model, SEED)
+        self.mass, self.com = 0.5, np.array([0.02, -0.03, 0.06])
+        self.held: list[Array] = []  # q, torque with and without, from either side
+        page.html(words.line("Weighed by robo47.identification.", "library"))
+        page.slider("load", 50, 2000, 500, self.set_mass, unit="g", step=50)
+        for k, axis in enumerate("xyz"):
+            start = 1000 * self.com[k]
+            change = lambda mm, k=k: self.set_com(k, mm)  # noqa: E731
+            page.slider(f"centre {axis}", -100, 100, start, change, unit="mm", step=5)
+        page.buttons([HERE, FIVE, FORGET], self.press)
+        self.table = page.html()
+        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange")
+        self.found = page.draw.sphere(np.zeros(3), secret.RADIUS / 2, "blue")
+        page.light("ee", {"ee"})
+        self.show()
+
+    def set_mass(self, grams: float) -> None:
+        """Hang another load on the hand, which was never held."""
+        self.mass = grams / 1000.0
+        self.press(FORGET)
+
+    def set_com(self, axis: int, mm: float) -> None:
+        """Hang it somewhere else."""
+        self.com[axis] = mm / 1000.0
+        self.press(FORGET)
+
+    def press(self, name: str) -> None:
+        """Hold the arm where it is, or in five poses near by; or forget all holds."""
+        poses = [self.page.q[:7]] if name == HERE else []
+        if name == FIVE:
+            beside = np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
+            poses = list(panda.READY_Q + beside)
+        if name == FORGET:
+            self.held = []
+        edit = secret.load(self.mass, self.com)
+        hung = panda.load("panda_nohand", drive="torque", edit=edit)
+        full = secret.changed(hung, SEED)
+        for pose in poses:
+            _, empty = secret.holds(self.empty, self.arm, [pose])
+            self.held.append(np.array([*secret.holds(full, self.arm, [pose]), empty]))
+        self.show()
+
+    def on_move(self, q: Array) -> None:
+        """Move both balls with the hand."""
+        self.show()
+
+    def weighed(self) -> dict[str, tuple[Array, Array]]:
+        """Return (m, m c) and its sigma, (4,) each, by how the holds are compared."""
+        q, full, empty = np.concatenate(self.held, axis=2)  # (side, pose, joint) each
+        ways = {
+            "from one side": (q[0], full[0] - empty[0]),
+            "one from either side": (q[1], full[1] - empty[0]),
+            "both, averaged": (q.mean(axis=0), (full - empty).mean(axis=0)),
+        }
+        found = {}
+        for name, (at, extra) in ways.items():
+            J, R = secret.hands(self.arm, at)
+            rows = identification.load_regressor(J, R, self.arm.gravity).reshape(-1, 4)
+            given = rows, extra.ravel(), np.eye(4), RTOL
+            found[name] = identification.predict_with_sigma(*given)
+            self.rank, _ = identification.identifiable(rows, RTOL)
+        return found
+
+    def show(self) -> None:
+        """Draw both balls and say what was found."""
+        T = self.arm.at(self.page.q[:7]).T_world_ee
+        self.ball.position = T[:3, 3] + T[:3, :3] @ self.com
+        self.found.visible = bool(self.held)
+        if not self.held:
+            self.table.content = words.line("Not held yet.", "weighed")
+            return
+        lines = []
+        for name, (load, sigma) in self.weighed().items():
+            c, off = 1000 * load[1:] / load[0], 1000 * sigma[1:] / load[0]
+            centre = ", ".join(f"{x:.1f}" for x in c)
+            lines.append(
+                f"{name}: {1000 * load[0]:.1f} g, sigma {1000 * sigma[0]:.1f}; centre "
+                f"{centre} mm, sigma {off.max():.1f}"
+            )
+            self.found.position = T[:3, 3] + T[:3, :3] @ c / 1000.0
+        poses = f"{len(self.held)} held, {self.rank} of 4 numbers show"
+        hidden = ": the centre along gravity does not" if self.rank < 4 else ""
+        text = [f"{poses}{hidden}; hung are {1000 * self.mass:.0f} g.", *lines]
+        self.table.content = "".join(
+            words.line(line, "weighed" if k else "shown") for k, line in enumerate(text)
+        )
+
+
+TABS = [Weigh]

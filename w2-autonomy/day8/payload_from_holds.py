@@ -1,0 +1,126 @@
+"""8.8 `payload_from_holds(J_site, R_site, extra, g)`: questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Vector
+from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import Row
+from robo47.identification import payload_from_holds
+from robo47.screws import skew
+
+from .states import DOWN, SWAP, hands
+
+row = Row(Vector((4,), names=("m", "m cx", "m cy", "m cz")), near=1e-6)
+
+
+@row.inputs
+def _(rng):
+    slide, extra = np.zeros((5, 6, 7)), np.zeros((5, 7))
+    slide[:, 5, 0], extra[:, 0] = 1.0, 9.81
+    return [(slide, np.array([np.eye(3)] * 5), extra, DOWN), *hands(rng)]
+
+
+def solved(J_site, R_site, extra, g, sign=-1.0, moment=-1.0, order=None):
+    """Return m and m c, with another sign of all, of the moment, or another order."""
+    W = np.zeros((len(R_site), 6, 4))
+    W[:, 3:, 0], W[:, :3, 1:] = g, moment * skew(g) @ R_site
+    W = W if order is None else W[:, order]
+    rows = sign * np.swapaxes(J_site, 1, 2) @ W
+    return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
+
+
+@row.wrong
+def load_drives(J_site, R_site, extra, g):
+    """the sign is that of what the load does to the arm; the motors hold against it =>
+    the right one with +J^T"""
+    return solved(J_site, R_site, extra, g, sign=1.0)
+
+
+@row.wrong
+def moment_sign(J_site, R_site, extra, g):
+    """the moment has the wrong sign: c x m g is -[g] m c, and its centre comes out on
+    the other side => the right one with +[g] R"""
+    return solved(J_site, R_site, extra, g, moment=1.0)
+
+
+@row.wrong
+def force_first(J_site, R_site, extra, g):
+    """the wrench is (force; moment); J has its angular rows first => the right one with
+    its halves swapped"""
+    return solved(J_site, R_site, extra, g, order=SWAP)
+
+
+@row.wrong
+def R_forgotten(J_site, R_site, extra, g):
+    """R is not in it: m c is taken to stand in world axes all along => the right one
+    with R = I"""
+    return solved(J_site, np.array([np.eye(3)] * len(R_site)), extra, g)
+
+
+@row.wrong
+def R_transposed(J_site, R_site, extra, g):
+    """R is transposed: it takes the hand's axes to the world's => the right one with
+    R^T"""
+    return solved(J_site, np.swapaxes(R_site, 1, 2), extra, g)
+
+
+@row.wrong
+def centre_for_first_moment(J_site, R_site, extra, g):
+    """the last three are c; asked for is m c, which is what is linear => m, then c"""
+    m, *h = payload_from_holds(J_site, R_site, extra, g)
+    return np.append(m, np.array(h) / m)
+
+
+@row.wrong
+def one_pose_only(J_site, R_site, extra, g):
+    """only the first pose is used; one hold does not show the centre along gravity =>
+    the first pose alone"""
+    return payload_from_holds(J_site[:1], R_site[:1], extra[:1], g)
+
+
+@row.wrong
+def poses_averaged(J_site, R_site, extra, g):
+    """each pose is solved alone, and then the mean is taken; each of them is blind for
+    one direction: stack them => the mean over the poses"""
+    each = [
+        payload_from_holds(J[None], R[None], tau[None], g)
+        for J, R, tau in zip(J_site, R_site, extra, strict=True)
+    ]
+    return np.mean(each, axis=0)
+
+
+@row.wrong
+def centre_forgotten(J_site, R_site, extra, g):
+    """only m is found, as if the load hung at the site itself => m alone, and zeros"""
+    force = -(np.swapaxes(J_site[:, 3:], 1, 2) @ g).reshape(-1)
+    return np.append(force @ extra.reshape(-1) / (force @ force), np.zeros(3))
+
+
+@row.wrong
+def newtons(J_site, R_site, extra, g):
+    """these are newtons and newton metres: m g and m g c. g is known, so divide by its
+    length => the right one times |g|"""
+    return np.linalg.norm(g) * payload_from_holds(J_site, R_site, extra, g)
+
+
+row.of_argument(
+    "g",
+    Change(
+        "gravity-typed-in",
+        "9.81 downwards is typed in; gravity is the argument g",
+        lambda g: DOWN,
+        "what is found with that gravity",
+    ),
+)
+
+
+@row.right  # A hold at a time, with cross products; then the normal equations.
+def _(J_site, R_site, extra, g):
+    A, b = np.zeros((4, 4)), np.zeros(4)
+    for J, R, tau in zip(J_site, R_site, extra, strict=True):
+        moments = [np.cross(axis, g) for axis in R.T]
+        W = np.vstack([np.column_stack([np.zeros(3), *moments]), np.zeros((3, 4))])
+        W[3:, 0] = g
+        rows = -J.T @ W
+        A, b = A + rows.T @ rows, b + rows.T @ tau
+    return np.linalg.pinv(A, rcond=1e-12) @ b

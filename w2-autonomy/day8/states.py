@@ -1,0 +1,56 @@
+"""What Day 8 asks about: bodies, states of the Panda, regressors with known values."""
+
+import numpy as np
+
+from labkit.judge import draw
+from robo47 import panda, se3
+
+WRENCH = ("moment x", "moment y", "moment z", "force x", "force y", "force z")
+NUMBERS = ("m", "m cx", "m cy", "m cz", "Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz")
+DOWN = np.array([0.0, 0.0, -9.81])
+SWAP = [3, 4, 5, 0, 1, 2]
+CUT = 0.004  # rtol of the questions: what is cut is small, yet has digits
+
+
+def bodies(rng, n=8):
+    """Return ten numbers each, m and m c both never 0; most belong to no body."""
+    phi = draw.numbers(rng, -2, 2, n, 10)
+    phi[:, 0] = draw.numbers(rng, 1, 4, n)
+    return phi
+
+
+def moving(rng, n=6):
+    """Return J, T_links, qd, qdd and g of the Panda in motion."""
+    arm = panda.arm(panda.load("panda_nohand"))
+    found = []
+    for q in draw.configurations(rng, n):
+        now, (qd, qdd) = arm.at(q), draw.numbers(rng, -2, 2, 2, 7)
+        found.append((now.J_space, now.T_links, qd, 5.0 * qdd, DOWN))
+    return found
+
+
+def regressors(rng, n=6, rows=20):
+    """Return matrices, (rows, 6), with two values under CUT; one is large, one small.
+
+    The cut is six times away from the values on either side, or more; its root is not.
+    """
+    found = []
+    for size in np.resize([1.0, 300.0, 0.002], n):
+        s = size * rng.uniform(0.9, 1.1, 6) * [2.0, 1.2, 0.6, 0.06, 5e-4, 2e-4]
+        U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
+        V = np.linalg.qr(rng.normal(size=(6, 6)))[0]
+        found.append(U * s @ V.T)
+    return found
+
+
+def hands(rng, n=6, k=5):
+    """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
+    return [
+        (
+            draw.numbers(rng, -1, 1, k, 6, 7),
+            se3.quat_to_R(rng.normal(size=(k, 4))),
+            draw.numbers(rng, -20, 20, k, 7),
+            draw.numbers(rng, -10, 10, 3) if i % 2 else DOWN,
+        )
+        for i in range(n)
+    ]
