@@ -1,5 +1,6 @@
 """Day 4: the numbers in the guide's sentences, the demo, and the errata rows."""
 
+import importlib.util
 import re
 import sys
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, need, paper
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
@@ -296,3 +297,31 @@ def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):
     M = arm.at(panda.READY_Q).M
     shown = [float(x) for x in re.findall(r">([-\d.]+)</td>", heat_map(M))]
     assert_same(np.reshape(shown, (7, 7)), M, 0.0051)
+
+
+def forces(functions):
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return folder.load(find_day(4), "inspector").Forces(page)
+
+
+def fallen(tab, seconds=1.0):
+    """Return how far the hand is from where it was after a while of floating."""
+    tab.press("float")
+    for _ in range(round(25 * seconds)):
+        tab.advance(1.0)
+    hand = [tab.rig.at(q).T_world_ee[:3, 3] for q in (panda.READY_Q, tab.data.qpos)]
+    return np.linalg.norm(hand[1] - hand[0])
+
+
+def test_the_tab_floats_on_ones_own_torque_and_falls_with_a_wrong_sign():
+    tab = forces(vars(lab))
+    assert fallen(tab) < 1e-3
+    assert tab.own.says()[1] == "good"
+    tab.on_move(panda.READY_Q)
+    assert_same(*tab.bars.show.call_args.args, 1e-9)  # the bars and the marks
+    negative = {"gravity_torque": lambda *args: -lab.gravity_torque(*args)}
+    tab = forces({**vars(lab), **negative})
+    assert fallen(tab) > 0.3
+    says, kind = tab.own.says()
+    assert (kind, "gravity_torque by" in says) == ("bad", True)
