@@ -1,12 +1,16 @@
 """Second looks: whose fault it is, when it is right, what a lab finds, borrowing."""
 
+from dataclasses import replace
+
 import inprocess
 import numpy as np
 import pytest
 
 from labkit.check.lab_run import failing_step
+from labkit.check.second_look import old_names
 from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
 from labkit.lesson.day import find_day
+from labkit.lesson.starter import read_script
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 
@@ -145,3 +149,16 @@ class TestBorrowing:
         assert done.returncode == 2
         assert "no task 1.99" in done.stderr
         assert "Traceback" not in done.stderr
+
+
+def test_a_function_is_judged_under_the_name_that_it_had():
+    day = find_day(1)
+    tasks = [
+        replace(t, functions=("undone",), was=("inverse",)) if t.id == "1.3" else t
+        for t in day.tasks
+    ]
+    newer = replace(day, tasks=tuple(tasks))
+    text = read_script(day.source)
+    assert old_names(newer, text).strip() == "undone = inverse"
+    assert old_names(newer, text.replace("def inverse(", "def undone(")) == ""
+    assert old_names(day, text) == ""
