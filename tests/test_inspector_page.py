@@ -297,9 +297,10 @@ def test_the_page_asks_nobody_else_for_anything(page, served):
 def test_the_matrices_stand_in_the_page_before_viser_draws_anything(served, page):
     with urllib.request.urlopen(served.url, timeout=60) as answer:
         text = answer.read().decode()
-    first = text.partition('<div id="r47-first">')[2].partition("<script")[0]
-    shown = re.sub("<[^>]*>", "", first.partition('data-matrix="mujoco">')[2])
-    numbers = np.array(shown.split()[:16], dtype=float).reshape(4, 4)
+    first = text.partition('<div id="r47-first">')[2]
+    entries = first.partition('data-matrix="mujoco">')[2].partition("</pre>")[0]
+    shown = re.sub("<[^>]*>", "", entries)
+    numbers = np.array(shown.split(), dtype=float).reshape(4, 4)
     np.testing.assert_allclose(numbers, page.matrix("mujoco"), atol=SHOWN)
 
 
