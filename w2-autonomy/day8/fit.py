@@ -49,21 +49,6 @@ def times_s(Y, tau, rtol):
 
 
 @row.wrong
-def s_forgotten(Y, tau, rtol):
-    """the singular values are not divided by => V U^T tau"""
-    U, _, Vt = parts(Y, rtol)
-    return Vt.T @ (U.T @ tau)
-
-
-@row.wrong
-def divided_by_squares(Y, tau, rtol):
-    """it is divided by the squares of the singular values; that is for Y^T tau => V
-    S^-2 U^T tau"""
-    U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (U.T @ tau / s**2)
-
-
-@row.wrong
 def rtol_absolute(Y, tau, rtol):
     """a value is compared with rtol itself; it counts above rtol times the largest =>
     the right one with rtol absolute"""

@@ -73,23 +73,6 @@ def condition_inverted(Y, rtol):
     return len(kept), kept[-1] / kept[0]
 
 
-@row.wrong
-def hidden_counted(Y, rtol):
-    """this counts what cannot be seen; the rank is what can => the number of columns
-    less the rank"""
-    s = values(Y)
-    kept = s[s > rtol * s[0]]
-    return Y.shape[1] - len(kept), kept[0] / kept[-1]
-
-
-@row.wrong
-def condition_of_the_cut(Y, rtol):
-    """the condition is 1 / rtol: it is what the motion shows, not what you allow => 1 /
-    rtol"""
-    s = values(Y)
-    return np.sum(s > rtol * s[0]), 1.0 / rtol
-
-
 @row.right  # By the eigenvalues of Y^T Y, the cut squared too.
 def _(Y, rtol):
     s2 = np.linalg.eigvalsh(Y.T @ Y)[::-1]

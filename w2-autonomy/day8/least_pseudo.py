@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Scalar
 from labkit.judge.row import Row
-from robo47.identification import inertia_of, least_pseudo
+from robo47.identification import inertia_of
 
 from .states import bodies
 
@@ -40,13 +40,6 @@ def only_the_inertia(phi):
 
 
 @row.wrong
-def only_the_six_by_six(phi):
-    """this is the least eigenvalue of the 6x6 inertia: positive kinetic energy does not
-    make a body => that of the 6x6 inertia"""
-    return least(inertia_of(phi))
-
-
-@row.wrong
 def inertia_not_turned_round(phi):
     """I stands at the upper left itself; the sum of m r r^T is tr(I)/2 1 - I => with I
     there"""
@@ -57,12 +50,6 @@ def inertia_not_turned_round(phi):
 def trace_not_halved(phi):
     """the trace is not halved: r.r is counted twice in it => with tr(I) 1 - I"""
     return least(pseudo(phi, spread=lambda I: np.trace(I) * np.eye(3) - I))  # noqa: E741
-
-
-@row.wrong
-def first_moment_left_out(phi):
-    """m c is not in it => with h = 0"""
-    return least(pseudo(phi, h=0.0))
 
 
 @row.wrong
@@ -87,8 +74,3 @@ def largest(phi):
 @row.right  # From the general eigenvalues.
 def _(phi):
     return np.linalg.eigvals(pseudo(phi)).real.min()
-
-
-@row.right  # By its largest, of the negative.
-def _(phi):
-    return -np.linalg.eigvalsh(-pseudo(phi))[-1] + 0.0 * least_pseudo(phi)
