@@ -33,7 +33,7 @@ for slug, says, redone, other in (
     ("load-drives", "the sign is that of what the load does to the arm; the motors "
      "hold against it", "the right one with +J^T", {"sign": 1.0}),
     ("moment-sign", "the moment has the wrong sign: c x m g is -[g] m c, and its "
-     "centre comes out on the other side", "the right one with +[g] R", {"moment": 1.0}),
+     "centre comes out on the other side", "with +[g] R", {"moment": 1.0}),
     ("force-first", "the wrench is (force; moment); J has its angular rows first",
      "the right one with its halves swapped", {"order": SWAP}),
 ):  # fmt: skip

@@ -56,7 +56,8 @@ for slug, says, redone, change in (
     ("noise-left-out", "the noise is missing: this is how much a fit amplifies it",
      "sigma over the noise", lambda sigma, noise, n, rank, p: sigma / noise),
     ("noise-for-sigma", "this is the noise for every row; a motion that was never "
-     "shown is less sure", "the noise", lambda sigma, noise, n, rank, p: noise + 0 * sigma),
+     "shown is less sure", "the noise",
+     lambda sigma, noise, n, rank, p: noise + 0 * sigma),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(with_sigma(change))
 

@@ -29,6 +29,12 @@ def model():
 
 
 @pytest.fixture(scope="module")
+def hung():
+    edit = secret.load(lab.LOAD, lab.AT)
+    return panda.load("panda_nohand", drive="torque", edit=edit)
+
+
+@pytest.fixture(scope="module")
 def arm(model):
     return panda.arm(model)
 
@@ -93,15 +99,11 @@ def test_what_the_arm_hides(data, arm):
 
 
 def test_one_hinge_feels_three_of_ten():
-    q, g = np.linspace(-1, 1, 9), np.array([0.0, 0.0, -9.81])
-    rows = []
-    for a in q:
-        V, A = np.array([0, 2.0, 0, 0, 0, 0]), np.zeros(6)
-        c, s = np.cos(a), np.sin(a)
-        A[1], A[3:] = 1.0 + a, np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]]) @ -g
-        rows.append(identification.link_regressor(V, A)[1])
-    felt = np.abs(rows).max(axis=0) > 1e-12
-    assert np.flatnonzero(felt).tolist() == [1, 3, 5]
+    turns = np.array(
+        [[[0, 2.0, 0, 0, 0, 0], [0, a, 0, a, 0, 9.81]] for a in (-1, 1, 2)]
+    )
+    row = identification.link_regressor(turns[:, 0], turns[:, 1])[:, 1]
+    assert np.flatnonzero(np.abs(row).max(axis=0)).tolist() == [1, 3, 5]
     assert "feel at all? (Three." in SENTENCES
 
 
@@ -117,8 +119,7 @@ def test_without_noise_torques_are_right_and_masses_wrong(data, model):
     for masses in (phi[:70:10] + 0.0, true):
         words = ", ".join("0" if abs(m) < 1e-9 else f"{m:.2f}" for m in masses)
         assert f"({words})" in SENTENCES
-    for name, below in (("swing", 1e-12), ("excited", 1e-12)):
-        assert fitted(data, name, 0.0)[0] < below
+    assert max(fitted(data, name, 0.0)[0] for name in ("swing", "excited")) < 1e-12
 
 
 def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
@@ -188,10 +189,8 @@ def costs(code, arm, motion):
 
 def test_what_mistakes_cost_in_motion_and_at_rest(arm, model):
     still = np.zeros((1, 7))
-    motions = (
-        secret.anywhere(model, lab.SEED, 20),
-        secret.Motion(panda.READY_Q[None], still, still),
-    )
+    at_rest = secret.Motion(panda.READY_Q[None], still, still)
+    motions = secret.anywhere(model, lab.SEED, 20), at_rest
     ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
     cost = {slug: [costs(code, arm, m) for m in motions] for slug, code in ways.items()}
     rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
@@ -199,14 +198,8 @@ def test_what_mistakes_cost_in_motion_and_at_rest(arm, model):
     for slug, *written in rows:
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
-    unseen = sum(at_rest < 1e-9 < moving for moving, at_rest in cost.values())
+    unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
     assert f"shows nothing of {unseen} of the {len(cost)} mistakes" in SENTENCES
-
-
-@pytest.fixture(scope="module")
-def hung():
-    edit = secret.load(lab.LOAD, lab.AT)
-    return panda.load("panda_nohand", drive="torque", edit=edit)
 
 
 @pytest.mark.kit
@@ -287,10 +280,9 @@ def test_the_tab_weighs_and_shows_what_has_no_sigma():
     assert abs(load[3]) < 0.001 < 0.02 < LOAD[3]  # far off, and says it is sure
     assert 1000 * sigma[3] / load[0] < 0.25
     tab.press(inspector.FIVE)
-    (good, sure), (_, unsure) = (
-        tab.weighed()[name] for name in ("both, averaged", "one from either side")
-    )
+    good, sure = tab.weighed()["both, averaged"]
+    _, unsure = tab.weighed()["one from either side"]
     assert_same(good, LOAD, 2e-3)
     assert sure[0] < 0.001 < 0.02 < unsure[0]
-    tab.set_mass(1000)
+    tab.hang(1000)
     assert not tab.held
