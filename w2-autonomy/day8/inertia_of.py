@@ -17,32 +17,21 @@ def _(rng):
     return [(np.array([2.0, 0, 0, 2, 2, 2, 0, 0, 0, 0]),), *((x,) for x in bodies(rng))]
 
 
-@row.wrong
-def products_negative(phi):
-    """Ixy, Ixz and Iyz have changed their sign; here they are the entries of I as they
-    stand in it => the right one with -Ixy, -Ixz, -Iyz"""
-    return right(phi * np.append(np.ones(7), -np.ones(3)))
-
-
-@row.wrong
-def row_by_row(phi):
-    """the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of other
-    software; here the diagonal comes first => I in that order"""
-    return right(phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]])
-
-
-@row.wrong
-def first_moment_times_m(phi):
-    """phi[1:4] is multiplied by m; it is m c already, which keeps all of it linear =>
-    the right one with m [h] for [h]"""
-    return right(np.append(phi[0], np.append(phi[0] * phi[1:4], phi[4:])))
-
-
-@row.wrong
-def corners_swapped(phi):
-    """the corners are swapped: [h] stands at the upper right, [h]^T at the lower left
-    => the right one with -h"""
-    return right(phi * np.append([1.0, -1, -1, -1], np.ones(6)))
+for slug, says, redone, change in (
+    ("products-negative", "Ixy, Ixz and Iyz have changed their sign; here they are the "
+     "entries of I as they stand in it", "the right one with -Ixy, -Ixz, -Iyz",
+     lambda phi: phi * np.append(np.ones(7), -np.ones(3))),
+    ("row-by-row", "the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the "
+     "order of other software; here the diagonal comes first", "I in that order",
+     lambda phi: phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]]),
+    ("first-moment-times-m", "phi[1:4] is multiplied by m; it is m c already, which "
+     "keeps all of it linear", "the right one with m [h] for [h]",
+     lambda phi: phi * np.append([1.0, *[phi[0]] * 3], np.ones(6))),
+    ("corners-swapped", "the corners are swapped: [h] stands at the upper right, [h]^T "
+     "at the lower left", "the right one with -h",
+     lambda phi: phi * np.append([1.0, -1, -1, -1], np.ones(6))),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(lambda phi, change=change: right(change(phi)))
 
 
 @row.wrong

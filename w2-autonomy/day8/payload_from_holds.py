@@ -71,17 +71,6 @@ def one_pose_only(J_site, R_site, extra, g):
     return payload_from_holds(J_site[:1], R_site[:1], extra[:1], g)
 
 
-@row.wrong
-def poses_averaged(J_site, R_site, extra, g):
-    """each pose is solved alone, and then the mean is taken; each of them is blind for
-    one direction: stack them => the mean over the poses"""
-    each = [
-        payload_from_holds(J[None], R[None], tau[None], g)
-        for J, R, tau in zip(J_site, R_site, extra, strict=True)
-    ]
-    return np.mean(each, axis=0)
-
-
 row.of_argument(
     "g",
     Change(
