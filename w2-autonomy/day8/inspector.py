@@ -1,8 +1,7 @@
 """Day 8 in the inspector: the tab Weigh.
 
-Hang a ball on the hand of the lab's secret robot, choose a pose, and let it be held
-from both sides. What `robo47.identification` finds stands beside what hangs there, with
-its sigma; the blue ball is where the load is said to be.
+Hang a ball on the hand of the lab's secret robot and let it be held, from both sides.
+What `robo47.identification` finds stands there with its sigma; the blue ball is where.
 """
 
 import numpy as np
