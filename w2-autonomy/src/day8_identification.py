@@ -237,7 +237,7 @@ def main() -> int:
     lab.step("2. The whole arm: what its motion shows, and what it hides")
     new = secret.anywhere(model, SEED, TRIALS)
     Y = regressor(arm, new)
-    file = secret.numbers(arm)  # that the model file holds for the 91
+    file = secret.numbers(arm)  # the 91 as the model file has them
     off = Y @ file - secret.torques(model, new)
     lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m", seed=SEED)
     for name, part in (("links", Y[..., :70]), ("with motors", Y)):
