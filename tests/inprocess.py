@@ -23,7 +23,7 @@ class InProcess:
         self.instead = instead or {}
         self.added = ""
 
-    def run(self, script, exchanges, library, needs=None, added=""):
+    def run(self, script, exchanges, library, needs=None, added="", limits=None):
         """Ask every question, load the file anew, and ask again from the end."""
         self.added = added
         first = self._load(script)
@@ -35,7 +35,7 @@ class InProcess:
             again = self._ask(second, exchange.question, [])
             exchange.reply = _with(exchange.reply, again)
 
-    def session(self, script, robots, library, added=""):
+    def session(self, script, robots, library, added="", limits=None):
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)

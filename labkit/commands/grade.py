@@ -32,7 +32,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, git
+from labkit.base import cli, git, store
 from labkit.grade import engine, overview, week_page
 from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
@@ -236,7 +236,7 @@ def kit_at(tag: str) -> Path:
     """
     found = git.run("rev-parse", "-q", "--verify", f"{tag}^{{commit}}", **OF_KIT)
     commit = found.stdout.strip()
-    folder = ROOT / ".robo47" / "kits" / commit[:12]
+    folder = store.path_of(f"kits/{commit[:12]}")
     if found.returncode or not commit:
         raise Robo47Error(f"the kit has no tag {tag}; those it has: git tag")
     if not (folder / ".git").exists():

@@ -27,7 +27,7 @@ INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
 WIDTH, DPI = 8.0, 150  # inches; 1200 pixels
 COLOURS = 64  # of a picture: enough for smooth edges, and half the file
 FONT, SMALL = 16.0, 13.5  # points: of nearly all text, and the smallest
-STYLE = {
+STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": FONT,
     "axes.titlesize": FONT,

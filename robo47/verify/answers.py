@@ -148,7 +148,7 @@ def off_least_squares(
 
 
 def _solved(A: Array, b: Array) -> Array:
-    return np.linalg.lstsq(A, b)[0]
+    return np.asarray(np.linalg.lstsq(A, b)[0], dtype=np.float64)
 
 
 def off_null_vector(

@@ -16,7 +16,9 @@ LAP = 6.0  # seconds
 _START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])
 
 
-def circle(arm: tuple, limits: Array, radius: float, times: Array) -> tuple:
+def circle(
+    arm: tuple[Array, Array], limits: Array, radius: float, times: Array
+) -> tuple[Array, Array]:
     """Return where the hand should be, and joint angles at the first of these poses.
 
     Args:
@@ -36,7 +38,7 @@ def circle(arm: tuple, limits: Array, radius: float, times: Array) -> tuple:
     return T, solve_ik(*arm, T[0], _START_Q, limits)
 
 
-def least_miss(arm: tuple, limits: Array, path: Array, q: Array) -> Array:
+def least_miss(arm: tuple[Array, Array], limits: Array, path: Array, q: Array) -> Array:
     """Return how far from each pose the hand must stay, mm, (n,): 0 within reach.
 
     Args:

@@ -28,7 +28,9 @@ class Ends(NamedTuple):
     beyond: float  # radians beyond the joint limits, at worst
 
 
-def ends_of(solve: Solver, arm: tuple, limits: Array, q: Array, seed: int) -> Ends:
+def ends_of(
+    solve: Solver, arm: tuple[Array, Array], limits: Array, q: Array, seed: int
+) -> Ends:
     """Return how a solver does on targets near its starts, and on some out of reach.
 
     Args:
@@ -56,7 +58,7 @@ def ends_of(solve: Solver, arm: tuple, limits: Array, q: Array, seed: int) -> En
 
 def tries(
     solve: Solver,
-    arm: tuple,
+    arm: tuple[Array, Array],
     limits: Array,
     goals: Array,
     q: Array,
@@ -76,18 +78,20 @@ def tries(
         most: starts of one target.
         seed: of the other starts.
     """
-    rng, at = np.random.default_rng(seed), []
+    rng = np.random.default_rng(seed)
+    at: list[int] = []
+    low, high = limits.T
     for goal in goals:
         if at.count(0) == ENOUGH:
             break
-        starts = [q, *rng.uniform(*limits.T, (most - 1, len(q)))]
+        starts = [q, *rng.uniform(low, high, (most - 1, len(q)))]
         found = (solve(*arm, goal, start, limits) for start in starts)
         ends = (miss(arm, q, goal) < REACHED for q in found)
         at.append(next((i for i, there in enumerate(ends, 1) if there), 0))
     return np.array(at)
 
 
-def miss(arm: tuple, q: Array, goal: Array) -> Array:
+def miss(arm: tuple[Array, Array], q: Array, goal: Array) -> Array:
     """Return the lengths of pose errors at q, (..., 7): radians and metres at once.
 
     Where q holds what is no number, it is infinite.

@@ -138,7 +138,7 @@ def wrong_masses(
         wrong_on_purpose(link_inertias, *x) for x in zip(at.T, *at.links, strict=True)
     ]
     for what in bad[0]:
-        own = each(mass_matrix, at.J, [one[what] for one in bad], at.armature)
+        own = each(mass_matrix, at.J, np.array([one[what] for one in bad]), at.armature)
         skewed = np.abs(own - np.swapaxes(own, 1, 2)).max()
         least = np.linalg.eigvalsh(own).min()
         found[what] = float(np.abs(own - at.M).max()), float(skewed), float(least)
@@ -192,5 +192,5 @@ def swing(integrator: str, timestep: float) -> float:
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
     data = simulate.start(model, READY_Q)
     mujoco.mj_step(model, data, round(1.0 / timestep))
-    ends = [data.qpos, READY_Q], [data.qvel, np.zeros(7)]
-    return -float(np.diff(mujoco_energies(model, *ends).sum(axis=1))[0])
+    q, qd = np.array([data.qpos, READY_Q]), np.array([data.qvel, np.zeros(7)])
+    return -float(np.diff(mujoco_energies(model, q, qd).sum(axis=1))[0])

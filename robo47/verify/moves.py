@@ -105,7 +105,7 @@ def missed_ends(quintic_coefficients: Function, at: Moves, seed: int) -> Array:
         p = np.polynomial.Polynomial(quintic_coefficients(start, end, T))
         return [f(t) for t in (0.0, T) for f in (p, p.deriv(), p.deriv(2))]
 
-    return each(ends, *wanted, at.T) - np.hstack(wanted)
+    return each(ends, *wanted, at.T) - np.concatenate(wanted, axis=1)
 
 
 def carried(model: mujoco.MjModel, carry: Function, q: Array, seed: int) -> Array:

@@ -11,7 +11,8 @@ FIRST = np.eye(7)[0]
 
 @row.inputs
 def _(rng):
-    qd, qdd = draw.numbers(rng, -2, 2, 6, 7), draw.numbers(rng, -9, 9, 6, 7)
+    # The middle of a range is asked, too, and 0 is where a sign jumps.
+    qd, qdd = draw.numbers(rng, -2, 3, 6, 7), draw.numbers(rng, -9, 9, 6, 7)
     qd[0, 2], qd[1, 5] = 0.0, 0.01  # a joint at rest; one that hardly moves
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
