@@ -34,6 +34,7 @@ from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
 DOCUMENTS += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
+SMALL = "figures/small/day{}.png"  # of a week's folder: a day's picture for the table
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -107,15 +108,18 @@ def days_table(wanted: str, folder: Path) -> str:
         wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
-    lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
+    lines = ["| | what you will see |", "|---|---|"]
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
         for day in days_of(week):
-            guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
-            title = f"[{day.number}: {day.title}]({guide})"
-            command = f"`make day{day.number}`"
-            lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
+            paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
+            guide, small = (
+                os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
+            )
+            picture = f"![]({small})" if paths[1].is_file() else ""
+            title = f"[Day {day.number}: {day.title}]({guide})"
+            lines.append(f"| {picture} | **{title}**: {day.see} |")
         for soon in week.soon:
-            lines.append(f"| {soon.number}: {soon.title} | | not written yet | |")
+            lines.append(f"| | Day {soon.number}: {soon.title}, not written yet |")
     return "\n".join(lines) + "\n"
 
 

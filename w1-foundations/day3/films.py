@@ -19,6 +19,9 @@ def singularity() -> Recording:
     film = Recording(panda.load("panda", meshes=True), back=1.5)
     film.draw.curve(path[:, :3, 3], "grey", 2.0)
     pens = [film.draw.curve(path[:2, :3, 3], colour, 5.0) for colour in COLOURS]
+    film.say("")
+    for pen in pens:  # also when the film begins again
+        pen.points = path[None, :2, :3, 3].astype(np.float32)
     for damping, line in zip((DAMPING, 0.0), pens, strict=True):
         off, speeds, angles = draw_circle(arm, path, q, damping)
         wild = np.flatnonzero(speeds.max(axis=1) > WILD)
