@@ -37,6 +37,10 @@ OFFLINE = (
     "Could not resolve",
     "getaddrinfo",
 )
+# Of these extras something has no wheel for a Python yet; tests/test_resolver.py looks.
+WITHOUT_WHEELS = {(3, 15): ("bench", "grade", "notebook", "site", "trajectory", "view")}
+UNRESOLVED = ("ResolutionImpossible", "No matching distribution", "No solution found")
+OLDER = "An older Python has all: make setup PYTHON=python3.14, then run make again."
 DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
 
 
@@ -170,6 +174,8 @@ def install(venv, extras, uv):
         )
     if "No space left" in said:
         stop(*DISK_FULL)
+    if any(sign in said for sign in UNRESOLVED):
+        stop("something in {} has no wheel for this Python.".format(what), OLDER)
     stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
 
 
@@ -197,6 +203,11 @@ def bring(venv, extras, anew):
     provide(venv, anew, uv)
     stamps = {extra: os.path.join(venv, ".ready-" + extra) for extra in extras}
     missing = [extra for extra in extras if not is_stamped(stamps[extra])]
+    version = made_with(venv)
+    lacking = [e for e in missing if e in WITHOUT_WHEELS.get(version, ())]
+    if lacking:
+        says = "Python {}.{} is too new for ".format(*version) + ", ".join(lacking)
+        stop(says + ": something in it has no wheel yet.", OLDER)
     if missing:
         install(venv, missing, uv)
     for extra in extras:

@@ -86,8 +86,10 @@ def sandbox():
 
 
 class TestTheLabWithAFilesFunctions:
-    def test_passes_with_the_kits_own(self, sandbox):
-        assert failing_step(DAY, DAY.source, sandbox) == ""
+    @pytest.mark.parametrize("number", [1, 4])
+    def test_passes_with_the_kits_own(self, sandbox, number):
+        day = find_day(number)
+        assert failing_step(day, day.source, sandbox) == ""
 
     def test_names_the_step_and_the_number(self, sandbox, tmp_path):
         day = find_day(3)

@@ -11,6 +11,7 @@ remembered in .robo47/, which git ignores.
 
 from labkit.base import cli, store
 from labkit.lesson.day import Day, Task, chosen_day
+from labkit.lesson.sealed import is_sealed
 from labkit.lesson.starter import read_script, solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -69,6 +70,9 @@ def show_hint(task: Task, again: bool) -> None:
 def show_solution(day: Day, task: Task) -> None:
     """Print the kit's own lines, to compare with the student's."""
     print(f"{task.id}  {task.title}")
+    if is_sealed(day.source.read_text("utf-8")):
+        print("Yours passes. This edition does not show the kit's own.")
+        return
     print("Yours passes. The kit's, to compare:\n")
     print(solution(read_script(day.source), shown(day.source), task.id))
 
@@ -97,5 +101,6 @@ def main() -> int:
         show_solution(day, wanted)
     else:
         print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
-        print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
+        if not is_sealed(day.source.read_text("utf-8")):
+            print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
     return cli.EXIT_OK

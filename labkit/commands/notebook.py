@@ -18,7 +18,8 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.starter import make_starter
+from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -70,8 +71,8 @@ def build(day: Day, starter: bool = False) -> str:
         raise Robo47Error(
             "jupytext is not installed; run make notebook, which brings it"
         ) from None
-    source = day.source.read_text("utf-8")
-    if starter:
+    source = read_script(day.source)
+    if starter or is_sealed(day.source.read_text("utf-8")):  # an edition has no answers
         source = make_starter(source, day.script, day.number)
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
     cells = [*head(day, tree, starter), *library(tree, lines), *lab(day, tree, lines)]

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import CodeType, ModuleType
 
 from labkit.lesson.day import Day
+from labkit.lesson.starter import read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -68,7 +69,7 @@ def load_lab(script: Path) -> ModuleType:
     """
     module = ModuleType(script.stem)
     module.__file__ = str(script)
-    exec(_code(script.read_text("utf-8"), str(script)), vars(module))
+    exec(_code(read_script(script), str(script)), vars(module))
     return module
 
 

@@ -10,6 +10,8 @@ import sys
 from labkit.base import git
 from labkit.lesson.day import Day, all_days
 from labkit.lesson.renew import renewed
+from labkit.lesson.sealed import opened
+from labkit.lesson.starter import read_script
 from labkit.update.news import news
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -37,9 +39,7 @@ def renew(day: Day, before: str, target: str) -> dict[str, object] | None:
     if not begun.is_file():
         return {"day": day.number, "news": lines} if lines else None
     text = begun.read_text("utf-8-sig")
-    new = renewed(
-        day, text, versions(day, before, target), day.source.read_text("utf-8")
-    )
+    new = renewed(day, text, versions(day, before, target), read_script(day.source))
     if begun != day.work:
         begun.rename(day.work)
     if new != text:
@@ -59,7 +59,7 @@ def versions(day: Day, *commits: str) -> list[str]:
     found = []
     for commit in _git(*log).split():
         found += [_git("show", f"{commit}:{name}") for name in names]
-    return [text for text in found if text]
+    return [opened(text) for text in found if text]
 
 
 def changes(before: str) -> list[str]:

@@ -10,9 +10,10 @@ from labkit.base import git, store
 from labkit.lesson.day import all_days
 from labkit.lesson.merge import keep_both, merged
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, ROOT
+from robo47.paths import ROOT
 
 SECONDS = 300.0
+LOG = "metrics/metrics.csv"
 REMOTES = ("kit", "upstream", "origin")  # where the kit is, the first that is there
 NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
 UNCHANGED = "Nothing of yours has changed."
@@ -136,7 +137,7 @@ def merge(worktree: Path, target: str) -> list[str]:
     how = ("merge", "-q", "--no-ff", "--no-commit", target)
     ask(*NOBODY, *how, at=worktree, may_fail=True)
     mine = {name for day in all_days() for name in day.files.values()}
-    mine |= {METRICS_CSV.relative_to(ROOT).as_posix()}
+    mine |= {LOG}
     taken = []
     for name in ask("diff", "--name-only", "--diff-filter=U", "-z", at=worktree).split(
         "\0"
@@ -189,7 +190,7 @@ def _text(worktree: Path, blob: str) -> str | None:
 
 def _keep_rows(worktree: Path, own: str) -> None:
     """Put back rows of the log that a merge left out, however it came about."""
-    name = METRICS_CSV.relative_to(ROOT).as_posix()
+    name = LOG
     before = ask("show", f"{own}:{name}", at=worktree, may_fail=True).splitlines()
     path = worktree / name
     now = path.read_text("utf-8").splitlines() if path.is_file() else []
