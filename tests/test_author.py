@@ -110,7 +110,7 @@ FUNCTION, LAB = f"{WEEK}/day46/reach.py", f"{WEEK}/src/day46_trial.py"
             f"{WEEK}/docs/day46-lab.md",
             "(0.913 m",
             "(0.9 m",
-            "test_day46.py:19: ",
+            "test_day46.py:18: in test_the_guides",
         ),
         (f"{WEEK}/docs/day46.md", "### planar arm", "### arm", "section 'planar arm'"),
         (f"{WEEK}/day46/day.toml", 'id = "46.1"', 'id = "45.1"', "id 45.1 is not one"),

@@ -40,7 +40,9 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
 
 
 def test_without_a_file_all_is_the_librarys():
-    own = Own(lambda: None, LIBRARY)
+    student = Answers({})
+    student.there = False
+    own = Own(lambda: student, LIBRARY)
     np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
     says = "At work: the library's double (there is no file yet)"
     assert own.says() == (says, "quiet")
@@ -65,14 +67,21 @@ def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, 
 @pytest.mark.parametrize(
     ("reply", "says"),
     [
-        (Reply(kind="stopped", error="it runs on"), "YOUR double: .*did not return"),
-        (Reply(kind="ValueError", error="no", line=3), r"ValueError: no \(line 3\)"),
+        (Reply(kind="stopped", error="it runs on"), "YOUR double did not return: it"),
+        (Reply(kind="ValueError", error="no", line=3), r"YOUR double: It stops with V"),
     ],
 )
 def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
     student, own = own_of({})
     student.ask = lambda questions: [reply]
     with pytest.raises(NoAnswerError, match=says):
+        own.double(ONE)
+
+
+def test_a_file_that_is_not_asked_any_more_says_why():
+    student, own = own_of({})
+    student.problem = "double did not return. Save the file to have it asked again."
+    with pytest.raises(NoAnswerError, match=r"YOUR double did not return\. Save"):
         own.double(ONE)
 
 
@@ -89,3 +98,34 @@ def test_a_function_with_many_right_answers_is_not_compared():
     _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
     assert own.any_root(4.0) == -2.0
     assert own.says() == ("YOUR any_root", "good")
+
+
+def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
+    from labkit.inspector import week
+    from labkit.lesson.day import Day, find_day
+
+    monkeypatch.setattr(Day, "work", find_day(5).source)
+    monkeypatch.setattr(week, "all_days", lambda: [find_day(5)])
+    monkeypatch.setattr(week, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
+        [task.id for task in day.tasks if task.id != "5.2"], "wrong"
+    ))  # fmt: skip
+    library = {"gains": None, "pd_torque": LIBRARY["double"]}
+    with week.week(library) as fns:
+        np.testing.assert_array_equal(fns.gains(20.0, 1.0), [400.0, 40.0])
+        assert fns.pd_torque is LIBRARY["double"]  # the file's is wrong
+        assert (fns.yours, fns.total) == (1, 2)
+        with pytest.raises(NoAnswerError, match="YOUR gains: TypeError"):
+            fns.gains(ONE)
+
+
+def test_what_an_answer_says_cannot_become_part_of_the_page():
+    from labkit.inspector import words
+
+    student, own = own_of({})
+    evil = "<img src=x onerror=alert(1)>"
+    student.ask = lambda questions: [Reply(kind="ValueError", error=evil)]
+    with pytest.raises(NoAnswerError) as said:
+        own.double(ONE)
+    shown = words.judged(str(said.value), "whose", "bad")
+    assert "<img" not in shown
+    assert "&lt;img" in shown

@@ -5,9 +5,11 @@ The drawing is done in software here, so most tests have the page draw few pixel
 
 import importlib.util
 import io
+import re
 import shutil
 import time
 import urllib.parse
+import urllib.request
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -106,7 +108,8 @@ class Page:
         self.wait()
 
     def wait(self) -> None:
-        self.tab.wait_for_selector("[data-matrix=mujoco]", state="attached")
+        self.tab.wait_for_selector("[data-r47-state]", state="attached")
+        self.tab.wait_for_selector("#r47-first", state="detached")
 
     def later(self) -> None:
         """Move the page's clock on by two seconds."""
@@ -289,6 +292,15 @@ def test_the_page_asks_nobody_else_for_anything(page, served):
         if not url.startswith("data:")
     }
     assert hosts == {f"127.0.0.1:{served.port}"}
+
+
+def test_the_matrices_stand_in_the_page_before_viser_draws_anything(served, page):
+    with urllib.request.urlopen(served.url, timeout=60) as answer:
+        text = answer.read().decode()
+    first = text.partition('<div id="r47-first">')[2].partition("<script")[0]
+    shown = re.sub("<[^>]*>", "", first.partition('data-matrix="mujoco">')[2])
+    numbers = np.array(shown.split()[:16], dtype=float).reshape(4, 4)
+    np.testing.assert_allclose(numbers, page.matrix("mujoco"), atol=SHOWN)
 
 
 def test_both_matrices_are_mujocos_pose_of_the_ready_arm(page, model):

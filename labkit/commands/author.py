@@ -24,6 +24,7 @@ from robo47.paths import ROOT, shown
 
 TESTS = ("test_days.py", "test_days_judging.py", "test_days_catalogue.py")
 TOLD = "test_a_file_is_told_what_the_catalogue_says"  # the catalogue has better words
+MOST_LINES = 20  # of failing tests
 MARKS = "not soak and not browser and not network"
 
 
@@ -51,13 +52,13 @@ def tests(day: Day) -> Iterator[str]:
     """Yield the tests that fail: those of every day, for this one, and its own."""
     files = [f"tests/{name}" for name in TESTS] + [str(day.own)]
     files += [f"tests/test_{m}.py" for m in day.library if _test_of(m)]
-    quiet = ("-q", "-q", "--tb=line", "-rN", "--no-header", "-p", "no:cacheprovider")
+    quiet = ("-q", "-q", "--tb=short", "-rN", "--no-header", "-p", "no:cacheprovider")
     code, lines = run(
         day, "-m", "pytest", *files, *quiet, "-m", MARKS, "-k", f"not {TOLD}"
     )
     if code:
         found = [ln for ln in lines if re.match(r"\S+:\d+: |ERROR |E  ", ln)]
-        for line in found or lines[-5:]:
+        for line in (found or lines)[:MOST_LINES]:
             yield line.replace(f"{ROOT}{os.sep}", "")
         yield f"all of one test's output: .venv/bin/python -m pytest {shown(day.own)}"
 

@@ -24,6 +24,7 @@ _DECIDES = (
     "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
+    "w*/day*/**/*.xml",
     "w*/src/*.py",
 )
 

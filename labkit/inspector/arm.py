@@ -49,20 +49,23 @@ class Arm:
     """One arm in one configuration, with every frame's pose from both judges."""
 
     def __init__(self, model: mujoco.MjModel, end_frame: str) -> None:
-        """Start at the handout's `home_q`.
+        """Start at the handout's `home_q`; another robot at its first key.
 
         Args:
-            model: a Panda, see `robo47.panda.load`.
+            model: a Panda, see `robo47.panda.load`, or any chain of hinges and slides.
             end_frame: full name of the frame that is called `ee`.
         """
         self.model = model
         self.chain = chain_to(model, end_frame)
         self.names = _short_names(model, self.chain)
-        home = panda.home_q(model)
-        ready = np.concatenate([panda.READY_Q, home[len(panda.READY_Q) :]])
-        self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
         self.joints = [model.joint(j).name for j in range(model.njnt)]
-        self.move(ready)
+        home = (model.key_qpos if model.nkey else [model.qpos0])[0].copy()
+        self.named_q = {"home": home, "zero": np.zeros(model.nq)}
+        count = len(panda.READY_Q)
+        if self.joints[:count] == list(panda.ARM_JOINTS):
+            ready = np.concatenate([panda.READY_Q, home[count:]])
+            self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
+        self.move(self.named_q.get("ready", home))
 
     def move(self, q: ArrayLike) -> None:
         """Take a configuration and compute every frame twice.

@@ -76,10 +76,13 @@ class Own:
             self.version = version
             self._forget()
         if student is None or not there:
-            self._lent |= {name: "there is no file yet" for name, *_ in calls}
+            why = "there is no file yet" if student else "yours is being opened"
+            self._lent |= {name: why for name, *_ in calls}
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
         replies = student.ask(questions)
+        if student.problem:
+            raise NoAnswerError(f"YOUR {student.problem}")
         return [
             self._answer(student, name, reply, truth)
             for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
@@ -91,7 +94,7 @@ class Own:
             self._lent[name] = "yours is not written yet"
             return right
         if problem := student.source.describe(name, reply):
-            raise NoAnswerError(f"YOUR {name}: {problem.removeprefix(f'{name}: ')}")
+            raise NoAnswerError(f"YOUR {problem}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
             got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"

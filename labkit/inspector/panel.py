@@ -60,6 +60,11 @@ class Panel:
         """Say what the colours in the scene mean: {what is drawn: its colour}."""
         self.legend.content = words.legend(colours)
 
+    def first(self) -> str:
+        """Return what to show before viser does, as HTML."""
+        some = (self.yours, self.tasks, self.proof, self.limits)
+        return "".join(part.content for part in some)
+
     def show(
         self, seen: Seen | None, apart: Difference | None, standing: Standing
     ) -> None:

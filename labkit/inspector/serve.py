@@ -89,7 +89,7 @@ def serve(show: Show, port: int) -> int:
                 server,
                 lambda: Inspector(server, show.arm, show.about, tabs, show.simple),
             )
-            server.door.receive = page.receive
+            server.door.receive, server.door.first = page.receive, page.panel.first
             before = store.read(MEMORY).get(str(show.day.number), "")
             if show.back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))

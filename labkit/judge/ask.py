@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
+from pathlib import Path as File
 from typing import Any
 
 import mujoco
@@ -22,6 +23,7 @@ from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 Parts = tuple[Array, ...]
 Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
@@ -37,20 +39,35 @@ class Robot:
     """A model as an argument: student code gets plain data that reads like an MjModel.
 
     Attributes:
-        entry: as `panda.load` names it.
+        entry: as `panda.load` names it, or the path of any MJCF file.
         change: is given the compiled model to alter, such as longer links.
     """
 
-    entry: str = "panda_nohand"
+    entry: str | File = "panda_nohand"
     change: Callable[[mujoco.MjModel], None] | None = None
 
     @cached_property
     def model(self) -> mujoco.MjModel:
         """The compiled model; do not change it."""
-        model = panda.load(self.entry)
+        model = model_of(self.entry)
         if self.change:
             self.change(model)
         return model
+
+
+def model_of(entry: str | File) -> mujoco.MjModel:
+    """Return a Panda by its entry, or the model of an MJCF file.
+
+    Raises:
+        Robo47Error: the file is not there, or MuJoCo cannot read it.
+    """
+    if isinstance(entry, str):
+        return panda.load(entry)
+    try:
+        return mujoco.MjModel.from_xml_path(str(entry))
+    except ValueError as error:
+        says = " ".join(str(error).split())
+        raise Robo47Error(f"{shown(entry)}: MuJoCo cannot load it: {says}") from None
 
 
 @dataclass(frozen=True)

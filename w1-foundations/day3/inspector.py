@@ -11,7 +11,7 @@ from labkit.inspector import words
 from labkit.inspector.arm import END
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, kinematics, panda, screws
+from robo47 import jacobian, panda, screws
 from robo47.checks import Array
 
 from .circle import Circle
@@ -99,6 +99,13 @@ class Jacobian(Tab):
         says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
         self.least.content = words.line(says, "sigma", kind)
 
+    def lost(self) -> None:
+        """Show no columns, and no second arm."""
+        self.columns.visible = self.wrong.visible = self.ball.ball.visible = False
+        self.bars.clear()
+        self.least.content = self.numbers.content = ""
+        self.ghost.pose({})
+
     def drag(self, shown: bool) -> None:
         """Show the target where the hand is, or hide it."""
         self.target.place(self.page.pose(END))
@@ -108,23 +115,15 @@ class Jacobian(Tab):
 
     def follow(self, T_goal: Array) -> None:
         """Have the student's own solve_ik take the second arm to the target."""
-        start = self.page.q
-        q0 = np.clip(start[:JOINTS], *self.limits.T)
+        q0 = np.clip(self.page.q[:JOINTS], *self.limits.T)
         self.page.job(
             lambda: self.own.solve_ik(self.S, self.M, T_goal, q0, self.limits),
-            lambda q: self.stand(start, q, T_goal),
+            lambda q: self.stand(q, T_goal),
         )
 
-    def stand(self, start: Array, q: Array, T_goal: Array) -> None:
+    def stand(self, q: Array, T_goal: Array) -> None:
         """Draw the second arm at q, (7,), and say how far its hand is off."""
-        whole = start.copy()
-        whole[:JOINTS] = q
-        poses = kinematics.fk_all(self.page.model, whole)
-        self.ghost.pose({
-            name.removeprefix("body:"): T
-            for name, T in poses.items()
-            if name.startswith("body:link")
-        })  # fmt: skip
+        self.ghost.pose(self.page.links(q))
         left = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
         mm, rad = 1000 * np.linalg.norm(left[3:]), np.linalg.norm(left[:3])
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))

@@ -18,6 +18,7 @@ NAMES = [f"joint{i}" for i in range(1, JOINTS + 1)]
 LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
 FORCE, PUSHED = np.array([0.0, 10.0, 0.0]), 0.5  # newtons in the world; seconds
 HZ, RATE = 25.0, 100.0  # of the picture; of the controller
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
 
@@ -43,7 +44,7 @@ class Forces(Tab):
         page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, self.weigh, unit="")
         self.clock = page.html()
         limits = simulate.limits(self.model)[1]
-        title = "YOUR gravity_torque; marked is what holds the arm"
+        title = "gravity_torque; marked is what holds the arm"
         self.bars = page.bars(NAMES, limits, "N m", title)
         self.cells = page.html()
         radii = 0.03 * np.cbrt(self.rig.masses)  # the volume says what a link weighs
@@ -85,7 +86,8 @@ class Forces(Tab):
         """Return a share of the student's gravity torque, or none."""
         if self.falls:
             return np.zeros(JOINTS)
-        return self.share * self.own.gravity_torque(*self.pulled(q))
+        wanted = self.share * self.own.gravity_torque(*self.pulled(q))
+        return np.clip(wanted, -HUGE, HUGE)
 
     def pulled(self, q: Array) -> tuple[Array, ...]:
         """Return what gravity_torque is given at q."""
@@ -136,6 +138,12 @@ class Forces(Tab):
             "kg m2."
         )
 
+    def lost(self) -> None:
+        """Show no torques and no M."""
+        self.page.say("")
+        self.bars.clear()
+        self.cells.content = ""
+
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:
     """Return M as a table of coloured cells: blue above 0, red below, as HTML.
@@ -158,7 +166,7 @@ def heat_map(M: Array, wrong: Array | None = None) -> str:
         rows.append(f"<tr>{cells}</tr>")
     table = "".join(rows)
     style = "font:11px monospace;border-collapse:collapse"
-    title = "<b>YOUR M, kg m2</b>"
+    title = "<b>M, kg m2</b>"
     return f'<div class="r47">{title}<table style="{style}">{table}</table></div>'
 
 

@@ -13,7 +13,7 @@ from labkit.inspector import words
 from labkit.inspector.own import Own
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import control, kinematics, panda, references, scenes, simulate
+from robo47 import control, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
@@ -26,6 +26,7 @@ LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
 JOINTS = [f"joint{i}" for i in range(1, 8)]
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 Law = Callable[..., Array]
 
@@ -162,7 +163,8 @@ class Control(Tab):
             ref = reference(self.since / RATE, self.swing)
             q, qd = data.qpos[:7].copy(), data.qvel[:7].copy()
             wanted = self.law(self.own, self.arm, q, qd, ref, self)
-            data.ctrl[:7] = self.own.saturate(wanted, self.limits)
+            given = self.own.saturate(wanted, self.limits)
+            data.ctrl[:7] = np.clip(given, -HUGE, HUGE)
             mujoco.mj_step(model, data, self.each)
             self.asked = [*self.asked[-49:], wanted]
             self.since += 1
@@ -204,10 +206,7 @@ class Control(Tab):
         q = self.page.q
         q[:7] = self.data.qpos[:7]
         self.page.move(q)
-        q[:7] = wanted
-        poses = kinematics.fk_all(self.page.model, q)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(wanted))
 
 
 TABS = [Control]

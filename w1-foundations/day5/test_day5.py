@@ -22,6 +22,7 @@ ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
 ERRATA = ERRATA.partition("\n## Day 5\n")[2].partition("\n## ")[0]
 
 lab = load_script(ROOT / SCRIPT)
+raised_cosine = references.raised_cosine(lab.READY_Q, lab.REACH)
 START = lab.READY_Q - 1e-8 * lab.E0  # so near that no motor is at its limit
 
 
@@ -34,12 +35,12 @@ def bench():
 
 def swing_error(log):
     """Return the largest error of a run that follows the swing, in mrad."""
-    wanted = np.array([lab.raised_cosine(t)[0] for t in log.t])
+    wanted = np.array([raised_cosine(t)[0] for t in log.t])
     return 1e3 * np.abs(log.q - wanted).max()
 
 
 def swing(bench, law, rate=500.0):
-    return swing_error(lab.run(*bench, law, lab.raised_cosine, 2.0, rate=rate))
+    return swing_error(lab.run(*bench, law, raised_cosine, 2.0, rate=rate))
 
 
 def decay(bench, law, seconds, rate=500.0):
@@ -71,11 +72,11 @@ def test_the_rounded_numbers_in_the_docstrings_are_true():
 def test_the_reference_starts_and_ends_at_rest_and_is_its_own_derivative():
     h = 1e-5
     for t in (0.0, 2.0):
-        q, qd, _ = lab.raised_cosine(t)
+        q, qd, _ = raised_cosine(t)
         assert_same(q, lab.READY_Q, 1e-12)
         assert_same(qd, np.zeros(7), 1e-12)
     for t in (0.3, 0.8, 1.7):
-        before, now, after = (lab.raised_cosine(x) for x in (t - h, t, t + h))
+        before, now, after = (raised_cosine(x) for x in (t - h, t, t + h))
         assert_same((after[0] - before[0]) / (2 * h), now[1], 1e-8)
         assert_same((after[1] - before[1]) / (2 * h), now[2], 1e-8)
 
@@ -167,7 +168,7 @@ def test_ten_times_the_stiffness_sags_a_tenth(bench):
 
 
 def test_the_swing_takes_a_quarter_of_the_motors_torque(bench):
-    log = lab.run(*bench, lab.equal_springs(), lab.raised_cosine, 2.0)
+    log = lab.run(*bench, lab.equal_springs(), raised_cosine, 2.0)
     share = np.abs(log.tau) / simulate.limits(bench[0])[1]
     assert share.max() == pytest.approx(0.25, abs=0.03)
     assert "the swing takes a quarter of their torque" in GUIDE
@@ -224,7 +225,7 @@ def test_servos_lag_by_kd_over_kp_times_the_speed():
         lag = -servos.actuator_biasprm[:, 2] / servos.actuator_gainprm[:, 0]
         assert 1e3 * (lag * np.pi / 2 * lab.REACH).max() == pytest.approx(mrad, abs=0.3)
         start = simulate.start(servos, lab.READY_Q)
-        follow = lambda t, q, qd: lab.raised_cosine(t)[0]  # noqa: E731
+        follow = lambda t, q, qd: raised_cosine(t)[0]  # noqa: E731
         error = swing_error(simulate.run(servos, start, follow, 2.0))
         assert error == pytest.approx(mrad, rel=0.04)
     assert f"With half the servos' $k_d$ the error is {error:.0f} mrad" in GUIDE
@@ -374,7 +375,7 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
         kp, kd = servos.actuator_gainprm[:, 0], -servos.actuator_biasprm[:, 2]
 
         def inverted(t, q, qd, kp=kp, kd=kd):
-            tau = law(bench[1], q, qd, lab.raised_cosine(t))
+            tau = law(bench[1], q, qd, raised_cosine(t))
             return lab.servo_ctrl(tau, q, qd, kp, kd)
 
         data = simulate.start(servos, lab.READY_Q)

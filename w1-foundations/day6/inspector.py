@@ -20,6 +20,7 @@ from robo47.checks import Array
 
 RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 PULL = 100.0  # N per metre that the handle is away
 PRESS = 20.0  # N, on the table
 MOST = 60.0  # N, where the bar of the table's force ends
@@ -60,7 +61,7 @@ class Touch(Tab):
         self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
         self.drawn = Robot(page, self.robot, dressed)
         self.mass = page.draw.ellipsoid("purple")
-        self.arrow = page.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.008)
+        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
         self.target = page.draw.target(page.pose("ee"), self.drag)
         page.legend({"your pull": "red", "how heavy the hand is": "purple"})
         self.show()
@@ -135,7 +136,8 @@ class Touch(Tab):
             )
             F = own.spring_wrench(e, -J @ qd, np.diag(K), D)
             bias, rub = now.bias(qd), self.arm.damping
-            return own.impedance_torque(J, F, bias, rub, qd, idle)
+            wanted = own.impedance_torque(J, F, bias, rub, qd, idle)
+            return np.clip(wanted, -HUGE, HUGE)
 
         return torque
 

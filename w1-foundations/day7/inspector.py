@@ -16,7 +16,7 @@ from labkit.inspector.page import Page
 from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from labkit.inspector.week import week
-from robo47 import capstone, kinematics, panda, scenes, simulate, trajectory
+from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
 from robo47.checks import Array
 
@@ -47,7 +47,7 @@ class Plan(Tab):
         self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
         page.buttons([PLAY], self.press)
         self.numbers = page.html()
-        limits, title = simulate.SPEED_LIMITS, "YOUR joint speeds and their limits"
+        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
         self.bars = page.bars(JOINTS, limits, "rad/s", title)
         curves = [*JOINTS, "limit"]
         self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
@@ -79,7 +79,7 @@ class Plan(Tab):
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
         self.share = min(seconds / self.T, 1.0)
-        self.slider.set(self.share)
+        self.slider.value = self.share
         self.show()
         return self.share < 1.0
 
@@ -120,6 +120,14 @@ class Plan(Tab):
         self.plot.show(times, [*parts.T, np.ones(COUNT)])
         self.show()
 
+    def lost(self) -> None:
+        """Show no way."""
+        self.loop.stop()
+        self.ghost.pose({})
+        self.bars.clear()
+        self.plot.clear()
+        self.numbers.content = ""
+
     def at(self, share: float) -> tuple[Array, Array]:
         """Return q and qd, (7,) each, when a share of the time is over."""
         i = round(share * (COUNT - 1))
@@ -128,11 +136,7 @@ class Plan(Tab):
     def show(self) -> None:
         """Show the blue arm and its speeds at the chosen moment."""
         q, qd = self.at(self.share)
-        full = self.page.q.copy()
-        full[ARM] = q
-        poses = kinematics.fk_all(self.page.model, full)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(q))
         self.bars.show(qd)
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
@@ -184,7 +188,7 @@ class Pick(Tab):
         """Have the cube picked, or stop."""
         self.loop.stop()
         if name == PICK:
-            says = "the simulation runs: some seconds"
+            says = "the simulation runs: some seconds, of all days up to a minute"
             self.clock.content = words.line(says, "clock", "quiet")
             self.page.say("")
             self.page.job(self.pick, self.picked)
@@ -198,6 +202,10 @@ class Pick(Tab):
         with week(fns) as mine:
             done = capstone.pick(mine)
             return done, f"; YOUR {mine.yours} of {mine.total} functions at work"
+
+    def lost(self) -> None:
+        """Nothing was picked."""
+        self.clock.content = ""
 
     def picked(self, found: tuple[Result, str]) -> None:
         """Replay it."""

@@ -28,8 +28,8 @@ def rtol_absolute(Y, rtol):
     newtons and millinewtons would have another rank => the right one with rtol
     absolute"""
     s = values(Y)
-    kept = s[s > rtol] if s[0] > rtol else s[:1]
-    return len(kept), kept[0] / kept[-1]
+    rank = np.sum(s > rtol)
+    return rank, s[0] / s[rank - 1]
 
 
 @row.wrong

@@ -105,6 +105,17 @@ def times_s(Y, tau, Y_new, rtol):
 
 
 @row.wrong
+def sigma_not_cut(Y, tau, Y_new, rtol):
+    """the fit leaves small singular values out, sigma does not, as by Y^T Y inverted =>
+    the right torque, sigma with nothing cut"""
+    torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
+    _, s, Vt = parts(Y, rtol)
+    _, every, along = np.linalg.svd(Y, full_matrices=False)
+    noise = sigma / np.linalg.norm(Y_new @ Vt.T / s, axis=1)
+    return torque, noise * np.linalg.norm(Y_new @ along.T / every, axis=1)
+
+
+@row.wrong
 def nothing_cut(Y, tau, Y_new, rtol):
     """small singular values are kept: torque and sigma are those of a fit with nothing
     cut => the right ones with nothing cut"""
