@@ -14,7 +14,7 @@ from conftest import need
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost, Seen
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
-from labkit.lesson.day import find_day
+from labkit.lesson.day import day_numbers, find_day
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
@@ -432,3 +432,22 @@ def test_a_target_is_dragged_to_no_other_planet(page, say):
     assert Noisy.last.heard == []
     drag((0.3, 0.2, 0.1))
     assert Noisy.last.heard[0][0, 3] == 0.3
+
+
+@pytest.mark.parametrize("number", day_numbers())
+def test_every_tab_of_every_day_opens_moves_and_closes(server, number):
+    from labkit.inspector.app import Inspector
+    from labkit.inspector.serve import on_loop
+
+    server.scene.reset()
+    server.gui.reset()
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+    day = day_tabs(find_day(number))
+    page = on_loop(server, lambda: Inspector(server, arm, "", day, simple=True))
+    for title in page.opened.kinds:
+        on_loop(server, lambda title=title: page.open_tab(title))
+        on_loop(server, lambda: page.move(page.arm.q + 0.01))
+        settle(page)
+        assert page.opened.kind.title == title
+        assert "stopped with" not in contents(page)
+    on_loop(server, page.opened.leave)
