@@ -168,18 +168,14 @@ def _hold(model: mujoco.MjModel, known: Arm, q: Array, side: float) -> list[Arra
 def hands(known: Arm, q: ArrayLike) -> tuple[Array, Array]:
     """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations."""
     now = [known.at(x) for x in checks.array(q, "q", (7,))]
-    return (
-        np.array([x.J_site for x in now]),
-        np.array([x.T_world_ee[:3, :3] for x in now]),
-    )
+    R = [x.T_world_ee[:3, :3] for x in now]
+    return np.array([x.J_site for x in now]), np.array(R)
 
 
 def rises(
-    model: mujoco.MjModel,
-    known: Arm,
-    still: Callable[[ArmState], Array],
+    model: mujoco.MjModel, known: Arm, still: Callable[[ArmState], Array],
     load: ArrayLike,
-) -> float:
+) -> float:  # fmt: skip
     """Return how far the hand rises in two seconds on what should just hold the arm.
 
     The robot's dry friction is taken off, so that nothing else holds it.
@@ -201,7 +197,6 @@ def rises(
         moment = np.cross(now.T_world_ee[:3, :3] @ h, g)
         return still(now) - now.J_site.T @ np.append(moment, m * g)
 
-    start = simulate.start(free, READY_Q)
-    run = simulate.run(free, start, law, REST, rate=SLOW_RATE)
-    end, before = (known.at(run.q[i]).T_world_ee[2, 3] for i in (-1, 0))
+    run = simulate.run(free, simulate.start(free, READY_Q), law, REST, rate=SLOW_RATE)
+    before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)
     return float(end - before)

@@ -131,7 +131,6 @@ def test_points_make_a_body_and_a_positive_inertia_may_not():
     ("call", "words"),
     [
         (lambda: identification.inertia_of(np.ones(9)), "phi has shape (9,)"),
-        (lambda: identification.motor_features(np.ones(7), np.ones(6)), "qdd has"),
         (lambda: identification.fit(np.ones((2, 3, 4)), np.ones(2), 0.1), "stack"),
         (lambda: identification.fit(np.zeros((3, 2)), np.ones(3), 0.1), "nothing"),
         (

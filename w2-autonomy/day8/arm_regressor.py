@@ -91,18 +91,6 @@ for slug, says, other in (
 
 
 @row.wrong
-def V_and_A_not_turned(J_space, T_links, qd, qdd, g):
-    """V is used in world axes, only A is turned into the link => Y with V as it is"""
-    V, A, Y = np.zeros(6), np.append(np.zeros(3), -g), np.zeros((7, 70))
-    for i, S in enumerate(J_space.T):
-        V, X = V + S * qd[i], adjoint(inverse(T_links[i]))
-        A = A + S * qdd[i] + ad(V) @ S * qd[i]
-        costs = X.T @ link_regressor(V, X @ A)
-        Y[: i + 1, 10 * i : 10 * i + 10] = J_space[:, : i + 1].T @ costs
-    return Y
-
-
-@row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
     """the columns are grouped by number, all masses first; they are grouped by link,
     ten each => the right one with its columns in that order"""

@@ -64,16 +64,6 @@ def first_columns(Y, tau, rtol):
     return np.append(first, np.zeros(Y.shape[1] - rank))
 
 
-@row.wrong
-def V_not_transposed(Y, tau, rtol):
-    """V^T stands where V belongs: svd returns V^T => V^T S^-1 U^T tau"""
-    U, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    kept = s > rtol * s[0]
-    along = np.zeros(len(s))
-    along[kept] = U[:, kept].T @ tau / s[kept]
-    return Vt @ along
-
-
 @row.right  # NumPy's lstsq, told where to cut.
 def _(Y, tau, rtol):
     return np.linalg.lstsq(Y, tau, rcond=rtol)[0]

@@ -31,10 +31,7 @@ class Weigh(Tab):
         self.held: list[Array] = []  # q, torque with and without, from either side
         page.html(words.line("Weighed by robo47.identification.", "library"))
         page.slider("load", 50, 2000, 500, self.hang, unit="g", step=50)
-        for k, axis in enumerate("xyz"):
-            start = 1000 * self.com[k]
-            change = lambda mm, k=k: self.hang(None, k, mm)  # noqa: E731
-            page.slider(f"centre {axis}", -100, 100, start, change, unit="mm", step=5)
+        page.slider("below the hand", 0, 200, 60, self.lower, unit="mm", step=5)
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
         self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange")
@@ -42,12 +39,14 @@ class Weigh(Tab):
         page.light("ee", {"ee"})
         self.show()
 
-    def hang(self, grams: float | None = None, axis: int = 0, mm: float = 0.0) -> None:
-        """Hang another load on the hand, or the same one elsewhere."""
-        if grams is None:
-            self.com[axis] = mm / 1000.0
-        else:
-            self.mass = grams / 1000.0
+    def hang(self, grams: float) -> None:
+        """Hang another load on the hand, which was never held."""
+        self.mass = grams / 1000.0
+        self.press(FORGET)
+
+    def lower(self, mm: float) -> None:
+        """Hang it lower, or higher."""
+        self.com[2] = mm / 1000.0
         self.press(FORGET)
 
     def press(self, name: str) -> None:
