@@ -192,10 +192,54 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     assert page.problems == []
 
 
+def test_films_are_small_and_linked_where_their_picture_stands(site):
+    from labkit.site import films
+
+    names = sorted(films.films())
+    assert len(names) == 7
+    pages = {path: path.read_text("utf-8") for path in site.glob("w*/docs/*-lab.html")}
+    for name in names:
+        film = site / "_static" / "films" / f"{name}.html"
+        assert film.stat().st_size < films.LARGEST
+        link = f'href="../../_static/films/{name}.html"'
+        (page,) = [text for text in pages.values() if link in text]
+        assert page.index(f"{name}.png") < page.index(link)
+
+
+@pytest.mark.browser
+def test_a_click_puts_the_film_in_its_pictures_place(browse):
+    page = browse("w1-foundations/docs/day1-lab.html")
+    assert page.locator("img[src*=day1_order]").count() == 1
+    page.click("p.film a")
+    assert page.locator("img[src*=day1_order]").count() == 0
+    clock = page.frame_locator("iframe.film").locator("input").first
+    clock.wait_for(timeout=60_000)
+    assert page.problems == []
+
+
+@pytest.mark.browser
+def test_without_webgl_pictures_and_numbers_stay(chromium, served):
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as play:
+        browser = play.chromium.launch(
+            executable_path=chromium, args=["--disable-3d-apis", "--no-sandbox"]
+        )
+        page = browser.new_page()
+        page.goto(f"{served}/w1-foundations/docs/day1-lab.html")
+        assert page.locator("img[src*=day1_order]").count() == 1
+        assert page.locator("p.film").count() == 0
+        page.goto(f"{served}/arm.html#mistake=turns-backwards")
+        page.wait_for_function("window.arm", timeout=60_000)
+        assert "no 3D" in page.inner_text("#stage")
+        assert "off by" in page.inner_text("#off")
+        browser.close()
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_page_is_wider_than_the_screen(browse, site, width):
-    for path in sorted(site.rglob("*.html")):
+    pages = [p for p in site.rglob("*.html") if "films" not in p.parts]
+    for path in sorted(pages):
         page = browse(path.relative_to(site).as_posix(), width, wait_until="load")
         wide = page.evaluate("document.documentElement.scrollWidth")
         assert wide <= width, path.relative_to(site)
