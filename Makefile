@@ -20,7 +20,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
+.PHONY: update edition start check hint borrow run doctor bench test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author
 
@@ -66,12 +66,18 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
 
+update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
+	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
+
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
 grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
 	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
+
+edition: .venv/.ready-core ## the kit for students, answers sealed: OUT=../robo47-students
+	@$(PY) scripts/edition.py "$(or $(OUT),$(error where to? make edition OUT=../robo47-students))" $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)

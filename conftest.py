@@ -58,7 +58,7 @@ def need(available: bool, what: str) -> None:
 class Answers:
     """A student's file for a tab of the inspector: functions in place of a sandbox."""
 
-    there, version = True, 1
+    there, version, problem = True, 1, ""
 
     def __init__(self, functions):
         from labkit.inspector.checker_calls import describe
@@ -85,7 +85,8 @@ def paper(model, q, functions=None):
     from labkit.inspector.own import Own
 
     page = MagicMock(model=model, q=np.array(q, dtype=float))
-    student = None if functions is None else Answers(functions)
+    student = Answers(functions or {})
+    student.there = functions is not None
     page.own.side_effect = lambda library, free=(): Own(lambda: student, library, free)
     page.job.side_effect = lambda work, done: done(work())
     for name in ("curve", "arrows", "lines", "label", "ghost"):

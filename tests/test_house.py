@@ -20,6 +20,7 @@ FLOORS = [
     "labkit.site",
     "labkit.fresh",
     "labkit.grade",
+    "labkit.update",
     "labkit.proof",
     "labkit.author",
     "labkit.setup",

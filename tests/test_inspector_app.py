@@ -39,9 +39,10 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
+        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
-        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.arrows([[[0, 0, 0], [0, 0, 1]]])
         draw.curve(np.zeros((3, 3)))
         draw.sphere([0, 0, 0], 0.1)
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
@@ -150,7 +151,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i].handle
+    return page.opened.tab.sliders[i]
 
 
 def contents(page):
@@ -295,7 +296,7 @@ def test_a_tab_takes_all_that_it_made_with_it(page, say):
 def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
     say(tab("Noisy"))
     noisy = Noisy.last
-    slider = noisy.sliders[0].handle
+    slider = noisy.sliders[0]
     say((slider, 0.25), (noisy.press, "b"), (noisy.pick, "two"), (noisy.tick, True))
     assert noisy.heard == [0.25, "b", "two", True]
     say((slider, 7.0), (noisy.press, "c"), (noisy.pick, "three"))
@@ -376,3 +377,13 @@ def test_the_order_tab_says_what_the_lab_says(server):
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
         on_loop(server, page.opened.leave)
+
+
+def test_an_image_of_depths_goes_from_black_to_white():
+    from labkit.inspector.widgets import as_bytes
+
+    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+    assert shown.shape == (2, 2, 3)
+    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
+    colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    assert as_bytes(colours) is colours

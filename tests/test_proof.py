@@ -129,7 +129,7 @@ def hostile():
     one = facts.DayFacts(day, states, numbers, EVIL, EVIL)
     history = History(True, EVIL, 0, EVIL)
     clone = facts.Clone(Student(EVIL, EVIL, Path(EVIL)), history=history)
-    fresh = {"commit": EVIL, "wrong": 0, "date": EVIL}
+    fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
     return page.Proof(clone, [one], Picked(None, EVIL, 3, 35), fresh)
 
 

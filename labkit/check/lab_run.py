@@ -9,7 +9,7 @@ import inspect
 import io
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -50,7 +50,7 @@ class Rehearsal(Lab):
         """Take what a `Lab` takes; the command line is not read."""
         self.log, self.script = False, Path(file)
         self.day, self.title = self.of, ""
-        self.failed, self.rows = [], []
+        self.failed, self.rows, self.predicted = [], [], {}
 
     of: Day
     numbers: dict[tuple[str, str], float]
@@ -58,6 +58,12 @@ class Rehearsal(Lab):
     def step(self, title: str) -> None:
         """Remember the heading."""
         self.title = title
+
+    @contextlib.contextmanager
+    def side_quest(self) -> Iterator[None]:
+        """Go on where what is optional fails, or is still to do."""
+        with contextlib.suppress(FirstFailure):
+            yield
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):

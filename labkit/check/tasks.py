@@ -46,6 +46,11 @@ class TaskResult:
         return self.verdict.status == "passed"
 
 
+def required_pass(results: list[TaskResult]) -> bool:
+    """Return whether all tasks pass that are no side quest."""
+    return all(result.passed for result in results if not result.task.optional)
+
+
 def check_tasks(
     day: Day,
     script: Path,

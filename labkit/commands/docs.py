@@ -109,13 +109,14 @@ def days_table(wanted: str, folder: Path) -> str:
     """
     lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
+        rows = {s.number: f"| {s.number}: {s.title} | | not written yet | |"
+                for s in week.soon}  # fmt: skip
         for day in days_of(week):
             guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
             title = f"[{day.number}: {day.title}]({guide})"
-            command = f"`make day{day.number}`"
-            lines.append(f"| {title} | {command} | {day.see} | {day.minutes} |")
-        for soon in week.soon:
-            lines.append(f"| {soon.number}: {soon.title} | | not written yet | |")
+            row = f"| {title} | `make day{day.number}` | {day.see} | {day.minutes} |"
+            rows[day.number] = row
+        lines += [row for _, row in sorted(rows.items())]
     return "\n".join(lines) + "\n"
 
 

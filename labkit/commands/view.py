@@ -20,8 +20,8 @@ import mujoco
 import numpy as np
 
 from labkit.base import cli
+from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
-from labkit.inspector import native_viewer
 from labkit.judge.ask import model_of
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
@@ -34,8 +34,8 @@ DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
-    """Serve the inspector until Ctrl-C."""
+def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int:
+    """Serve the inspector until Ctrl-C; without a start where it was left."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
@@ -55,10 +55,10 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
         print(about)
     model = model_of(scene or entry)
     arm = Arm(model, end_of(model) if scene else panda.END_FRAME[entry])
-    arm.move(arm.named_q.get(start, arm.named_q["home"]))
+    arm.move(arm.named_q.get(start or CONFIGURATIONS[0], arm.named_q["home"]))
     dressed = functools.partial(panda.load, entry, meshes=True)
     dressed = functools.partial(model_of, scene) if scene else dressed
-    return serve(Show(day, arm, about, dressed, simple), port)
+    return serve(Show(day, arm, about, dressed, simple, start is None), port)
 
 
 def end_of(model: mujoco.MjModel) -> str:
@@ -108,7 +108,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     if path.exists():
         raise Robo47Error(f"{shown(path)} is there already; name another file")
     try:
-        from labkit.inspector.film import film
+        from labkit.commands.film import film
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "
@@ -154,8 +154,8 @@ def parse() -> argparse.Namespace:
     add("--file", type=Path, help="with --clip: whose code, in place of your own")
     add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
     add("--port", type=port, default=8080, help="8080; 0 for any")
-    says = "ready (the labs' home_q), home (the model's own key) or zero"
-    add("--start", choices=CONFIGURATIONS, default="ready", help=says)
+    says = "ready (the labs' home_q), home (the model's own key) or zero; else where"
+    add("--start", choices=CONFIGURATIONS, help=f"{says} you left it")
     says = "which model, for --web; panda has the hand"
     add("--entry", choices=("panda_nohand", "panda"), help=says)
     return parser.parse_args()
@@ -187,7 +187,7 @@ def main() -> int:
     if options.screenshot:
         if options.entry:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
-        return screenshot(picture_of(options), options.start)
+        return screenshot(picture_of(options), options.start or CONFIGURATIONS[0])
     if options.native:
         return native()
     day = chosen_day(options.day)

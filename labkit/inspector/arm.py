@@ -17,6 +17,7 @@ from robo47.kinematics import Chain, Joint, Link, chain_to, fk, fk_all, frame_na
 from robo47.verify import mujoco_poses, random_q
 
 AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
+SOFT = 0.005  # radians by which the simulator's limits give way
 END = "ee"  # what the end effector's frame is called in T_world_ee
 
 
@@ -138,7 +139,7 @@ class Arm:
             f"{joint} = {q:.4f} is outside [{low:.4f}, {high:.4f}]"
             for joint, q in zip(self.joints, self.q, strict=True)
             for low, high in [self.limits(joint)]
-            if not low <= q <= high
+            if not low - SOFT <= q <= high + SOFT
         ]
 
     def steps(self) -> list[Step]:

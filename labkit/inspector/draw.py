@@ -61,16 +61,6 @@ class Sketch:
         """Return a name in the scene tree for one more node of this tab."""
         return f"{ROOT}/{next(_NUMBERS)}"
 
-    def arrow(
-        self,
-        start: ArrayLike,
-        end: ArrayLike,
-        colour: Colour = "blue",
-        radius: float = 0.006,
-    ) -> viser.ArrowsHandle:
-        """Draw one arrow; see `arrows`."""
-        return self.arrows(np.array([[start, end]]), colour, radius)
-
     def arrows(
         self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
     ) -> viser.ArrowsHandle:

@@ -29,23 +29,25 @@ ALLOWED = (
     "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
     "; img-src data: blob:; connect-src data: blob:"
 )
-CAMERA, LOOK_AT = (1.75, -1.3, 0.95), (0.3, 0.0, 0.35)
+CAMERA, LOOK_AT = (1.35, -1.05, 0.85), (0.25, 0.0, 0.42)
 
 
 class Recording:
     """What a robot does, with all that is drawn around it."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        """Begin with the model as it stands at its first key, or at zero.
+    def __init__(self, model: mujoco.MjModel, back: float = 1.0) -> None:
+        """Begin with the model at zero.
 
         Args:
             model: with the looks that are to be seen.
+            back: how far the camera stands back; 1 suits an arm at ready.
         """
         self.model, self.data = model, mujoco.MjData(model)
         self.server = LocalServer(0)
         set_stage(self.server)
         camera = self.server.initial_camera
-        camera.position, camera.look_at = CAMERA, LOOK_AT
+        position = LOOK_AT + back * np.subtract(CAMERA, LOOK_AT)
+        camera.position, camera.look_at = position, LOOK_AT
         seen = [thinned(shape, GRID) for shape in shapes(model)]
         self.skin = Skin(self.server, "/arm")
         self.skin.put_on(seen)
@@ -54,24 +56,23 @@ class Recording:
         self.seconds = 0.0
 
     def pose(self, qpos: ArrayLike) -> None:
-        """Move the model.
+        """Move the model to a configuration; see `poses`."""
+        self.skin.pose(self.poses(qpos))
+
+    def poses(self, qpos: ArrayLike) -> dict[str, Array]:
+        """Return {body: T_world_body (4, 4)} of what is seen, for a ghost.
 
         Args:
-            qpos: its configuration; a shorter one moves the first joints, (n,).
+            qpos: a configuration; a shorter one is that of the first joints, (n,).
         """
         q = np.asarray(qpos, dtype=float)
         self.data.qpos[: len(q)] = q
         mujoco.mj_kinematics(self.model, self.data)
-        self.skin.pose(self.poses())
-
-    def poses(self) -> dict[str, Array]:
-        """Return {body: T_world_body (4, 4)} of what is seen."""
-        return {name: self.at(name) for name in self.skin.bodies}
-
-    def at(self, body: str) -> Array:
-        """Return a body's T_world_body, (4, 4)."""
-        seen = self.data.body(body)
-        return se3.make_T(seen.xmat.reshape(3, 3), seen.xpos)
+        found = {name: self.data.body(name) for name in self.skin.bodies}
+        return {
+            name: se3.make_T(body.xmat.reshape(3, 3), body.xpos)
+            for name, body in found.items()
+        }
 
     def wait(self, seconds: float = 1 / FRAMES) -> None:
         """Let time go by; what was drawn so far is there from the beginning."""

@@ -47,6 +47,9 @@ class Tab:
             q: radians and metres, (nq,).
         """
 
+    def lost(self) -> None:
+        """Show no numbers: the student's function gave none."""
+
     def close(self) -> None:
         """Leave the tab; what `page` made is removed after this."""
 

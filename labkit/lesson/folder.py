@@ -8,11 +8,12 @@ import importlib
 import sys
 import traceback
 import types
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 from labkit.lesson.day import Day
+from labkit.lesson.starter import read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -68,9 +69,13 @@ def load_lab(script: Path) -> ModuleType:
     """
     module = ModuleType(script.stem)
     module.__file__ = str(script)
-    source = without_kit(script.read_text("utf-8"))
-    exec(compile(source, str(script), "exec"), vars(module))
+    exec(_code(read_script(script), str(script)), vars(module))
     return module
+
+
+@lru_cache(maxsize=16)
+def _code(text: str, name: str) -> CodeType:
+    return compile(without_kit(text), name, "exec")
 
 
 def without_kit(text: str) -> str:

@@ -50,7 +50,8 @@ class Proof:
         clone: whose.
         days: of a week, in order.
         picked: the capstone.
-        fresh: what `make fresh` found last: commit, wrong, date; {} where nobody asked.
+        fresh: what `make fresh` found last: commit, date, how many numbers are wrong
+            and how many things missing; {} where nobody asked.
         teacher: whether a teacher's kit found all this.
     """
 
@@ -84,7 +85,7 @@ def render(proof: Proof) -> str:
     )
     if proof.picked.result is None:
         return page
-    played = escape(film(proof.picked.result, "The pick", nonce))
+    played = escape(film(proof.picked.result).page("The pick", nonce))
     return page.replace(place, played, 1)
 
 
@@ -108,7 +109,8 @@ def _tiles(proof: Proof) -> str:
     total = sum(len(one.states) for one in proof.days)
     result = proof.picked.result
     placed = "–" if result is None else f"{result.place_mm:.1f} mm"
-    role = "none" if result is None else "fail" if result.failed else "pass"
+    theirs = proof.picked.yours == proof.picked.total
+    role = "none" if result is None else "fail" if result.failed else "pass" * theirs
     fresh, mood = _fresh(proof)
     return html.tiles([
         ("pass" if own == total else "", f"{own} of {total}", "functions theirs"),
@@ -221,9 +223,10 @@ def _commit(proof: Proof) -> str:
     if mood == "none":
         words.append("<p>No fresh clone of it was run: <code>make fresh</code>.</p>")
     else:
-        things = "" if mood == "pass" else f": {count(said['wrong'], 'thing')} to fix"
+        lacks = said.get("missing")
+        things = f"; {count(lacks, 'thing')} of the hand-in missing" if lacks else ""
         words.append(
-            f'<p class="{mood}">A fresh clone of it, set up from nothing on'
+            f'<p class="{mood}">A fresh clone of it was run on'
             f" {escape(str(said.get('date')))}: {found}{things}.</p>"
         )
     return html.section("The commit", *words)

@@ -69,16 +69,10 @@ def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) ->
     return Picked(None, why, yours, len(names))
 
 
-def film(result: Result, title: str, nonce: str) -> str:
-    """Return a pick as an HTML page of its own.
-
-    Args:
-        result: of `capstone.pick`.
-        title: of the page.
-        nonce: see `Recording.page`.
-    """
+def film(result: Result) -> Recording:
+    """Return a pick, phase by phase, as `capstone.pick` simulated it."""
     model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, meshes=True)
-    recording = Recording(model)
+    recording = Recording(model, back=1.2)
     begins = [begin for _, begin in result.phases]
     label = recording.draw.label("", TITLE_AT)
     for t in np.arange(0.0, result.seconds, 1 / FRAMES):
@@ -87,4 +81,4 @@ def film(result: Result, title: str, nonce: str) -> str:
         row = min(int(np.searchsorted(result.t, t)), len(result.t) - 1)
         recording.pose(result.qpos[row])
         recording.wait()
-    return recording.page(title, nonce)
+    return recording

@@ -9,7 +9,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from labkit.site import formulas, links, pages
+from labkit.site import films, formulas, links, pages
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -20,6 +20,7 @@ SETTINGS: dict[str, Any] = {
     "html_title": "robo47",
     "html_theme": "furo",
     "html_css_files": ["style.css"],
+    "html_js_files": [("film.js", {"defer": "defer"})],
     "html_copy_source": False,
     "html_show_sphinx": False,
     "html_show_copyright": False,
@@ -50,7 +51,7 @@ def build(out: Path) -> None:
     shutil.rmtree(out, ignore_errors=True)
     with tempfile.TemporaryDirectory(prefix="robo47-site-") as folder:
         work = Path(folder).resolve()
-        pages.lay_out(work / "pages")
+        pages.lay_out(work / "pages", filmed=films.films())
         site = Sphinx(
             work / "pages",
             None,
@@ -71,8 +72,9 @@ def build(out: Path) -> None:
 def _static(folder: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     folder.mkdir(parents=True)
-    for path in (SOURCES / "style.css", TWIN_XML, WASM):
+    for path in (SOURCES / "style.css", SOURCES / "film.js", TWIN_XML, WASM):
         shutil.copy(path, folder)
+    films.record(folder / pages.FILMS)
     (folder / "ghosts.json").write_text(
         json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
     )

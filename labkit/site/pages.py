@@ -7,7 +7,7 @@ the file; a link to a folder leads to nothing, and the build says so.
 
 import re
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 from labkit.lesson.day import days_of
@@ -24,6 +24,8 @@ DOCUMENTS = (
 )
 PICTURES = {".png", ".jpg", ".gif", ".svg"}
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
+PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
+FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = "README.md"
 MODULES = (
@@ -35,12 +37,15 @@ MODULES = (
 )
 
 
-def lay_out(folder: Path, repository: Path = ROOT) -> None:
+def lay_out(
+    folder: Path, repository: Path = ROOT, filmed: Collection[str] = ()
+) -> None:
     """Write the site's source into a folder, which is made anew.
 
     Args:
         folder: where to.
         repository: whose documents.
+        filmed: names of the pictures that have a film.
 
     Raises:
         FileNotFoundError: a document links to a file that is not there.
@@ -50,6 +55,7 @@ def lay_out(folder: Path, repository: Path = ROOT) -> None:
     pages = {path.relative_to(repository) for path in documents}
     for page in pages:
         text = (repository / page).read_text("utf-8")
+        text = _with_films(text, page, filmed)
         name = Path("index.md") if page.as_posix() == HOME else page
         _write(folder / name, _linked(text, page, pages, repository, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
@@ -79,6 +85,22 @@ def _linked(
         return found[1] + ".md"
 
     return LINK.sub(lead, text)
+
+
+def _with_films(text: str, page: Path, filmed: Collection[str]) -> str:
+    """Return a document with a link below each picture that has a film.
+
+    film.js plays it in the picture's place; without WebGL the picture stays alone.
+    """
+    up = "../" * (len(page.parts) - 1)
+
+    def add(found: re.Match[str]) -> str:
+        if found[1] not in filmed:
+            return found[0]
+        link = f'<a href="{up}_static/{FILMS}/{found[1]}.html">Play it in 3D</a>'
+        return f'{found[0]}\n\n```{{raw}} html\n<p class="film">{link}</p>\n```'
+
+    return PICTURE.sub(add, text)
 
 
 def _shown(file: Path, name: Path) -> str:

@@ -1,0 +1,51 @@
+"""The film of Day 6, recorded by the site: a soft arm and a stiff one, pressing."""
+
+import numpy as np
+from day6_task_space import (
+    PRESS,
+    RATE,
+    SINK,
+    K,
+    set_point_for_force,
+    soft_hand,
+    stiff_arm,
+)
+
+from labkit.inspector.recording import FRAMES, Recording
+from robo47 import contact, panda, scenes, simulate
+
+LABEL, SECONDS = (0.0, 0.0, 1.05), 3.0  # m, s
+
+
+def press() -> Recording:
+    """Return both arms, one after the other, and what the table feels."""
+    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
+    height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
+    film = Recording(scenes.press_table(meshes=True), back=1.1)
+    words = film.draw.label("", LABEL)
+    arrow = film.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.012)
+    for drive, rate in (("torque", RATE), ("servo", simulate.RATE)):
+        model = scenes.press_table(drive=drive)
+        q, arm = contact.above_table(model, 0.01), panda.arm(model)
+        law = soft_hand(arm, q, height) if drive == "torque" else stiff_arm(arm, q)
+        data, felt = simulate.start(model, q), []
+        log = simulate.run(
+            model, data, law, SECONDS, rate=rate,
+            watch=lambda m, d, to=felt: to.append(
+                scenes.contact_force(m, d, "tip", "table_top")
+            ),
+        )  # fmt: skip
+        for t in np.arange(0.0, SECONDS, 1 / FRAMES):
+            k = int(t * rate)
+            film.pose(log.q[k])
+            tip = arm.at(log.q[k]).T_world_ee[:3, 3]
+            tip = tip - [0.0, 0.0, scenes.TIP_RADIUS]
+            up = [0.0, 0.0, 0.002 * felt[k] + 1e-3]
+            arrow.points = np.array([[tip, tip + up]], dtype=np.float32)
+            name = "a spring of 400 N/m" if drive == "torque" else "the file's servos"
+            words.text = f"{name}: the table feels {felt[k]:.0f} N"
+            film.wait()
+    return film
+
+
+FILMS = {"press": press}

@@ -1,0 +1,15 @@
+"""The film of Day 7, recorded by the site: the pick, with the lab's own functions."""
+
+import day7_trajectory
+
+from labkit.inspector.recording import Recording
+from labkit.proof import pick as picking
+from robo47 import capstone
+
+
+def pick() -> Recording:
+    """Return the cube being picked up and put down."""
+    return picking.film(capstone.pick(capstone.with_own(vars(day7_trajectory))))
+
+
+FILMS = {"pick": pick}
