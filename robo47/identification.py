@@ -229,20 +229,18 @@ def payload_from_holds(
 
 
 def least_pseudo(phi: ArrayLike) -> Array:
-    """Return the least eigenvalue of a body's pseudo-inertia; no body is below 0.
+    """Return the least eigenvalue, (...), of a pseudo-inertia; no body's is below 0.
 
     [[S, h], [h^T, m]] with S = tr(I)/2 - I, the integral of r r^T (Wensing 2018).
 
     Args:
         phi: as above, (..., 10).
     """
-    G, phi = inertia_of(phi), np.asarray(phi, dtype=np.float64)
-    about = G[..., :3, :3]
-    trace = np.trace(about, axis1=-2, axis2=-1)[..., None, None]
+    about, phi = inertia_of(phi)[..., :3, :3], np.asarray(phi, dtype=np.float64)
+    half = np.trace(about, axis1=-2, axis2=-1)[..., None, None] / 2.0
     P = np.empty((*phi.shape[:-1], 4, 4))
-    P[..., :3, :3] = trace / 2.0 * np.eye(3) - about
+    P[..., :3, :3], P[..., 3, 3] = half * np.eye(3) - about, phi[..., 0]
     P[..., 3, :3] = P[..., :3, 3] = phi[..., 1:4]
-    P[..., 3, 3] = phi[..., 0]
     return np.linalg.eigvalsh(P)[..., 0]
 
 

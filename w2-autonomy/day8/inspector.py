@@ -34,7 +34,7 @@ class Weigh(Tab):
         page.slider("below the hand", 0, 200, 60, self.lower, unit="mm", step=5)
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
-        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange")
+        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange", 0.5)
         self.found = page.draw.sphere(np.zeros(3), secret.RADIUS / 2, "blue")
         page.light("ee", {"ee"})
         self.show()
@@ -55,7 +55,7 @@ class Weigh(Tab):
         if name == FIVE:
             beside = np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
             poses = list(panda.READY_Q + beside)
-        if name == FORGET:
+        if name != HERE:  # the same holds again would only look like more
             self.held = []
         edit = secret.load(self.mass, self.com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)

@@ -64,13 +64,6 @@ def centre_for_first_moment(J_site, R_site, extra, g):
     return np.append(m, np.array(h) / m)
 
 
-@row.wrong
-def one_pose_only(J_site, R_site, extra, g):
-    """only the first pose is used; one hold does not show the centre along gravity =>
-    the first pose alone"""
-    return payload_from_holds(J_site[:1], R_site[:1], extra[:1], g)
-
-
 row.of_argument(
     "g",
     Change(

@@ -73,15 +73,6 @@ def sigma_not_cut(Y, tau, Y_new, rtol):
     return torque, noise * np.linalg.norm(Y_new @ along.T / every, axis=1)
 
 
-@row.right  # By the covariance of phi, as a textbook writes it.
-def _(Y, tau, Y_new, rtol):
-    U, s, Vt = parts(Y, rtol)
-    phi = Vt.T @ (U.T @ tau / s)
-    r = tau - Y @ phi
-    covariance = r @ r / (len(tau) - len(s)) * (Vt.T / s**2 @ Vt)
-    return Y_new @ phi, np.sqrt(np.diag(Y_new @ covariance @ Y_new.T))
-
-
 @row.right  # By the pseudo-inverse alone: its rows are what multiplies the noise.
 def _(Y, tau, Y_new, rtol):
     back = np.linalg.pinv(Y, rcond=rtol)

@@ -138,7 +138,8 @@ def test_the_trap_of_the_lab_and_what_tells(data):
     assert f"as the file has it: {near:.2f} N m" in SENTENCES
     s = np.linalg.svd(Y[fast], compute_uv=False)
     assert s[0] / s[61] == pytest.approx(1e8, rel=0.05)
-    Y, tau, _ = data["excited"]
+    Y, tau, fast = data["excited"]
+    assert f"samples are {fast[::20].sum()} rows for 62 numbers" in SENTENCES
     slow = identification.fit(Y.reshape(-1, 91), (tau + excited).ravel(), lab.RTOL)
     Y_new, truth, fast = data["elsewhere"]
     worse = lab.rms((Y_new @ slow - truth)[fast])
