@@ -10,7 +10,7 @@ A document asks for an output between two comments:
     <!-- end -->
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the table of a week's days, from their manifests (`w*`: of every week):
+the list of a week's days, from their manifests (`w*`: of every week):
 
     <!-- days: w1-foundations -->
     <!-- end -->
@@ -34,7 +34,7 @@ from robo47.paths import ROOT, shown
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
 DOCUMENTS += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
-SMALL = "figures/small/day{}.png"  # of a week's folder: a day's picture for the table
+SMALL = "figures/small/day{}.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -101,26 +101,26 @@ def same(old: str, new: str) -> bool:
     )
 
 
-def days_table(wanted: str, folder: Path) -> str:
-    """Return the table of a week's days, with links from a folder.
+def days_list(wanted: str, folder: Path) -> str:
+    """Return a week's days: their pictures in a row, then a line each, with links.
 
     Args:
         wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
-    lines = ["| | what you will see |", "|---|---|"]
+    row, lines, soon = [], [], []
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
         for day in days_of(week):
             paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
             guide, small = (
                 os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
             )
-            picture = f"![]({small})" if paths[1].is_file() else ""
-            title = f"[Day {day.number}: {day.title}]({guide})"
-            lines.append(f"| {picture} | **{title}**: {day.see} |")
-        for soon in week.soon:
-            lines.append(f"| | Day {soon.number}: {soon.title}, not written yet |")
-    return "\n".join(lines) + "\n"
+            if paths[1].is_file():
+                row.append(f"[![Day {day.number}]({small})]({guide})")
+            lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
+        soon += [f"Day {one.number}, {one.title}" for one in week.soon]
+    lines += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
+    return "\n".join([*row, "", *lines] if row else lines) + "\n"
 
 
 def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
@@ -143,7 +143,7 @@ def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
         return renewed(request, old, body)
 
     def days(request: str, old: str) -> str:
-        return renewed(request, old, days_table(request, folder))
+        return renewed(request, old, days_list(request, folder))
 
     return blocks.refill(document, {"run": run, "days": days}), drifted
 
