@@ -20,8 +20,9 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: start check hint borrow run doctor bench test-matrix setup robot view grade
+.PHONY: update edition start check hint borrow run doctor bench test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
+.PHONY: new author
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -42,7 +43,7 @@ capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pi
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
 proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
-	@$(PY) scripts/proof.py $(ARGS) $(NOT_YET)
+	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
@@ -65,12 +66,18 @@ borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
 
+update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
+	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
+
 doctor: ## what this machine has and lacks; paste it when asking
 	@$(PYTHON) scripts/doctor.py $(ARGS) $(NOT_YET)
 
 grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
 	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
+
+edition: .venv/.ready-core ## the kit for students, answers sealed: OUT=../robo47-students
+	@$(PY) scripts/edition.py "$(or $(OUT),$(error where to? make edition OUT=../robo47-students))" $(ARGS)
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)
@@ -88,7 +95,7 @@ lint: .venv/.ready-test ## style, format and types
 	@$(PY) -m ruff check . && $(PY) -m ruff format --check . && $(PY) -m mypy
 
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
-	@$(PY) scripts/build_docs.py $(ARGS)
+	@$(PY) scripts/build_docs.py $(ON_DAY) $(ARGS)
 
 site: .venv/.ready-site $(ROBOT) site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
 	@$(PY) scripts/build_site.py $(ARGS)
@@ -102,6 +109,13 @@ figures: .venv/.ready-figures $(ROBOT) ## draw the day's picture with your funct
 
 notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook
 	@$(PY) scripts/make_notebook.py $(ON_DAY) $(ARGS)
+
+new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-autonomy NAME=me
+	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
+	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
+
+author: .venv/.ready-test .venv/.ready-notebook $(ROBOT) ## is a day that you write as it must be?
+	@$(PY) scripts/author_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)

@@ -1,6 +1,9 @@
 """What every test file shares: the robot, a clean environment, and honest skips."""
 
 import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: -n 2 on two cores
+
 import shutil
 import subprocess
 import sys
@@ -8,6 +11,7 @@ import textwrap
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 from unittest.mock import MagicMock
 
 import hypothesis
@@ -19,6 +23,9 @@ from labkit.figures import backends
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.panda import files
+
+if TYPE_CHECKING:
+    from labkit.lesson.day import Day
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -49,9 +56,9 @@ def need(available: bool, what: str) -> None:
 
 
 class Answers:
-    """A student's file for a tab of the inspector: functions in place of a sandbox."""
+    """A student's file for a tab of the inspector: functions instead of a sandbox."""
 
-    there, version = True, 1
+    there, version, problem = True, 1, ""
 
     def __init__(self, functions):
         from labkit.inspector.checker_calls import describe
@@ -78,7 +85,8 @@ def paper(model, q, functions=None):
     from labkit.inspector.own import Own
 
     page = MagicMock(model=model, q=np.array(q, dtype=float))
-    student = None if functions is None else Answers(functions)
+    student = Answers(functions or {})
+    student.there = functions is not None
     page.own.side_effect = lambda library, free=(): Own(lambda: student, library, free)
     page.job.side_effect = lambda work, done: done(work())
     for name in ("curve", "arrows", "lines", "label", "ghost"):
@@ -126,6 +134,14 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     """Return panda_nohand, once from the Menagerie and once from the twin."""
     request.getfixturevalue("real_panda" if request.param == "real" else "twin")
     return panda.load("panda_nohand")
+
+
+def days() -> list["Day"]:
+    """Return the days to test: all, or the one that its author asks for."""
+    from labkit.lesson.day import all_days, find_day
+
+    asked = os.environ.get("ROBO47_DAY")
+    return [find_day(int(asked))] if asked else all_days()
 
 
 def kit_folders() -> list[str]:

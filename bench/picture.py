@@ -18,7 +18,7 @@ def draw(results: dict[str, Any], path: Path) -> None:
         results: what bench/results.json holds; "fk" and "growth" are drawn.
         path: the PNG to write.
     """
-    _panels(results).save(path, optimize=True)
+    _panels(results).quantize(256, dither=0).save(path, optimize=True)
 
 
 @chart.picture(height=8.5)

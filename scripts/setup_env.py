@@ -37,6 +37,10 @@ OFFLINE = (
     "Could not resolve",
     "getaddrinfo",
 )
+# Of these extras something has no wheel for a Python yet; tests/test_resolver.py looks.
+WITHOUT_WHEELS = {(3, 15): ("bench", "grade", "notebook", "site", "trajectory", "view")}
+UNRESOLVED = ("ResolutionImpossible", "No matching distribution", "No solution found")
+OLDER = "An older Python has all: make setup PYTHON=python3.14, then run make again."
 DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
 
 
@@ -44,18 +48,22 @@ def made_with(venv):
     """Return the version of an environment's Python, or None if it is not whole.
 
     An environment is whole once it carries a stamp: a run that is killed while pip is
-    being unpacked leaves one that starts and cannot install anything.
+    being unpacked leaves one that starts and cannot install anything. What `uv sync`
+    has made and filled is whole too.
     """
     stamped = any(name.startswith((".made", ".ready-")) for name in listing(venv))
     python = os.path.join(venv, PYTHON_IN_VENV)
-    return ask(python, "import pip") if stamped and os.path.exists(python) else None
+    if not os.path.exists(python) or not (stamped or recorded(venv, "uv")):
+        return None
+    return ask(python, "import pip" if stamped else "import pip, mujoco")
 
 
-def recorded_version(venv):
-    """Return the version that a broken environment was made with, or ""."""
+def recorded(venv, what):
+    """Return the version of "uv" or "version" that made an environment, or ""."""
     try:
         with open(os.path.join(venv, "pyvenv.cfg")) as file:
-            found = re.search(r"^version\w* *= *(\d+\.\d+)", file.read(), re.MULTILINE)
+            line = r"^" + what + r"\w* *= *(\d+\.\d+)"
+            found = re.search(line, file.read(), re.MULTILINE)
     except (OSError, ValueError):
         return ""
     return found.group(1) if found else ""
@@ -166,6 +174,8 @@ def install(venv, extras, uv):
         )
     if "No space left" in said:
         stop(*DISK_FULL)
+    if any(sign in said for sign in UNRESOLVED):
+        stop("something in {} has no wheel for this Python.".format(what), OLDER)
     stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
 
 
@@ -179,7 +189,7 @@ def provide(venv, anew, uv):
             say("{} keeps its Python {}.{}; to change that:".format(folder, *has))
             say("make setup PYTHON=" + python)
         return
-    before = "{}.{}".format(*has) if has else recorded_version(venv)
+    before = "{}.{}".format(*has) if has else recorded(venv, "version")
     if before and not anew:
         say("{} (Python {}) is not whole; making it anew".format(folder, before))
     if before and before != wanted:
@@ -193,6 +203,11 @@ def bring(venv, extras, anew):
     provide(venv, anew, uv)
     stamps = {extra: os.path.join(venv, ".ready-" + extra) for extra in extras}
     missing = [extra for extra in extras if not is_stamped(stamps[extra])]
+    version = made_with(venv)
+    lacking = [e for e in missing if e in WITHOUT_WHEELS.get(version, ())]
+    if lacking:
+        says = "Python {}.{} is too new for ".format(*version) + ", ".join(lacking)
+        stop(says + ": something in it has no wheel yet.", OLDER)
     if missing:
         install(venv, missing, uv)
     for extra in extras:

@@ -4,6 +4,7 @@ Questions, replies and judging are the real ones; only the walls are missing.
 """
 
 import contextlib
+import functools
 import io
 import sys
 import types
@@ -19,7 +20,7 @@ class InProcess:
     """Runs a file as `Sandbox.run` does; robo47 and MuJoCo are the real ones."""
 
     def __init__(self, instead=None):
-        """Take functions that stand in the file in place of its own, by name."""
+        """Take functions that stand in the file instead of its own, by name."""
         self.instead = instead or {}
         self.added = ""
 
@@ -53,8 +54,7 @@ class InProcess:
         module.__file__ = str(script)
         sys.modules[script.stem] = module
         try:
-            source = script.read_bytes().replace(b"\nimport kit ", b"\n# ")
-            code = compile(source, str(script), "exec")
+            code = _compiled(script.read_bytes(), str(script))
             with contextlib.redirect_stdout(io.StringIO()):
                 exec(code, vars(module))
                 vars(module).update(self.instead)
@@ -96,6 +96,11 @@ class InProcess:
         if isinstance(arg, Path):
             return list(arg.pairs)
         return arg.copy() if isinstance(arg, np.ndarray) else arg
+
+
+@functools.cache
+def _compiled(source, name):
+    return compile(source.replace(b"\nimport kit ", b"\n# "), name, "exec")
 
 
 def _copied(value):

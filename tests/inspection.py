@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from pathlib import Path
 from queue import Queue
@@ -15,12 +16,13 @@ SECONDS = 60
 NO_ROBOT = "from robo47.panda import files; files.panda_folder = lambda: None"
 
 
-def prepared(work: Path, robot: bool) -> str:
+def prepared(work: Path, robot: bool, memory: Path) -> str:
     """Return a program that runs the script with another file as the student's.
 
     Args:
         work: the student's file, there or not; their real one stays out of the tests.
         robot: False as if the robot had never been fetched.
+        memory: the folder in place of `.robo47`.
     """
     lines = [
         "import pathlib, runpy, sys",
@@ -28,6 +30,8 @@ def prepared(work: Path, robot: bool) -> str:
         f"sys.path.insert(0, {str(SCRIPT.parent)!r})",
         "from labkit.lesson.day import Day",
         f"Day.work = pathlib.Path({str(work)!r})",
+        "from labkit.base import store",
+        f"store.path_of = lambda name, *_: pathlib.Path({str(memory)!r}) / name",
         "" if robot else NO_ROBOT,
         "runpy.run_path(sys.argv[0], run_name='__main__')",
     ]
@@ -38,10 +42,16 @@ class Served:
     """`view_panda.py` in a process of its own, ready to be looked at."""
 
     def __init__(
-        self, *arguments: str, robot: bool = True, work: Path = ROOT / "nobodys.py"
+        self,
+        *arguments: str,
+        robot: bool = True,
+        work: Path = ROOT / "nobodys.py",
+        memory: Path | None = None,
     ) -> None:
+        self.own = tempfile.TemporaryDirectory()
+        program = prepared(work, robot, memory or Path(self.own.name))
         self.process = subprocess.Popen(
-            [sys.executable, "-c", prepared(work, robot), *arguments],
+            [sys.executable, "-c", program, *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -102,3 +112,4 @@ class Served:
         self.reader.join(timeout=SECONDS)
         assert self.process.stdout is not None
         self.process.stdout.close()
+        self.own.cleanup()

@@ -274,3 +274,15 @@ def test_running_the_starter_names_the_task_that_is_to_do(run_in, work):
     assert done.returncode == 1
     assert "to do: task 1.1: write make_T" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_side_quest_that_nobody_wrote_keeps_no_row_from_counting():
+    from labkit.check.tasks import TaskResult, required_pass
+    from labkit.judge import Verdict
+
+    day = find_day(3)
+    done = {"3.9": "todo"}
+    results = [TaskResult(t, Verdict(done.get(t.id, "passed"))) for t in day.tasks]
+    assert required_pass(results)
+    results[0] = TaskResult(day.tasks[0], Verdict("wrong"))
+    assert not required_pass(results)

@@ -88,3 +88,24 @@ def test_a_red_arm_is_really_drawn(gl):
     red = with_ghost[..., 0] - with_ghost[..., 1:].max(axis=-1) > 60
     assert red.sum() > 1000
     assert not (without[..., 0] - without[..., 1:].max(axis=-1) > 60).any()
+
+
+def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_path):
+    from labkit.figures import picking
+    from robo47 import capstone
+
+    result = capstone.pick(capstone.library(), rate=50.0)
+    rows = [int(np.searchsorted(result.t, t)) for t in (0.0, result.t[-1])]
+    assert [picking.phase(result, row)[0] for row in rows] == [
+        "reach, 0.0 s",
+        f"rest, {result.t[-1]:.1f} s",
+    ]
+    grey = np.full((200, 300, 3), 128, dtype=np.uint8)
+    grey[:, :, 1] = np.linspace(100, 160, 300)
+    grey[90:96, 90:96] = 220, 90, 20
+    path = tmp_path / "cube.gif"
+    clip.save_clip([Image.fromarray(grey)] * 3, path)
+    with Image.open(path) as made:
+        red, _, blue = made.convert("RGB").getpixel((93, 93))
+    assert red > 180
+    assert blue < 60

@@ -6,15 +6,16 @@ import inprocess
 import pytest
 from catalogue import run_as_lab
 
-from conftest import ROOT, kits_worksheet
+from conftest import ROOT, days, kits_worksheet
+from labkit.check.tasks import check_tasks
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
-from labkit.lesson.day import all_days
 from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.library import library_of
+from labkit.sandbox.sandbox import Sandbox
 
-DAYS = all_days()
+DAYS = days()
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
 
 
@@ -65,6 +66,12 @@ class TestManifest:
         asked = {word.lower() for term in day.terms for word in term.split(" or ")}
         assert asked <= words
 
+    def test_the_guides_parts_take_the_minutes_that_the_day_is_planned_for(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        table = guide.partition("| part | minutes |\n")[2].partition("\n\n")[0]
+        parts = re.findall(r"\| (\d+) \|$", table, re.MULTILINE)
+        assert not parts or sum(map(int, parts)) == day.minutes
+
     def test_the_lab_measures_what_the_worksheet_lets_predict(self, day):
         rows = predictions(kits_worksheet(day).replace("*(your prediction)*", "?"))
         lab = day.source.read_text("utf-8")
@@ -90,6 +97,11 @@ class TestScript:
         (tmp_path / "kit.py").write_text("")
         verdicts = inprocess.verdicts(day, path)
         assert {verdict.status for verdict in verdicts.values()} == {"todo"}
+
+    def test_the_sandbox_loads_the_complete_lab(self, day):
+        first = day.tasks[0].id
+        (result,) = check_tasks(day, day.source, Sandbox(), first)
+        assert result.passed, result.verdict.message
 
     def test_the_complete_lab_passes(self, day):
         assert run_as_lab(day) == 0

@@ -3,11 +3,11 @@
 import pytest
 from catalogue import STATUS, Entry, entries, run_as_lab, told
 
-from labkit.lesson.day import all_days
+from conftest import days
 
 pytestmark = pytest.mark.kit
 
-DAYS = all_days()
+DAYS = days()
 FILES = [
     pytest.param(day, one, id=f"day{day.number}/{one.name}")
     for day in DAYS

@@ -1,5 +1,7 @@
 """Documents: outputs come from runs, numbers in sentences are recomputed."""
 
+import importlib.util
+import json
 import re
 import shutil
 
@@ -7,6 +9,7 @@ import pytest
 
 from conftest import ROOT, kits_worksheet, need
 from labkit.lesson.day import all_days, find_day
+from robo47 import __version__
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
@@ -78,6 +81,7 @@ def test_the_readme_names_the_commands_that_ci_runs():
         assert command in readme
     assert "make test" in ci
     assert "make lint" in ci
+    assert "- run: .ci/run\n" in (ROOT / ".github/workflows/ci.yml").read_text("utf-8")
 
 
 def test_every_command_in_the_teachers_guide_exists(run):
@@ -95,6 +99,61 @@ def test_every_command_in_the_teachers_guide_exists(run):
     assert {option for option in named if option not in known} == set()
 
 
+def formulas(path):
+    """Return what stands between dollars in a document, without its code."""
+    text = re.sub(r"```.*?```|`[^`]*`", "", path.read_text("utf-8"), flags=re.DOTALL)
+    return re.findall(r"\$\$(.+?)\$\$|\$(.+?)\$", text, re.DOTALL)
+
+
+@pytest.mark.parametrize("path", [p for p in DOCUMENTS if "$" in p.read_text("utf-8")],
+                         ids=lambda p: p.name)  # fmt: skip
+def test_formulas_are_in_a_dialect_that_github_and_the_site_read(path):
+    """The site's reader takes \\tfrac12 for the fraction 12 over what follows."""
+    found = [block or inline for block, inline in formulas(path)]
+    for formula in found:
+        assert not re.search(r"°|\\[td]?frac\s*\w", formula), formula
+        assert formula.count("{") == formula.count("}"), formula
+    if importlib.util.find_spec("docutils") is not None:  # make site brings it
+        from docutils.utils.math.latex2mathml import tex2mathml
+
+        assert all(tex2mathml(formula) for formula in found)
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
+def test_every_picture_says_in_words_what_it_shows(path):
+    text = path.read_text("utf-8")
+    assert not re.search(r"(?<!`)!\[.{0,15}\]\((?!.*jpg)", text)
+
+
 def test_no_document_holds_an_empty_output():
     for path in DOCUMENTS:
         assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", path.read_text("utf-8"))
+
+
+def test_what_github_shows_says_what_the_kit_is():
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    assert f"\nversion: {__version__}\n" in citation
+    form = (ROOT / ".github/ISSUE_TEMPLATE/checker-misled-me.yml").read_text("utf-8")
+    assert "make check TASK=1.4 ARGS=--json" in form
+
+
+def test_the_containers_are_built_from_one_dockerfile():
+    dockerfile = (ROOT / "Dockerfile").read_text("utf-8")
+    text = (ROOT / ".devcontainer/devcontainer.json").read_text("utf-8")
+    inside = json.loads(re.sub(r"^ *//.*\n", "", text, flags=re.MULTILINE))
+    assert (ROOT / ".devcontainer" / inside["build"]["dockerfile"]).samefile(
+        ROOT / "Dockerfile"
+    )
+    assert f" AS {inside['build']['target']}\n" in dockerfile
+    assert (
+        f"useradd --create-home --shell /bin/bash {inside['remoteUser']}" in dockerfile
+    )
+    view = (ROOT / "labkit/commands/view.py").read_text("utf-8")
+    assert f'"--port", type=port, default={inside["forwardPorts"][0]}' in view
+    assert "bubblewrap" in dockerfile
+    assert "podman build -t robo47 .\n" in (ROOT / "docs/teaching.md").read_text(
+        "utf-8"
+    )
+    commands = [dockerfile, inside["postCreateCommand"]]
+    scripts = {s for text in commands for s in re.findall(r"scripts/\w+\.py", text)}
+    assert scripts == {"scripts/setup_env.py", "scripts/fetch_menagerie.py"}

@@ -612,10 +612,14 @@ class TestHistory:
             file.write(f"\n{out}\n")
         assert not git.read_history(tmp_path, [SCRIPT]).readable
 
-    @pytest.mark.parametrize("what", ["a file of a terabyte", "100,000 files"])
-    def test_reads_nothing_of_a_repository_beyond_all_measure(self, tmp_path, what):
+    @pytest.mark.parametrize("what", ["a file of a terabyte", "many files"])
+    def test_reads_nothing_of_a_repository_beyond_all_measure(
+        self, tmp_path, what, monkeypatch
+    ):
         commit(tmp_path, 1_788_000_000)
-        if what == "100,000 files":
+        assert git.read_history(tmp_path, [SCRIPT]).readable
+        if what == "many files":
+            monkeypatch.setattr(git, "MOST_ENTRIES", 1000)
             (tmp_path / ".git" / "x").mkdir()
             for i in range(git.MOST_ENTRIES):
                 (tmp_path / ".git" / "x" / str(i)).touch()

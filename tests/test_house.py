@@ -20,7 +20,9 @@ FLOORS = [
     "labkit.site",
     "labkit.fresh",
     "labkit.grade",
+    "labkit.update",
     "labkit.proof",
+    "labkit.author",
     "labkit.setup",
     "labkit.commands",
 ]

@@ -39,9 +39,10 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
+        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
-        draw.arrow([0, 0, 0], [0, 0, 1])
+        draw.arrows([[[0, 0, 0], [0, 0, 1]]])
         draw.curve(np.zeros((3, 3)))
         draw.sphere([0, 0, 0], 0.1)
         draw.ellipsoid().show(np.diag([4.0, 1.0, 0.0]), [0, 0, 0], 0.1)
@@ -150,7 +151,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i].handle
+    return page.opened.tab.sliders[i]
 
 
 def contents(page):
@@ -295,7 +296,7 @@ def test_a_tab_takes_all_that_it_made_with_it(page, say):
 def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
     say(tab("Noisy"))
     noisy = Noisy.last
-    slider = noisy.sliders[0].handle
+    slider = noisy.sliders[0]
     say((slider, 0.25), (noisy.press, "b"), (noisy.pick, "two"), (noisy.tick, True))
     assert noisy.heard == [0.25, "b", "two", True]
     say((slider, 7.0), (noisy.press, "c"), (noisy.pick, "three"))
@@ -376,3 +377,58 @@ def test_the_order_tab_says_what_the_lab_says(server):
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
         on_loop(server, page.opened.leave)
+
+
+def test_an_image_of_depths_goes_from_black_to_white():
+    from labkit.inspector.widgets import as_bytes
+
+    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+    assert shown.shape == (2, 2, 3)
+    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
+    colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    assert as_bytes(colours) is colours
+
+
+@pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])
+@pytest.mark.parametrize("start", [[0, 0, 1], [1e308] * 3, [np.nan] * 3])
+def test_a_click_that_no_browser_makes_meets_nothing(page, start, way):
+    page.pointed.watch(page.arm.model)
+    assert page.pointed.find(start, way) == 0
+    assert page.pointed.find([2.0, 0.0, 0.3], [-1.0, 0.0, 0.0]) >= 0
+
+
+def test_a_text_that_is_far_too_long_is_answered_at_once(page, say):
+    before = page.arm.q.copy()
+    started = time.monotonic()
+    say(
+        (page.opened.tab.box, "9, " * 1_000_000), (page.opened.tab.box, "(" * 1_000_000)
+    )
+    assert time.monotonic() - started < SECONDS
+    np.testing.assert_array_equal(page.arm.q, before)
+
+
+def test_a_target_is_dragged_to_no_other_planet(page, say):
+    from viser import _messages
+
+    say(tab("Noisy"))
+    handle = next(
+        node
+        for name, node in page.server.scene._handle_from_node_name.items()
+        if type(node).__name__ == "TransformControlsHandle"
+    )
+    (moved,) = page.server.scene._websock_interface._incoming_handlers[
+        _messages.TransformControlsUpdateMessage
+    ]
+
+    def drag(position):
+        name, upright = handle._impl.name, (1.0, 0.0, 0.0, 0.0)
+        message = _messages.TransformControlsUpdateMessage(name, upright, position)
+        loop = page.server.get_event_loop()
+        asyncio.run_coroutine_threadsafe(moved(BROWSER, message), loop).result(SECONDS)
+        settle(page)
+
+    for far in ((1e300, 0.0, 0.0), (float("nan"), 0.0, 0.0), (0.0, -50.0, 0.0)):
+        drag(far)
+    assert Noisy.last.heard == []
+    drag((0.3, 0.2, 0.1))
+    assert Noisy.last.heard[0][0, 3] == 0.3

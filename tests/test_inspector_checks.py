@@ -4,13 +4,17 @@ from queue import Queue
 
 import pytest
 
-from labkit.inspector.checks import Checks, Standing, TaskState, standing
+from labkit.check.tasks import TaskResult
+from labkit.inspector.checks import Checks, Standing, standing
+from labkit.judge.mistake import Verdict
+from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
-PASSED = TaskState("1.1", "make_T", "passed", "")
-WRONG = TaskState("1.2", "Rz", "wrong", "sin and cos are swapped", "swapped")
-TODO = TaskState("1.3", "inverse", "todo", "not written yet")
+TASKS = find_day(1).tasks
+PASSED = TaskResult(TASKS[0], Verdict("passed"))
+WRONG = TaskResult(TASKS[1], Verdict("wrong", "swapped", "sin and cos are swapped"))
+TODO = TaskResult(TASKS[2], Verdict("todo", "unwritten", "not written yet"))
 
 
 @pytest.mark.parametrize(
@@ -18,7 +22,7 @@ TODO = TaskState("1.3", "inverse", "todo", "not written yet")
     [
         ((PASSED,), "good", "1 of 1 tasks pass"),
         ((PASSED, WRONG, TODO), "bad", "1 of 3 tasks pass. 1.2: sin and cos"),
-        ((PASSED, TODO), "quiet", "1 of 2 tasks pass; next is 1.3 inverse"),
+        ((PASSED, TODO), "quiet", "1 of 2 tasks pass; next is 1.3 The pose"),
     ],
 )
 def test_one_line_says_how_the_day_stands(tasks, kind, says):
@@ -29,13 +33,11 @@ def test_one_line_says_how_the_day_stands(tasks, kind, says):
 
 
 def test_a_file_that_does_not_load_is_one_line_and_no_list_of_the_same():
-    broken = [
-        TaskState(f"1.{i}", "t", "todo", "day.py, line 3: SyntaxError", "does-not-load")
-        for i in range(1, 4)
-    ]
+    why = Verdict("todo", "does-not-load", "day.py, line 3: SyntaxError")
+    broken = [TaskResult(task, why) for task in TASKS[:3]]
     found = standing(broken)
     assert found.headline == "make check: day.py, line 3: SyntaxError"
-    assert [task.message for task in found.tasks] == ["", "", ""]
+    assert [result.verdict.message for result in found.tasks] == ["", "", ""]
 
 
 def test_a_check_runs_apart_and_a_broken_checker_is_said():

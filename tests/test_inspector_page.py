@@ -5,9 +5,11 @@ The drawing is done in software here, so most tests have the page draw few pixel
 
 import importlib.util
 import io
+import re
 import shutil
 import time
 import urllib.parse
+import urllib.request
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -38,6 +40,7 @@ const query = new URLSearchParams(location.search);
 query.set("fixedDpr", "0.1");
 if (location.protocol === "http:") history.replaceState(null, "", `?${query}`);
 """
+ELSEWHERE = (0.1, -0.2, 0.3, -1.5, 0.5, 1.6, -0.7)
 SHOWN = 6e-7  # a matrix is shown with 6 decimals
 
 
@@ -105,7 +108,8 @@ class Page:
         self.wait()
 
     def wait(self) -> None:
-        self.tab.wait_for_selector("[data-matrix=mujoco]", state="attached")
+        self.tab.wait_for_selector("[data-r47-state]", state="attached")
+        self.tab.wait_for_selector("#r47-first", state="detached")
 
     def later(self) -> None:
         """Move the page's clock on by two seconds."""
@@ -288,6 +292,16 @@ def test_the_page_asks_nobody_else_for_anything(page, served):
         if not url.startswith("data:")
     }
     assert hosts == {f"127.0.0.1:{served.port}"}
+
+
+def test_the_matrices_stand_in_the_page_before_viser_draws_anything(served, page):
+    with urllib.request.urlopen(served.url, timeout=60) as answer:
+        text = answer.read().decode()
+    first = text.partition('<div id="r47-first">')[2]
+    entries = first.partition('data-matrix="mujoco">')[2].partition("</pre>")[0]
+    shown = re.sub("<[^>]*>", "", entries)
+    numbers = np.array(shown.split(), dtype=float).reshape(4, 4)
+    np.testing.assert_allclose(numbers, page.matrix("mujoco"), atol=SHOWN)
 
 
 def test_both_matrices_are_mujocos_pose_of_the_ready_arm(page, model):
@@ -572,6 +586,22 @@ def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
     page.drag(2, -30)
     page.until(lambda: page.angle(2) < angle - 0.2)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, page.angles())))
+
+
+def test_a_restart_finds_the_tab_and_the_arm_where_they_were(browser, tmp_path, model):
+    expected = truth(model, np.array(ELSEWHERE), "body:link4")
+    q = ",".join(map(str, ELSEWHERE))
+    for where in (f"?q={q}&frame=link4&tab=Order", ""):
+        server = Served("1", "--port", "0", "--simple", memory=tmp_path)
+        try:
+            page = Page(browser, server.url, where)
+            page.until(lambda page=page: page.selected("Order"))
+            page.until(lambda page=page: close(page.matrix("mujoco"), expected))
+            page.until(lambda: "tab=Order" in (tmp_path / "view.json").read_text())
+            page.tab.close()
+            assert server.press_ctrl_c() == 0
+        finally:
+            server.close()
 
 
 def test_two_browsers_see_the_same_arm(page, browser, served, model):

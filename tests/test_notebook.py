@@ -165,3 +165,20 @@ def test_the_sliders_show_the_function_that_they_are_given():
     left, _ = joint_sliders(compose_fk).children
     assert "T_world_ee, compose_fk" in left.children[-1].value
     assert "color:crimson" in left.children[-1].value
+
+
+def test_a_starter_notebook_has_the_gaps_and_no_answer(
+    generator, monkeypatch, tmp_path
+):
+    work = tmp_path / "work" / "day1_transforms.py"
+    monkeypatch.setattr("labkit.lesson.day.Day.work", work)
+    monkeypatch.setattr(sys, "argv", [*sys.argv, "--starter"])
+    assert generator.main() == 0
+    text = work.with_suffix(".ipynb").read_text("utf-8")
+    source = DAY.source.read_text("utf-8")
+    answers = re.findall(r"# region \S+\n(.*?)\n    # endregion", source, re.DOTALL)
+    assert len(answers) >= 8
+    assert all(json.dumps(answer)[1:-1] not in text for answer in answers)
+    assert text.count("raise NotImplementedError") == len(answers)
+    with pytest.raises(Robo47Error, match="stays as it is"):
+        generator.main()

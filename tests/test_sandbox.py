@@ -236,6 +236,25 @@ class TestWhatATaskMayTake:
         (reply,) = ask(self.IMAGE, question)
         assert (reply.kind, "far too large" in reply.error) == ("unsendable", True)
 
+    def test_a_week_may_bring_a_pinned_package(self, ask):
+        scipy = pytest.importorskip("scipy")
+        code = """
+            import numpy as np
+            from scipy.optimize import nnls
+            def f():
+                return nnls(np.eye(2), np.array([1.0, -1.0]))[0]
+        """
+        extras = (f"scipy=={scipy.__version__}",)
+        (reply,) = ask(code, limits=Limits(extras=extras))
+        np.testing.assert_array_equal(reply.value, [1.0, 0.0])
+        with pytest.raises(LoadError):  # nobody asked for it
+            ask(code)
+
+    def test_another_version_of_it_is_told_with_the_remedy(self, ask):
+        for extra in ("numpy==0.1", "nothing-like-it==1.0"):
+            with pytest.raises(Robo47Error, match=f"pip install {extra}"):
+                ask("def f(): return 1.0", limits=Limits(extras=(extra,)))
+
     def test_a_question_that_is_too_large_is_told_to_its_author(self, ask):
         question = Question("1.1", "f", (np.zeros((2000, 2000)),))
         with pytest.raises(

@@ -1,12 +1,17 @@
 """Second looks: whose fault it is, when it is right, what a lab finds, borrowing."""
 
+from dataclasses import replace
+
 import inprocess
 import numpy as np
 import pytest
 
 from labkit.check.lab_run import failing_step
+from labkit.check.second_look import old_names
+from labkit.check.tasks import check_tasks
 from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
-from labkit.lesson.day import find_day
+from labkit.lesson.day import all_days, find_day
+from labkit.lesson.starter import make_starter, read_script
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 
@@ -84,8 +89,10 @@ def sandbox():
 
 
 class TestTheLabWithAFilesFunctions:
-    def test_passes_with_the_kits_own(self, sandbox):
-        assert failing_step(DAY, DAY.source, sandbox) == ""
+    @pytest.mark.parametrize("number", [1, 4])
+    def test_passes_with_the_kits_own(self, sandbox, number):
+        day = find_day(number)
+        assert failing_step(day, day.source, sandbox) == ""
 
     def test_names_the_step_and_the_number(self, sandbox, tmp_path):
         day = find_day(3)
@@ -145,3 +152,41 @@ class TestBorrowing:
         assert done.returncode == 2
         assert "no task 1.99" in done.stderr
         assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("number", [3, 4])
+def test_a_lab_is_rehearsed_with_predictions_and_without_its_side_quests(
+    tmp_path, number
+):
+    day = find_day(number)
+    script = tmp_path / day.script
+    gap = "def {}(*_):\n    raise NotImplementedError('task {}')\n"
+    optional = [task for task in day.tasks if task.optional]
+    gaps = [gap.format(name, task.id) for task in optional for name in task.functions]
+    text = day.source.read_text("utf-8").partition("def main(")[0]
+    script.write_text("\n\n".join([text, *gaps]), "utf-8")
+    with Sandbox() as sandbox:
+        assert failing_step(day, script, sandbox) == ""
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")
+def test_a_starter_loads_behind_the_wall(sandbox, tmp_path, day):
+    """There the kit's library of later days and MuJoCo are no more than names."""
+    script = tmp_path / day.script
+    text = make_starter(day.source.read_text("utf-8"), day.script, day.number)
+    script.write_text(text, "utf-8")
+    first = check_tasks(day, script, sandbox, day.tasks[0].id)
+    assert [result.verdict.status for result in first] == ["todo"]
+
+
+def test_a_function_is_judged_under_the_name_that_it_had():
+    day = find_day(1)
+    tasks = [
+        replace(t, functions=("undone",), was=("inverse",)) if t.id == "1.3" else t
+        for t in day.tasks
+    ]
+    newer = replace(day, tasks=tuple(tasks))
+    text = read_script(day.source)
+    assert old_names(newer, text).strip() == "undone = inverse"
+    assert old_names(newer, text.replace("def inverse(", "def undone(")) == ""
+    assert old_names(day, text) == ""

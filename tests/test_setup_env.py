@@ -3,8 +3,10 @@
 import errno
 import importlib.util
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from types import SimpleNamespace
 
 import pytest
@@ -111,6 +113,40 @@ def test_an_environment_without_a_stamp_or_a_python_is_not_whole(tmp_path):
     assert real.made_with(str(venv)) == NOW
     python.unlink()
     assert real.made_with(str(venv)) is None
+
+
+def test_an_environment_that_uv_filled_is_whole_and_one_that_it_began_is_not(tmp_path):
+    real, venv = load(), tmp_path / "v"
+    subprocess.run([sys.executable, "-m", "venv", venv], check=True)
+    assert real.made_with(str(venv)) is None
+    with (venv / "pyvenv.cfg").open("a") as file:
+        file.write("uv = 0.13.9\n")
+    assert real.made_with(str(venv)) is None
+    (package,) = venv.rglob("site-packages")
+    (package / "mujoco.py").touch()
+    assert real.made_with(str(venv)) == NOW
+
+
+def test_what_uv_and_pip_install_are_the_same_versions_and_public():
+    lock = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))
+    locked = {
+        (one["name"], one["version"])
+        for one in lock["package"]
+        if one["name"] != "robo47"
+    }
+    text = (ROOT / "constraints.txt").read_text("utf-8")
+    pins = re.findall(r"^([\w.-]+)==([\w.]+)", text, re.MULTILINE)
+    pinned = {(re.sub(r"[-_.]+", "-", name).lower(), v) for name, v in pins}
+    assert locked == pinned
+    hosts = set(re.findall(r"\w+://[^/\"]*", (ROOT / "uv.lock").read_text("utf-8")))
+    assert hosts == {"https://pypi.org", "https://files.pythonhosted.org"}
+
+
+def test_uv_brings_all_that_make_may_put_into_the_environment():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    extras = set(project["project"]["optional-dependencies"]) - {"bench"}
+    (own,) = [d for d in project["dependency-groups"]["dev"] if d.startswith("robo47")]
+    assert set(own.removeprefix("robo47[").removesuffix("]").split(",")) == extras
 
 
 def test_an_environment_without_pip_is_not_whole(tmp_path):

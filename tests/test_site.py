@@ -3,6 +3,7 @@
 import functools
 import http.server
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -108,6 +109,18 @@ def test_every_guide_worksheet_and_taught_module_has_a_page(site):
                 *site.rglob(f"{str(name).rpartition('/')[2].removesuffix('.md')}.html")
             ]
             assert found, f"day {day.number}: {name}"
+
+
+def test_every_formula_of_the_documents_can_be_set():
+    pytest.importorskip("sphinx")
+    from labkit.site.extension import mathml
+
+    assert mathml(r"\dot q_i").count("<msub><mover") == 1  # the index beside, not below
+    fences, code = re.compile(r"```.*?```", re.DOTALL), re.compile(r"`[^`\n]*`")
+    for path in sorted((ROOT / "w1-foundations" / "docs").glob("*.md")):
+        text = code.sub("", fences.sub("", path.read_text("utf-8")))
+        for formula in re.findall(r"\$\$(.+?)\$\$|\$([^$]+?)\$", text, re.DOTALL):
+            assert mathml("".join(formula).strip()), path.name
 
 
 def test_formulas_are_those_of_the_mistakes():

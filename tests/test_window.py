@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from labkit.inspector import native_viewer
+from labkit.commands import native_viewer
 from robo47 import panda
 
 pytestmark = pytest.mark.kit

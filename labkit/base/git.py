@@ -179,6 +179,9 @@ def too_much(folder: Path, commit: str) -> str:
         GitError: git is not there, or takes too long.
     """
     where = {"folder": folder, "seconds": SECONDS, "GIT_NO_REPLACE_OBJECTS": "1"}
+    where["largest"] = (
+        MOST_FILES * 400
+    )  # git's line on a file with a name of 300 letters
     if run("rev-parse", "-q", "--verify", commit, **where).returncode:  # type: ignore
         return ""
     listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)  # type: ignore

@@ -9,7 +9,7 @@ import inspect
 import io
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -19,6 +19,7 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
+from labkit.check.second_look import old_names
 from labkit.handin.item import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
@@ -50,7 +51,7 @@ class Rehearsal(Lab):
         """Take what a `Lab` takes; the command line is not read."""
         self.log, self.script = False, Path(file)
         self.day, self.title = self.of, ""
-        self.failed, self.rows = [], []
+        self.failed, self.rows, self.predicted = [], [], {}
 
     of: Day
     numbers: dict[tuple[str, str], float]
@@ -58,6 +59,12 @@ class Rehearsal(Lab):
     def step(self, title: str) -> None:
         """Remember the heading."""
         self.title = title
+
+    @contextlib.contextmanager
+    def side_quest(self) -> Iterator[None]:
+        """Go on where what is optional fails, or is still to do."""
+        with contextlib.suppress(FirstFailure):
+            yield
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):
@@ -143,7 +150,8 @@ def behind_wall(
         lab: the complete one, whose functions have the same arguments.
         budget: of calls and seconds.
     """
-    session = sandbox.session(script, ROBOTS, library_of(day), limits=day.limits)
+    added = old_names(day, script.read_text("utf-8", "replace"))
+    session = sandbox.session(script, ROBOTS, library_of(day), added, limits=day.limits)
     return {
         name: _asked(session, task.id, getattr(lab, name), budget)
         for task in day.tasks

@@ -3,6 +3,7 @@
     make docs                                run the commands, rewrite outputs
     python3 scripts/build_docs.py            the same
     python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
+    make docs DAY=8                          that day's, and the tables that list it
 
 A document asks for an output between two comments:
 
@@ -23,17 +24,16 @@ import re
 import shlex
 import subprocess
 import sys
+from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
 from labkit.base import blocks, cli
-from labkit.lesson.day import days_of
+from labkit.lesson.day import Day, days_of, find_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-DOCUMENTS = [ROOT / "README.md", ROOT / "bench" / "README.md"]
-DOCUMENTS += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
 SMALL = "figures/small/day{}.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
@@ -110,7 +110,9 @@ def days_list(wanted: str, folder: Path) -> str:
     """
     row, lines, soon = [], [], []
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
+        unwritten = {one.number: one.title for one in week.soon}
         for day in days_of(week):
+            unwritten.pop(day.number, None)
             paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
             guide, small = (
                 os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
@@ -118,17 +120,20 @@ def days_list(wanted: str, folder: Path) -> str:
             if paths[1].is_file():
                 row.append(f"[![Day {day.number}]({small})]({guide})")
             lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
-        soon += [f"Day {one.number}, {one.title}" for one in week.soon]
+        soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
     lines += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
     return "\n".join([*row, "", *lines] if row else lines) + "\n"
 
 
-def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
+def rebuilt(
+    document: str, folder: Path = ROOT, *, tables: bool = False
+) -> tuple[str, list[str]]:
     """Return the document with fresh outputs, and the requests that had drifted.
 
     Args:
         document: its text.
         folder: where it is, for the links in it.
+        tables: run nothing, renew the tables of days alone.
     """
     drifted = []
 
@@ -145,22 +150,54 @@ def rebuilt(document: str, folder: Path = ROOT) -> tuple[str, list[str]]:
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))
 
-    return blocks.refill(document, {"run": run, "days": days}), drifted
+    makers: dict[str, blocks.Maker] = {"days": days}
+    return blocks.refill(document, makers if tables else makers | {"run": run}), drifted
+
+
+def documents_of(day: Day) -> dict[Path, bool]:
+    """Return a day's documents and those that list it, and whether in a table alone."""
+    own = [
+        day.folder / name for name in (day.guide, day.worksheet, "README.md") if name
+    ]
+    found = {path: False for path in own if path.is_file()}
+    return found | {ROOT / "README.md": True}
+
+
+def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
+    """Rebuild or check documents; return how many outputs were not as they are today.
+
+    Args:
+        documents: and whether their tables alone.
+        check: write nothing.
+
+    Raises:
+        Robo47Error: a command that a document asks for fails.
+    """
+    drift = 0
+    for path, tables in documents.items():
+        text = path.read_text("utf-8")
+        text, drifted = rebuilt(text, path.parent, tables=tables)
+        for request in drifted:
+            print(f"{shown(path)}: {'drifted' if check else 'new'}: {request}")
+        drift += len(drifted)
+        if drifted and not check:
+            path.write_text(text, "utf-8", newline="\n")  # on every platform
+    return drift
 
 
 def main() -> int:
-    """Rebuild or check every document."""
+    """Rebuild or check every document, or a day's."""
     parser = cli.parser(__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
+    parser.add_argument("--day", type=cli.day, metavar="N", help="its documents alone")
     options = parser.parse_args()
-    drift = 0
-    for path in DOCUMENTS:
-        text, drifted = rebuilt(path.read_text("utf-8"), path.parent)
-        for request in drifted:
-            print(f"{shown(path)}: {'drifted' if options.check else 'new'}: {request}")
-        drift += len(drifted)
-        if drifted and not options.check:
-            path.write_text(text, "utf-8", newline="\n")  # on every platform
+    if options.day is not None:
+        documents = documents_of(find_day(options.day))
+    else:
+        paths = [ROOT / "README.md", ROOT / "bench" / "README.md"]
+        paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
+        documents = dict.fromkeys(paths, False)
+    drift = renew(documents, options.check)
     state = "drifted" if options.check else "renewed"
-    print(f"{len(DOCUMENTS)} documents, {drift} outputs {state}")
+    print(f"{len(documents)} documents, {drift} outputs {state}")
     return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK

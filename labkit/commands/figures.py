@@ -118,7 +118,9 @@ def save(picture: Any, path: Path, about: Any = None) -> str:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        picture.save(part, "PNG", optimize=True, pnginfo=about)
+        # 256 colours look the same; MAXCOVERAGE (1) keeps those of thin lines, too.
+        small = picture.quantize(256, 1, dither=0)
+        small.save(part, "PNG", optimize=True, pnginfo=about)
         part.replace(path)
     except OSError as error:
         raise Robo47Error(

@@ -6,6 +6,7 @@
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
+    python3 scripts/grade_class.py CLONES --format canvas      or moodle
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
@@ -38,6 +39,8 @@ from labkit.grade.classroom import Classroom, write_all
 from labkit.grade.journal import Journal
 from labkit.grade.overview import Course
 from labkit.grade.package import version
+from labkit.grade.platforms import PLATFORMS, known
+from labkit.grade.platforms import as_csv as platforms_csv
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import write
 from labkit.grade.week import STATES, Week, as_csv
@@ -103,6 +106,18 @@ def parse() -> argparse.Namespace:
     )
     add("--kit", metavar="TAG", help="grade with the kit as it was at a tag or commit")
     add("--frozen", action="store_true", help="another version's results stay")
+    add(
+        "--format",
+        choices=("csv", *PLATFORMS),
+        default="csv",
+        help="write a table, canvas.csv, for a learning platform's import, too",
+    )
+    add(
+        "--assignment",
+        default="Day {day}",
+        metavar="NAME",
+        help="what the platform calls it; default: Day {day}",
+    )
     add("--anonymous", action="store_true", help="write a table without names, too")
     add(
         "--i-know-them",
@@ -201,6 +216,9 @@ def main() -> int:
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"
     week = Week(find_students(options.root, options.roster))
+    platform = PLATFORMS.get(options.format)
+    if platform:
+        known(platform, week.students)
     admit(options)
     tally = Tally()
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
@@ -211,6 +229,10 @@ def main() -> int:
     if several:
         write(out, as_csv(week))
         write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+    if platform:
+        own = out.with_name(f"{options.format}.csv")
+        write(own, platforms_csv(platform, week, options.assignment))
+        print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
     if options.proof:
         prove(week, out.parent / "proof", options.processes)
     tell(tally, week, out)
@@ -236,7 +258,7 @@ def kit_at(tag: str) -> Path:
     """
     found = git.run("rev-parse", "-q", "--verify", f"{tag}^{{commit}}", **OF_KIT)
     commit = found.stdout.strip()
-    folder = store.path_of(f"kits/{commit[:12]}")
+    folder = store.path_of("kits") / commit[:12]
     if found.returncode or not commit:
         raise Robo47Error(f"the kit has no tag {tag}; those it has: git tag")
     if not (folder / ".git").exists():

@@ -11,6 +11,7 @@ remembered in .robo47/, which git ignores.
 
 from labkit.base import cli, store
 from labkit.lesson.day import Day, Task, chosen_day
+from labkit.lesson.sealed import is_sealed
 from labkit.lesson.starter import read_script, solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -39,7 +40,8 @@ def show_deliverable(day: Day, name: str) -> int:
     from labkit.handin import check_deliverables
 
     left, _ = check(day, None)
-    found = check_deliverables(day, tasks_pass=not left)
+    required = [task for task in left if not task.optional]
+    found = check_deliverables(day, tasks_pass=not required)
     items = {item.name: item for item in found}
     if name not in items:
         raise Robo47Error(
@@ -68,6 +70,9 @@ def show_hint(task: Task, again: bool) -> None:
 def show_solution(day: Day, task: Task) -> None:
     """Print the kit's own lines, to compare with the student's."""
     print(f"{task.id}  {task.title}")
+    if is_sealed(day.source.read_text("utf-8")):
+        print("Yours passes. This edition does not show the kit's own.")
+        return
     print("Yours passes. The kit's, to compare:\n")
     print(solution(read_script(day.source), shown(day.source), task.id))
 
@@ -96,5 +101,6 @@ def main() -> int:
         show_solution(day, wanted)
     else:
         print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
-        print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
+        if not is_sealed(day.source.read_text("utf-8")):
+            print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
     return cli.EXIT_OK

@@ -3,6 +3,7 @@
     make notebook DAY=1                              write it
     python3 scripts/make_notebook.py --day 1         the same
     python3 scripts/make_notebook.py --check         only say if it is old
+    make notebook DAY=1 ARGS=--starter               without answers, in work/
 
 The script is the only source: its functions and the steps of its main() become
 cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
@@ -17,6 +18,8 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -52,8 +55,12 @@ sys.argv = ["SCRIPT"]  # add "--no-log" to leave metrics/metrics.csv alone
 """
 
 
-def build(day: Day) -> str:
+def build(day: Day, starter: bool = False) -> str:
     """Return a day's notebook as the text of its file.
+
+    Args:
+        day: from its manifest.
+        starter: with the gaps of the starter in place of the answers.
 
     Raises:
         Robo47Error: jupytext is not installed.
@@ -64,9 +71,11 @@ def build(day: Day) -> str:
         raise Robo47Error(
             "jupytext is not installed; run make notebook, which brings it"
         ) from None
-    source = day.source.read_text("utf-8")
+    source = read_script(day.source)
+    if starter or is_sealed(day.source.read_text("utf-8")):  # an edition has no answers
+        source = make_starter(source, day.script, day.number)
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
-    cells = [*head(day, tree), *library(tree, lines), *lab(day, tree, lines)]
+    cells = [*head(day, tree, starter), *library(tree, lines), *lab(day, tree, lines)]
     notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")
     notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
     for i, cell in enumerate(notebook.cells):
@@ -117,7 +126,7 @@ def drawing(words: str, lines: str) -> list[str]:
     return [*cells, code(lines, ' tags=["raises-exception"]')] if lines else cells
 
 
-def head(day: Day, tree: ast.Module) -> list[str]:
+def head(day: Day, tree: ast.Module, starter: bool = False) -> list[str]:
     """Return the title and the set-up."""
     title, *about = (ast.get_docstring(tree) or "").split("\n\n")
     prose = [part for part in about if not part.startswith(" ")]  # not the commands
@@ -125,6 +134,12 @@ def head(day: Day, tree: ast.Module) -> list[str]:
         f"Made from `{shown(day.source)}` by `make notebook`: change it there. "
         "Run the cells from top to bottom."
     )
+    if starter:
+        made = (
+            "Fill in one function after the other; what it needs to do stands in its "
+            "docstring. A cell that raises NotImplementedError is still to write. The "
+            f"answers to hand in go into `{shown(day.work)}`, which `make check` reads."
+        )
     setup = SETUP.replace("WEEK", day.folder.name)
     setup = setup.replace("SCRIPT", Path(day.script).stem)
     return [text("\n\n".join([f"# {title}", *prose, made])), code(setup)]
@@ -215,13 +230,29 @@ def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
     return str(eval(compile(ast.Expression(heading), script, "eval"), names))
 
 
+def write_starter(day: Day) -> int:
+    """Write a notebook with gaps beside the student's file; overwrite nothing."""
+    path = day.work.with_suffix(".ipynb")
+    if path.exists():
+        raise Robo47Error(f"{shown(path)} is there already and stays as it is")
+    fresh = build(day, starter=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(fresh, "utf-8", newline="\n")
+    print(f"{shown(path)} written; the answers are yours to find")
+    return cli.EXIT_OK
+
+
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
     parser.add_argument("--day", type=cli.day, help="default: the last begun")
-    parser.add_argument("--check", action="store_true", help="write nothing")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--check", action="store_true", help="write nothing")
+    how.add_argument("--starter", action="store_true", help="without answers, in work/")
     options = parser.parse_args()
     day = chosen_day(options.day)
+    if options.starter:
+        return write_starter(day)
     path, fresh = notebook_of(day), build(day)
     if path.exists() and fresh == path.read_text("utf-8"):
         print(f"{shown(path)} is up to date")

@@ -27,7 +27,7 @@ from labkit.base import cli, store
 from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
 from robo47.panda import files
-from robo47.paths import menagerie_root, shown
+from robo47.paths import ROOT, menagerie_root, shown
 
 ASKED = "robot-asked"  # remembers the day on which no source answered
 SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
@@ -65,6 +65,7 @@ def fetch(root: Path) -> dict[str, Any]:
             # The robot first: a record without a robot would be a lie.
             os.replace(staging / files.PANDA, root / files.PANDA)
             os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
+            add_licence(root)
             return record
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
@@ -78,7 +79,15 @@ def adopt(root: Path) -> dict[str, Any]:
     found = files.describe_copy(root)
     if os.environ.get("MENAGERIE_ROOT"):  # somebody else's folder: leave no file in it
         return found
+    add_licence(root)
     return write_record(root, found)
+
+
+def add_licence(root: Path) -> None:
+    """Put the robot's licence beside it: a copy that is handed on has to bring it."""
+    own, text = root / "LICENSE", ROOT / "LICENSE"  # both are Apache 2.0
+    if text.is_file() and not own.exists():
+        shutil.copyfile(text, own)
 
 
 def check_complete(folder: Path) -> None:

@@ -16,11 +16,13 @@ import functools
 import importlib.util
 from pathlib import Path
 
+import mujoco
 import numpy as np
 
 from labkit.base import cli
+from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
-from labkit.inspector import native_viewer
+from labkit.judge.ask import model_of
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
 from robo47.checks import Array
@@ -32,8 +34,8 @@ DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
-    """Serve the inspector until Ctrl-C."""
+def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int:
+    """Serve the inspector until Ctrl-C; without a start where it was left."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
@@ -42,18 +44,28 @@ def web(day: Day, entry: str, start: str, port: int, simple: bool) -> int:
     from labkit.inspector.arm import Arm
     from labkit.inspector.serve import Show, serve
 
-    print(panda.describe(entry), flush=True)
+    scene = day.folder / entry if entry.endswith(".xml") else None
+    print(f"robot: {shown(scene)}" if scene else panda.describe(entry), flush=True)
     about = ""
-    if files.panda_folder() is None:
+    if files.panda_folder() is None and not scene:
         about = (
             "The robot's meshes are not here: simple shapes are drawn, with the same "
             "frames (python3 scripts/fetch_menagerie.py fetches them)"
         )
         print(about)
-    arm = Arm(panda.load(entry), panda.END_FRAME[entry])
-    arm.move(arm.named_q[start])
+    model = model_of(scene or entry)
+    arm = Arm(model, end_of(model) if scene else panda.END_FRAME[entry])
+    arm.move(arm.named_q.get(start or CONFIGURATIONS[0], arm.named_q["home"]))
     dressed = functools.partial(panda.load, entry, meshes=True)
-    return serve(Show(day, arm, about, dressed, simple), port)
+    dressed = functools.partial(model_of, scene) if scene else dressed
+    return serve(Show(day, arm, about, dressed, simple, start is None), port)
+
+
+def end_of(model: mujoco.MjModel) -> str:
+    """Return the frame where a robot ends: its last site, else its last body."""
+    if model.nsite:
+        return f"site:{model.site(model.nsite - 1).name}"
+    return f"body:{model.body(model.nbody - 1).name}"
 
 
 def native() -> int:
@@ -96,7 +108,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     if path.exists():
         raise Robo47Error(f"{shown(path)} is there already; name another file")
     try:
-        from labkit.inspector.film import film
+        from labkit.commands.film import film
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "
@@ -139,11 +151,11 @@ def parse() -> argparse.Namespace:
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
-    add("--file", type=Path, help="with --clip: whose code, in place of your own")
+    add("--file", type=Path, help="with --clip: whose code, instead of your own")
     add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
     add("--port", type=port, default=8080, help="8080; 0 for any")
-    says = "ready (the labs' home_q), home (the model's own key) or zero"
-    add("--start", choices=CONFIGURATIONS, default="ready", help=says)
+    says = "ready (the labs' home_q), home (the model's own key) or zero; else where"
+    add("--start", choices=CONFIGURATIONS, help=f"{says} you left it")
     says = "which model, for --web; panda has the hand"
     add("--entry", choices=("panda_nohand", "panda"), help=says)
     return parser.parse_args()
@@ -175,11 +187,11 @@ def main() -> int:
     if options.screenshot:
         if options.entry:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
-        return screenshot(picture_of(options), options.start)
+        return screenshot(picture_of(options), options.start or CONFIGURATIONS[0])
     if options.native:
         return native()
     day = chosen_day(options.day)
     if options.clip:
         return clip(options.clip, day, options.file)
-    entry = options.entry or "panda_nohand"
+    entry = options.entry or day.week.robot
     return web(day, entry, options.start, options.port, options.simple)

@@ -25,7 +25,6 @@ BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 PURPLE, SKY = "#CC79A7", "#56B4E9"
 INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
 WIDTH, DPI = 8.0, 150  # inches; 1200 pixels
-COLOURS = 64  # of a picture: enough for smooth edges, and half the file
 FONT, SMALL = 16.0, 13.5  # points: of nearly all text, and the smallest
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -69,7 +68,7 @@ def picture(
                 figure = Figure(figsize=(width, height), dpi=DPI)
                 draw(figure, *args, **more)
                 figure.savefig(file, format="png")
-            return Image.open(file).convert("RGB").quantize(COLOURS).convert("RGB")
+            return Image.open(file).convert("RGB")
 
         return drawn
 

@@ -76,7 +76,7 @@ def arm_clip(
             if link in LINKS
         )
         scene = Scene(full, SIZE, seen_from, ghosts, fast=True)
-        pictures.append(_captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
+        pictures.append(captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
     return pictures
 
 
@@ -128,8 +128,9 @@ def kind_of(path: Path) -> str:
 def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
     """Return a clip's bytes, `each` milliseconds a frame."""
     buffer = io.BytesIO()
-    if kind == "gif":  # one palette, no dither: what stands still costs nothing
-        sheet = frames[len(frames) // 2].quantize(96)
+    if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
+        # small cube keeps its colour
+        sheet = frames[len(frames) // 2].quantize(96, Image.Quantize.MAXCOVERAGE)
         none = Image.Dither.NONE
         frames = [frame.quantize(palette=sheet, dither=none) for frame in frames]
     first, *rest = frames
@@ -140,8 +141,13 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
     return buffer.getvalue()
 
 
-def _captioned(picture: Image.Image, caption: Caption) -> Image.Image:
-    """Return a picture with words below it."""
+def captioned(picture: Image.Image, caption: Caption) -> Image.Image:
+    """Return a picture with words below it.
+
+    Args:
+        picture: of any size.
+        caption: its words, see `Caption`; the picture stays as it is without.
+    """
     words, good = caption
     if not words:
         return picture

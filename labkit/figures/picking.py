@@ -8,7 +8,7 @@ from PIL import Image
 from tqdm import tqdm
 
 from labkit.figures import client
-from labkit.figures.clip import kind_of, save_clip
+from labkit.figures.clip import Caption, captioned, kind_of, save_clip
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import scenes, se3
 from robo47.capstone.phases import Result
@@ -44,10 +44,8 @@ def clip(result: Result, path: Path) -> str:
     kind_of(path)
     rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
     frames = [
-        _drawn(qpos, CLIP_SIZE, fast=True)
-        for qpos in tqdm(
-            result.qpos[rows], "drawing", delay=1, leave=False, disable=None
-        )
+        captioned(_drawn(result.qpos[row], CLIP_SIZE, fast=True), phase(result, row))
+        for row in tqdm(rows, "drawing", delay=1, leave=False, disable=None)
     ]
     size = save_clip(frames, path, seconds=result.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
@@ -72,6 +70,13 @@ def picture(result: Result, path: Path) -> str:
     except (OSError, ValueError) as error:
         raise Robo47Error(f"cannot write {shown(path.absolute())}: {error}") from None
     return f"{shown(path.absolute())}  {sheet.width} x {sheet.height}"
+
+
+def phase(result: Result, row: int) -> Caption:
+    """Return what the arm does at an instant, and when that is."""
+    t = float(result.t[row])
+    name = [name for name, begins in result.phases if begins <= t][-1]
+    return f"{name}, {t:.1f} s", None
 
 
 def moments(result: Result) -> list[Array]:

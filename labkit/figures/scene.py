@@ -115,12 +115,14 @@ class Scene:
     """One picture to draw.
 
     Attributes:
-        qpos: configuration of the Panda with its hand, (9,), radians and metres.
+        qpos: configuration of the Panda with its hand, (9,), radians and metres; or
+            of `robot`, (nq,).
         size: width and height, pixels.
         camera: where it is seen from.
         ghosts: translucent copies.
         fast: leave out multisampling, shadows and reflections.
         boxes: what else is there.
+        robot: the path of an MJCF file, in place of the Panda.
     """
 
     qpos: Array
@@ -129,3 +131,4 @@ class Scene:
     ghosts: tuple[Ghost, ...] = ()
     fast: bool = False
     boxes: tuple[Box, ...] = ()
+    robot: str = ""

@@ -67,14 +67,20 @@ def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
 
 
 @lru_cache(maxsize=2)
-def renderer_for(size: tuple[int, int], fast: bool) -> mujoco.Renderer:
+def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.Renderer:
     """Return a renderer, kept for the next picture of the same kind.
 
     Args:
         size: width and height, pixels.
         fast: without multisampling.
+        robot: as in a `Scene`.
     """
-    model = panda.load("panda", meshes=True, edit=light_up)
+    if robot:
+        spec = mujoco.MjSpec.from_file(robot)
+        light_up(spec)
+        model = spec.compile()
+    else:
+        model = panda.load("panda", meshes=True, edit=light_up)
     model.vis.global_.offwidth, model.vis.global_.offheight = size
     model.vis.global_.fovy = np.degrees(FOVY)
     model.vis.quality.offsamples = 0 if fast else 8
@@ -88,7 +94,7 @@ def draw(scene: Scene) -> Array:
     Args:
         scene: what to draw.
     """
-    renderer = renderer_for(scene.size, scene.fast)
+    renderer = renderer_for(scene.size, scene.fast, scene.robot)
     model = renderer.model
     data = mujoco.MjData(model)
     data.qpos[:] = scene.qpos

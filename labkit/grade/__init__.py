@@ -19,6 +19,7 @@ Wherever grading happens, here or on a worker:
 What comes out:
 
     sheet       the table, one row per student, and a file for each of them
+    platforms   the table as Canvas and Moodle import it
     overview    what the class stumbles over, and who is stuck
     page, people, charts   the same as one HTML page
 

@@ -87,6 +87,7 @@ def grade(package: Package, day: Day) -> Result:
         return ungraded(day, package.problem)
     with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
         tasks, lab, error = _tasks(package, day, Path(folder).resolve())
+    day = day.named_as(lambda name: name in package.handin.files)
     items = check_files(day, package.handin, tasks_pass=_done(tasks, day))
     if lab:  # its numbers cannot be right: every class has the same columns
         failed = replace(lab[0], name="metrics")
@@ -103,7 +104,9 @@ def _tasks(
     package: Package, day: Day, folder: Path
 ) -> tuple[list[TaskResult], list[Item], str]:
     """Return the tasks' results, the lab's, and why there is nothing to run or ""."""
-    name, handin = day.files["script"], package.handin
+    handin = package.handin
+    day = day.named_as(lambda name: name in handin.files)
+    name = day.files["script"]
     if name not in handin.files:
         if name in handin.unread:
             says = f"{name} {handin.unread[name]}."

@@ -36,7 +36,7 @@ def read_in_time(
     Raises:
         OSError, GitError: this machine failed.
     """
-    handin = read_handin(day, clone)
+    handin = read_handin(_as_there(day, clone), clone)
     history = read_history(clone, wanted_names(day, handin))
     is_late = history.committed is None or history.committed > (deadline or 0)
     if deadline is None or not history.commit or not is_late:
@@ -46,8 +46,12 @@ def read_in_time(
         return handin, history, late
     with tempfile.TemporaryDirectory(prefix="robo47-commit-") as folder:
         _check_out(day, clone, commit, Path(folder))
-        handin = read_handin(day, Path(folder))
+        handin = read_handin(_as_there(day, Path(folder)), Path(folder))
     return handin, read_history(clone, wanted_names(day, handin), at=commit), late
+
+
+def _as_there(day: Day, root: Path) -> Day:
+    return day.named_as(lambda name: (root / name).is_file())
 
 
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:

@@ -24,6 +24,7 @@ _DECIDES = (
     "w*/week.toml",
     "w*/day*/**/*.toml",
     "w*/day*/**/*.py",
+    "w*/day*/**/*.xml",
     "w*/src/*.py",
 )
 
@@ -103,6 +104,7 @@ def collect(
     if problem:
         return replace(package, problem=problem)
     handin, history, late = read_in_time(day, student.path, deadline)
+    day = day.named_as(lambda name: name in handin.files)
     return replace(
         package,
         handin=handin,

@@ -9,8 +9,8 @@ import os
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -35,6 +35,7 @@ class Student:
         url: where to clone it from; "" where the roster does not say.
         problem: why the folder cannot be used; "" where it can.
         id: what a learning platform knows the student by; "" where the roster has none.
+        cells: all that the roster says, by column, in small letters.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Student:
     url: str = ""
     problem: str = ""
     id: str = ""
+    cells: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
 
 
 def find_students(root: Path, roster: Path | None = None) -> list[Student]:
@@ -164,5 +166,8 @@ def _read_roster(path: Path, root: Path) -> list[Student]:
             next((cells[name] for name in names if cells.get(name)), "")
             for names in (_URL, _ID)
         )
-        students[folder] = _student(cells.get("name", ""), folder, root, url, id)
+        student = _student(
+            cells.get("name") or cells.get("student", ""), folder, root, url, id
+        )
+        students[folder] = replace(student, cells=cells)
     return list(students.values())

@@ -39,12 +39,13 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
                                 they compare with the library's of the same names
     job(work, done)             work that waits for them, on another thread
     animate(step, hz, work)     a loop in real time: start(), stop(), `running`
-    draw                        arrow(s), lines, curve, sphere, ellipsoid, frame, label,
+    draw                        arrows, lines, curve, sphere, ellipsoid, frame, label,
                                 ghost (a second arm), robot (a scene of MuJoCo's),
                                 target (a pose to drag)
     slider, buttons, choice, tick    viser's own, each with a callback
     html, say, matrix, legend   text, a line, a pose, what the colours mean
     bars, plot                  numbers per joint against limits; curves over time
+    image                       what a camera sees, in colours or in depths
     light(chosen, shown)        which frames are drawn, and which one stands out
     hide_arm()                  no arm but the tab's own
     gui, scene                  viser's own, for what is missing here

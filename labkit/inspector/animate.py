@@ -31,6 +31,7 @@ class Animation:
         self.step, self.period, self.changed = step, 1.0 / hz, changed
         self.work = work
         self.task: asyncio.Task[None] | None = None
+        self.slow = 1.0  # how many times slower than real time it runs
 
     @property
     def running(self) -> bool:
@@ -52,12 +53,14 @@ class Animation:
 
     async def _run(self) -> None:
         start, calls, stopped = time.perf_counter(), 0, None
+        began = start
         try:
             while await self._once(calls * self.period) is not False:
                 calls += 1
                 ahead = start + calls * self.period - time.perf_counter()
                 if ahead < -LATE:  # the machine is too slow: slow motion, no jump
                     start -= ahead
+                self.slow = (time.perf_counter() - began) / (calls * self.period)
                 await asyncio.sleep(max(ahead, 0.001))
         except Exception as error:
             stopped = error

@@ -17,6 +17,7 @@ from robo47.kinematics import Chain, Joint, Link, chain_to, fk, fk_all, frame_na
 from robo47.verify import mujoco_poses, random_q
 
 AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
+SOFT = 0.005  # radians by which the simulator's limits give way
 END = "ee"  # what the end effector's frame is called in T_world_ee
 
 
@@ -48,20 +49,23 @@ class Arm:
     """One arm in one configuration, with every frame's pose from both judges."""
 
     def __init__(self, model: mujoco.MjModel, end_frame: str) -> None:
-        """Start at the handout's `home_q`.
+        """Start at the handout's `home_q`; another robot at its first key.
 
         Args:
-            model: a Panda, see `robo47.panda.load`.
+            model: a Panda, see `robo47.panda.load`, or any chain of hinges and slides.
             end_frame: full name of the frame that is called `ee`.
         """
         self.model = model
         self.chain = chain_to(model, end_frame)
         self.names = _short_names(model, self.chain)
-        home = panda.home_q(model)
-        ready = np.concatenate([panda.READY_Q, home[len(panda.READY_Q) :]])
-        self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
         self.joints = [model.joint(j).name for j in range(model.njnt)]
-        self.move(ready)
+        home = (model.key_qpos if model.nkey else [model.qpos0])[0].copy()
+        self.named_q = {"home": home, "zero": np.zeros(model.nq)}
+        count = len(panda.READY_Q)
+        if self.joints[:count] == list(panda.ARM_JOINTS):
+            ready = np.concatenate([panda.READY_Q, home[count:]])
+            self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
+        self.move(self.named_q.get("ready", home))
 
     def move(self, q: ArrayLike) -> None:
         """Take a configuration and compute every frame twice.
@@ -135,7 +139,7 @@ class Arm:
             f"{joint} = {q:.4f} is outside [{low:.4f}, {high:.4f}]"
             for joint, q in zip(self.joints, self.q, strict=True)
             for low, high in [self.limits(joint)]
-            if not low <= q <= high
+            if not low - SOFT <= q <= high + SOFT
         ]
 
     def steps(self) -> list[Step]:

@@ -76,8 +76,9 @@ class Chain(Tab):
             says += words.verdict(self.page.arm.difference(this.link, this.after))
         self.product.content = says
         for joint, slider in self.sliders.items():
-            slider.handle.visible = joint == this.joint
-            slider.set(float(q[self.page.model.joint(joint).qposadr[0]]))
+            slider.visible = joint == this.joint
+            value = float(q[self.page.model.joint(joint).qposadr[0]])
+            slider.value = value  # type: ignore[misc]
         done = steps[: self.at + 1]
         self.page.light(this.link, {step.link for step in done})
-        self.page.trace(np.array([step.after[:3, 3] for step in done]))
+        self.page.host.scene.trace(np.array([step.after[:3, 3] for step in done]))

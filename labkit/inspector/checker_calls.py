@@ -7,13 +7,12 @@ from pathlib import Path
 import mujoco
 
 from labkit.base.exchange import Reply
-from labkit.check.tasks import check_tasks
-from labkit.inspector.checks import TaskState
-from labkit.inspector.student import Asker, Source
+from labkit.check.tasks import TaskResult, check_tasks
+from labkit.inspector.student import Source
 from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.library import library_of
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, Session
 
 
 def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
@@ -25,7 +24,7 @@ def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
         sandbox: kept open as long as the page.
     """
 
-    def opened(script: Path) -> Asker:
+    def opened(script: Path) -> Session:
         return sandbox.session(script, [model], library_of(day), limits=day.limits)
 
     tasks = {name: task.id for task in day.tasks for name in task.functions}
@@ -47,21 +46,11 @@ def describe(tasks: Mapping[str, str], function: str, reply: Reply) -> str:
     return says if function in says else f"{function}: {says}"
 
 
-def verdicts(day: Day) -> Sequence[TaskState]:
+def verdicts(day: Day) -> Sequence[TaskResult]:
     """Return how the student's tasks stand, as `make check` says it.
 
     Args:
         day: from its manifest.
     """
     with Sandbox() as sandbox:
-        results = check_tasks(day, day.work, sandbox)
-    return [
-        TaskState(
-            result.task.id,
-            result.task.title,
-            result.verdict.status,
-            result.verdict.message,
-            result.verdict.mistake,
-        )
-        for result in results
-    ]
+        return check_tasks(day, day.work, sandbox)

@@ -4,18 +4,10 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from labkit.check.tasks import TaskResult
+from labkit.judge.mistake import Verdict
+
 LEAVE_SECONDS = 5.0  # a check takes one or two
-
-
-@dataclass(frozen=True)
-class TaskState:
-    """How one task stands, as the checker says it."""
-
-    id: str
-    title: str
-    status: str
-    message: str
-    mistake: str = ""
 
 
 @dataclass(frozen=True)
@@ -30,29 +22,31 @@ class Standing:
 
     headline: str
     kind: str = "quiet"
-    tasks: tuple[TaskState, ...] = ()
+    tasks: tuple[TaskResult, ...] = ()
 
 
-def standing(tasks: Sequence[TaskState]) -> Standing:
+def standing(results: Sequence[TaskResult]) -> Standing:
     """Return the tasks with one line about all of them.
 
     Args:
-        tasks: in the day's order.
+        results: the checker's, in the day's order.
     """
-    if tasks and tasks[0].mistake == "does-not-load":  # one reason, for all of them
-        says = f"make check: {tasks[0].message}"
-        return Standing(says, "bad", tuple(replace(t, message="") for t in tasks))
-    passed = sum(task.status == "passed" for task in tasks)
-    says = f"make check: {passed} of {len(tasks)} tasks pass"
-    if passed == len(tasks):
-        return Standing(f"✓ {says}", "good", tuple(tasks))
-    wrong = [t for t in tasks if t.status not in ("passed", "todo")]
+    first = results[0].verdict if results else Verdict("passed")
+    if first.mistake == "does-not-load":  # one reason, for all of them
+        todo = Verdict(first.status)
+        bare = tuple(replace(result, verdict=todo) for result in results)
+        return Standing(f"make check: {first.message}", "bad", bare)
+    passed = sum(result.passed for result in results)
+    says = f"make check: {passed} of {len(results)} tasks pass"
+    if passed == len(results):
+        return Standing(f"✓ {says}", "good", tuple(results))
+    wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
     if not wrong:
-        first = next(t for t in tasks if t.status != "passed")
-        return Standing(
-            f"{says}; next is {first.id} {first.title}", "quiet", tuple(tasks)
-        )
-    return Standing(f"✗ {says}. {wrong[0].id}: {wrong[0].message}", "bad", tuple(tasks))
+        after = next(r.task for r in results if not r.passed)
+        says = f"{says}; next is {after.id} {after.title}"
+        return Standing(says, "quiet", tuple(results))
+    why = f"{wrong[0].task.id}: {wrong[0].verdict.message}"
+    return Standing(f"✗ {says}. {why}", "bad", tuple(results))
 
 
 class Checks:
@@ -60,7 +54,7 @@ class Checks:
 
     def __init__(
         self,
-        check: Callable[[], Sequence[TaskState]],
+        check: Callable[[], Sequence[TaskResult]],
         deliver: Callable[[Standing], None],
     ) -> None:
         """Take the checker and who is told; no thread runs yet.

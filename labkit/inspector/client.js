@@ -17,6 +17,7 @@
     scheduled = false;
     const node = document.querySelector("[data-r47-state]");
     const state = node && JSON.parse(node.dataset.r47State);
+    if (state) document.getElementById("r47-first")?.remove();
     if (!state || waiting || state.heard < said) return;
     const now = Date.now();
     if (state.address !== location.search) {

@@ -13,23 +13,25 @@ HERE = Path(__file__).parent
 TITLE = "robo47 inspector"
 
 
-def with_client(page: bytes) -> bytes:
+def with_client(page: bytes, first: str) -> bytes:
     """Return viser's page with our style and script at its head.
 
     Args:
         page: viser's `index.html`.
+        first: HTML that stands there until viser has drawn something: seconds later.
 
     Raises:
-        Robo47Error: it has no head where it is expected.
+        Robo47Error: it has no head or body where it is expected.
     """
-    head = b"<head>"
-    if page.count(head) != 1:
+    head, body = b"<head>", b"<body>"
+    if page.count(head) != 1 or page.count(body) != 1:
         raise Robo47Error(
             "viser's page is not as expected. Install the pinned one: "
             "python3 scripts/setup_env.py view"
         )
     titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
-    return titled.replace(head, head + _ours())
+    there = f'<div id="r47-first">{first}</div>'.encode()
+    return titled.replace(head, head + _ours()).replace(body, body + there)
 
 
 @cache

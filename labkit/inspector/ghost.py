@@ -49,13 +49,11 @@ class Seen:
         q: the configuration, (nq,).
         poses: {short name: T_world_frame (4, 4)}, as far as there are any.
         problem: why there are none, or fewer than asked for; "".
-        milliseconds: from question to answer.
     """
 
     q: Array
     poses: Mapping[str, Array] = field(default_factory=dict)
     problem: str = ""
-    milliseconds: float = 0.0
 
 
 @dataclass(frozen=True)

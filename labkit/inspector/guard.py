@@ -99,6 +99,7 @@ class Door:
         """Make a new secret."""
         self.secret = secrets.token_urlsafe(12)
         self.receive: Receive = lambda query: 0
+        self.first: Callable[[], str] = str  # what a page shows before viser does
 
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass.
@@ -140,7 +141,7 @@ class Door:
         response = viser_answers(
             connection, replace(request, path=path or "/", headers=plain)
         )
-        return response and _protected(response, page=not path)
+        return response and _protected(response, None if path else self.first())
 
 
 def foreign(headers: Headers) -> str | None:
@@ -160,9 +161,11 @@ def foreign(headers: Headers) -> str | None:
     return None
 
 
-def _protected(response: Response, page: bool) -> Response:
+def _protected(response: Response, first: str | None) -> Response:
     """Return viser's response with our headers, and its page with our client."""
-    body = with_client(bytes(response.body)) if page else response.body
+    body = bytes(response.body)
+    if first is not None:
+        body = with_client(body, first)
     headers = Headers(response.headers)
     for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
         with contextlib.suppress(KeyError):

@@ -11,7 +11,8 @@ from viser import uplot
 from robo47.checks import Array
 
 KEPT = 2_000  # points of a plot that is added to
-STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e")
+STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
+           "#1e2228")  # fmt: skip
 
 
 class Bars:
@@ -40,13 +41,17 @@ class Bars:
         made = "".join(self._row(*row) for row in rows)
         self.handle.content = f'<div class="r47-bars {self.kind}">{title}{made}</div>'
 
+    def clear(self) -> None:
+        """Show no numbers."""
+        self.show(np.full(len(self.labels), np.nan))
+
     def _at(self, value: float, full: float) -> float:
         """Return where a value is along its row, per cent."""
         part = float(np.clip(value / full, -1.0, 1.0)) if np.isfinite(value) else 0.0
         return 50.0 + 50.0 * part if self.kind == "both" else max(100.0 * part, 0.0)
 
     def _row(self, label: str, value: float, wanted: float, full: float) -> str:
-        over = self.kind != "scale" and not abs(value) <= full * (1 + 1e-6)
+        over = self.kind != "scale" and abs(value) > full * (1 + 1e-6)
         left, right = sorted((self._at(0.0, full), self._at(value, full)))
         red = ' class="over"' if over else ""
         bar = f'<u{red} style="left:{left:.1f}%;width:{right - left:.1f}%"></u>'
@@ -60,7 +65,7 @@ class Bars:
 def three(value: float, most: float) -> str:
     """Return a number as text, with three digits of the largest that it comes to."""
     places = max(0, 2 - int(np.floor(np.log10(most))))
-    return f"{round(value, places) + 0.0:.{places}f}" if np.isfinite(value) else "NaN"
+    return f"{round(value, places) + 0.0:.{places}f}" if np.isfinite(value) else "?"
 
 
 class Plot:

@@ -65,7 +65,7 @@ class Joints(Tab):
     def go_to(self, name: str) -> None:
         """Take the arm to a configuration with a name, or anywhere."""
         if name == UNDO:
-            self.page.undo()
+            self.page.host.undo()
         elif name == RANDOM:
             self.page.move(self.page.arm.random_q(secrets.randbits(32)))
         else:
@@ -74,7 +74,7 @@ class Joints(Tab):
     def on_move(self, q: Array) -> None:
         """Set every slider, and the box that says q with all its digits."""
         for slider, value in zip(self.sliders, q, strict=True):
-            slider.set(float(value))
+            slider.value = float(value)  # type: ignore[misc]
         if not self._says(q):  # nothing is taken from under somebody's hand
             text = ", ".join(f"{x:.10g}" for x in q)
             self.box.value = text  # type: ignore[misc]

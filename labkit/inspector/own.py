@@ -45,7 +45,7 @@ class Own:
         self._free = free
         self._student = student
         self._library = library if isinstance(library, Mapping) else vars(library)
-        self._version = 0
+        self.version = 0
         self._forget()
 
     def _forget(self) -> None:
@@ -72,14 +72,17 @@ class Own:
         student = self._student()
         there = student is not None and student.there
         version = student.version if student is not None and there else -1
-        if version != self._version:
-            self._version = version
+        if version != self.version:
+            self.version = version
             self._forget()
         if student is None or not there:
-            self._lent |= {name: "there is no file yet" for name, *_ in calls}
+            why = "there is no file yet" if student else "yours is being opened"
+            self._lent |= {name: why for name, *_ in calls}
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
         replies = student.ask(questions)
+        if student.problem:
+            raise NoAnswerError(f"YOUR {student.problem}")
         return [
             self._answer(student, name, reply, truth)
             for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
@@ -91,11 +94,11 @@ class Own:
             self._lent[name] = "yours is not written yet"
             return right
         if problem := student.source.describe(name, reply):
-            raise NoAnswerError(f"YOUR {name}: {problem.removeprefix(f'{name}: ')}")
+            raise NoAnswerError(f"YOUR {problem}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
-            got = " and ".join(str(np.shape(x)) for x in theirs) or "nothing"
-            raise NoAnswerError(f"YOUR {name} returned shape {got}")
+            got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
+            raise NoAnswerError(f"YOUR {name} returned {got}")
         if not all(np.isfinite(x).all() for x in theirs):
             raise NoAnswerError(f"YOUR {name} returned NaN, or a number without end")
         for mine, truth in zip(theirs, ours, strict=True):

@@ -4,6 +4,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 import mujoco
+import numpy as np
 from numpy.typing import ArrayLike
 
 from labkit.inspector import words
@@ -11,7 +12,10 @@ from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.own import NoAnswerError, Own
 from labkit.inspector.widgets import Widgets
+from robo47 import kinematics
 from robo47.checks import Array
+
+SLOW = 1.5  # times slower than real time, which is said
 
 if TYPE_CHECKING:
     from labkit.inspector.app import Inspector
@@ -47,6 +51,21 @@ class Page(Widgets):
         """Return MuJoCo's T_world_NAME, (4, 4); "ee" is the end effector."""
         return self.arm.pose(name)
 
+    def links(self, q: ArrayLike) -> dict[str, Array]:
+        """Return where every link is at a configuration, for a ghost's `pose`.
+
+        Args:
+            q: of the seven joints, (7,); fingers stay as they are.
+        """
+        whole = self.q
+        whole[: len(np.asarray(q))] = q
+        poses = kinematics.fk_all(self.model, whole)
+        return {
+            name.removeprefix("body:"): T
+            for name, T in poses.items()
+            if name.startswith("body:link")
+        }
+
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser.
 
@@ -54,10 +73,6 @@ class Page(Widgets):
             q: radians and metres, (nq,).
         """
         self.host.move(q)
-
-    def undo(self) -> None:
-        """Take the last move back; several times, one by one."""
-        self.host.undo()
 
     def light(
         self, chosen: str | None = None, shown: Collection[str] | None = None
@@ -73,10 +88,7 @@ class Page(Widgets):
     def hide_arm(self) -> None:
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
-
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through points, (n, 3)."""
-        self.host.scene.trace(origins)
+        self.host.panel.solid.visible = False
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the end of the panel what the colours in the scene mean.
@@ -122,6 +134,9 @@ class Page(Widgets):
         def told(seconds: float) -> bool | None:
             more = step(seconds)
             self._ended(None)
+            if made.slow > SLOW and seconds > 1.0:
+                says = f"slow motion: 1 s of it takes {made.slow:.1f} s here"
+                self.say(f"{says}; your functions are asked as fast as they answer")
             return more
 
         made = Animation(told if work else step, hz, self._ended, work)
@@ -132,6 +147,8 @@ class Page(Widgets):
         """Say what stopped a job or a loop, and how the student's functions compare."""
         if isinstance(error, NoAnswerError):
             self.show_whose(str(error), "bad")
+            if self.host.opened.tab is not None:
+                self.host.opened.guarded(self.host.opened.tab.lost)
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
         elif self._own is not None:

@@ -53,12 +53,17 @@ class Panel:
         for uuid, child in list(self._children().items()):
             if uuid not in self.fixed:
                 child.remove()
-        self.frame.visible = not wide
+        self.frame.visible, self.solid.visible = not wide, True
         self.tabs.content = words.tab_row(titles, chosen)
 
     def explain(self, colours: Mapping[str, tuple[int, int, int]]) -> None:
         """Say what the colours in the scene mean: {what is drawn: its colour}."""
         self.legend.content = words.legend(colours)
+
+    def first(self) -> str:
+        """Return what to show before viser does, as HTML."""
+        some = (self.yours, self.tasks, self.proof, self.limits)
+        return "".join(part.content for part in some)
 
     def show(
         self, seen: Seen | None, apart: Difference | None, standing: Standing

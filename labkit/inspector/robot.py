@@ -23,7 +23,7 @@ class Robot:
     """The bodies of a model."""
 
     def __init__(self, page: Page, model: mujoco.MjModel, dressed: Load) -> None:
-        """Draw it in place of the page's arm.
+        """Draw it instead of the page's arm.
 
         Args:
             page: of the tab.

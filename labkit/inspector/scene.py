@@ -4,6 +4,7 @@ The triads are there at once; the meshes come later, first the simple ones that 
 collides with, then those that one looks at. Metres.
 """
 
+import asyncio
 import contextlib
 from collections.abc import Collection, Mapping
 
@@ -19,7 +20,8 @@ from robo47.checks import Array
 
 FOV = 0.72  # vertical, radians
 # For a page that is higher than wide: from further away, the arm above the panel.
-PHONE: View = ((2.7, -2.3, 1.2), (0.2, 0.0, -0.1))
+PHONE: View = ((3.0, -2.6, 1.1), (0.2, 0.0, -0.35))
+CONNECTED = 0.3  # seconds until viser's own first camera has been set
 BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
@@ -44,12 +46,17 @@ class ArmScene:
         self.arm, self.server, self.hidden = arm, server, False
         self.view: View = PHONE
         set_stage(server)
-        server.on_client_connect(self._welcome)
+
+        @server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            await asyncio.sleep(CONNECTED)
+            self._welcome(client)
+
         self.triads = {
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
@@ -81,8 +88,9 @@ class ArmScene:
             triad.place(self.arm.by_library[self.arm.names[name]])
 
     def hide(self, hidden: bool = True) -> None:
-        """Draw no arm and no frames but the world's, or draw them again."""
+        """Draw no arm and no frames, or draw them again."""
         self.hidden = hidden
+        self.world.show(not hidden, chosen=False)
         if hidden:
             self.light(None, ())
         self.update()

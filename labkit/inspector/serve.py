@@ -20,7 +20,7 @@ from typing import TypeVar
 import mujoco
 import viser
 
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.inspector import checker_calls
 from labkit.inspector.app import Inspector, Meshes
 from labkit.inspector.arm import Arm
@@ -34,6 +34,7 @@ from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
+MEMORY = "view.json"  # where each day's page was
 PORTS_TRIED = 100
 WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
 T = TypeVar("T")
@@ -51,6 +52,7 @@ class Show:
         about: what to say of the robot on the page; "" for nothing.
         dressed: loads the same model with its meshes; takes seconds.
         simple: leave the fine meshes out, for a computer that draws without a GPU.
+        back: begin in the tab and the pose where the day's last page ended.
     """
 
     day: Day
@@ -58,6 +60,7 @@ class Show:
     about: str
     dressed: Callable[[], mujoco.MjModel]
     simple: bool = False
+    back: bool = True
 
 
 def serve(show: Show, port: int) -> int:
@@ -86,7 +89,11 @@ def serve(show: Show, port: int) -> int:
                 server,
                 lambda: Inspector(server, show.arm, show.about, tabs, show.simple),
             )
-            server.door.receive = page.receive
+            server.door.receive, server.door.first = page.receive, page.panel.first
+            before = store.read(MEMORY).get(str(show.day.number), "")
+            if show.back and isinstance(before, str):
+                on_loop(server, partial(page.receive, before))
+            ends.callback(on_loop, server, page.opened.leave)
             print("\n".join(where_to_look(port, server)), flush=True)
             ends.callback(watch(page, show, ends).close)
             dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
@@ -95,9 +102,17 @@ def serve(show: Show, port: int) -> int:
             ends.callback(dresser.join, PATIENCE)
             while True:
                 time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
+                remember(show.day, page.address)
         except KeyboardInterrupt:
             print("\ninspector stopped")
             return cli.EXIT_OK
+
+
+def remember(day: Day, address: str) -> None:
+    """Keep where a day's page is, for the next start."""
+    memory, key = store.read(MEMORY), str(day.number)
+    if memory.get(key) != address:
+        store.write(MEMORY, {**memory, key: address})
 
 
 def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:

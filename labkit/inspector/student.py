@@ -7,35 +7,21 @@ server's event loop. Nothing of the student's runs in this process.
 
 import contextlib
 import threading
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
+from labkit.sandbox.sandbox import Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
-
-
-class Asker(Protocol):
-    """A student's file, loaded: `sandbox.Session`, or a test's fake."""
-
-    @property
-    def alive(self) -> bool:
-        """Whether it still answers."""
-
-    def ask(self, questions: Sequence[Question], seconds: float) -> list[Reply]:
-        """Return one reply per question."""
-
-    def close(self) -> None:
-        """End it."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +36,7 @@ class Source:
     """
 
     script: Path
-    open: Callable[[Path], Asker]
+    open: Callable[[Path], Session]
     explain: Callable[[Path, Reply], str]
     describe: Callable[[str, Reply], str]
 
@@ -84,12 +70,12 @@ class Student(threading.Thread):
         self.ended = False
         self.version = 0  # of the file: another one after each save
         self._lock = threading.RLock()  # a session answers one thread at a time
-        self._asker: Asker | None = None
+        self._asker: Session | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
         self._problem = ""
 
     def want(self, q: Array) -> None:
-        """Ask for a configuration, in place of any that waits.
+        """Ask for a configuration, instead of any that waits.
 
         Args:
             q: (nq,).
@@ -103,15 +89,20 @@ class Student(threading.Thread):
         """Whether there is a file."""
         return bool(self._stamp)
 
+    @property
+    def problem(self) -> str:
+        """Why the file is not asked, in a sentence; "" where it is."""
+        return self._problem
+
     def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions, now, on the caller's thread; "stopped" where it is over.
+        """Ask any functions, now, on the caller's thread; see `problem` afterwards.
 
         Args:
             questions: what to call.
         """
         with self._lock:
             if self._asker is None:
-                ended = Reply(kind="stopped", error=self._problem or "no file")
+                ended = Reply(kind="stopped", error="it is not asked")
                 return [ended] * len(questions)
             try:
                 replies = self._asker.ask(questions, seconds=ASK_SECONDS)
@@ -119,7 +110,8 @@ class Student(threading.Thread):
                 says = f"{type(error).__name__}: {error}"
                 return [Reply(kind="unsendable", error=says)] * len(questions)
             if not self._asker.alive:
-                at = next(i for i, one in enumerate(replies) if one.kind == "stopped")
+                kinds = [reply.kind for reply in replies]
+                at = kinds.index("stopped") if "stopped" in kinds else -1
                 function = questions[at].function
                 self._give_up(self.source.describe(function, replies[at]))
             return replies
@@ -180,7 +172,6 @@ class Student(threading.Thread):
             return None
         if self._asker is None or self.ghost is None:
             return Seen(q, problem=self._problem)
-        start = time.perf_counter()
         with self._lock:
             asker = self._asker
             try:
@@ -190,7 +181,7 @@ class Student(threading.Thread):
             poses, problem = found
             if not asker.alive:
                 problem = self._give_up(problem)
-        return Seen(q, poses, problem, 1000 * (time.perf_counter() - start))
+        return Seen(q, poses, problem)
 
     def _give_up(self, why: str) -> str:
         """Ask nothing more before the file is saved; return what to say meanwhile."""
@@ -200,7 +191,7 @@ class Student(threading.Thread):
 
 
 def poses_of(
-    asker: Asker, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
+    asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
     """Return the poses that a student's function gives, and the first problem or "".
 

@@ -47,6 +47,9 @@ class Tab:
             q: radians and metres, (nq,).
         """
 
+    def lost(self) -> None:
+        """Show no numbers: the student's function gave none."""
+
     def close(self) -> None:
         """Leave the tab; what `page` made is removed after this."""
 
@@ -138,7 +141,9 @@ def day_tabs(day: Day) -> DayTabs:
         raise Robo47Error(
             f"{where} does not load: {type(error).__name__}: {error}"
         ) from error
-    ghost, tabs = getattr(module, "GHOST", None), list(getattr(module, "TABS", []))
+    ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
+    if not isinstance(tabs, list | tuple):
+        raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")
     if ghost is not None and not isinstance(ghost, Ghost):
         raise Robo47Error(f"{where}: GHOST is not a labkit.inspector.ghost.Ghost")
     for tab in tabs:
@@ -146,4 +151,4 @@ def day_tabs(day: Day) -> DayTabs:
             raise Robo47Error(
                 f"{where}: {tab!r} in TABS is not a class of labkit.inspector.tab.Tab"
             )
-    return DayTabs(ghost, tabs)
+    return DayTabs(ghost, list(tabs))

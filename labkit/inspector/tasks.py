@@ -25,11 +25,12 @@ class Tasks(Tab):
         Args:
             standing: of every task.
         """
-        parts = [words.line(standing.headline, "tasks", standing.kind)]
-        for task in standing.tasks:
-            mark, kind = MARKS.get(task.status, ("✗", "bad"))
+        parts = []  # the line about all of them stands on top of the panel
+        for result in standing.tasks:
+            task, verdict = result.task, result.verdict
+            mark, kind = MARKS.get(verdict.status, ("✗", "bad"))
             text = f"{mark} {task.id} {task.title}"
             parts.append(words.line(text, f"task-{task.id}", kind))
-            if task.message:
-                parts.append(words.line(task.message, f"why-{task.id}", "quiet"))
+            if verdict.message:
+                parts.append(words.line(verdict.message, f"why-{task.id}", "quiet"))
         self.list.content = "".join(parts)

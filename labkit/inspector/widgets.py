@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import viser
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from labkit.inspector import words
 from labkit.inspector.instruments import Bars, Plot
@@ -15,24 +15,9 @@ from robo47.checks import Array
 if TYPE_CHECKING:
     from labkit.inspector.app import Inspector
 
+Widget = TypeVar("Widget", bound=Any)
+NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
-
-
-class Slider:
-    """A number that a person sets; `value` is what it is, `set` changes it."""
-
-    def __init__(self, handle: viser.GuiSliderHandle[float]) -> None:
-        """Take viser's slider; `handle.visible` hides it."""
-        self.handle = handle
-
-    @property
-    def value(self) -> float:
-        """What it shows."""
-        return float(self.handle.value)
-
-    def set(self, value: float) -> None:
-        """Show another value, without a callback."""
-        self.handle.value = float(value)  # type: ignore[misc]
 
 
 class Widgets:
@@ -52,7 +37,7 @@ class Widgets:
         return self.gui.add_html(text)
 
     def say(self, text: str, kind: str = "") -> None:
-        """Show a line at the tab's end, in place of the one before.
+        """Show a line at the tab's end, instead of the one before.
 
         Args:
             text: plain text; "" for none.
@@ -85,8 +70,8 @@ class Widgets:
         *,
         unit: str = "rad",
         step: float = 0.01,
-    ) -> Slider:
-        """Add a slider with a box for typing.
+    ) -> viser.GuiSliderHandle[float]:
+        """Add a slider with a box for typing; setting `value` moves it.
 
         Args:
             label: what a person reads.
@@ -99,7 +84,7 @@ class Widgets:
         """
         # What the mouse gives are whole steps: from a whole step on, they are round.
         least, most = np.ceil(low / step) * step, np.floor(high / step) * step
-        text = f"{label} ({unit})" if unit else label
+        text = f"{label} ({unit.replace(' ', NARROW)})" if unit else label
         start = float(np.clip(start, least, most))
         handle = self.gui.add_slider(
             text, float(least), float(most), float(step), start, marks=()
@@ -110,52 +95,28 @@ class Widgets:
             if low <= value <= high:  # viser believes any number
                 on_change(round(value, 6))
 
-        self.listen(handle, changed)
-        return Slider(handle)
+        return self.listen(handle, changed)
 
     def buttons(
         self, options: Sequence[str], on_press: Callable[[str], None]
     ) -> viser.GuiButtonGroupHandle:
-        """Add a row of buttons.
-
-        Args:
-            options: their texts.
-            on_press: is given the text of the one that was pressed.
-        """
-        handle = self.gui.add_button_group("", options)
-        self.listen(handle, on_press)
-        return handle
+        """Add a row of buttons; `on_press` is given the text of the one pressed."""
+        return self.listen(self.gui.add_button_group("", options), on_press)
 
     def choice(
         self, label: str, options: Sequence[str], on_change: Callable[[str], None]
     ) -> viser.GuiDropdownHandle[str]:
-        """Add a drop-down, the first option chosen.
-
-        Args:
-            label: what a person reads.
-            options: to choose from.
-            on_change: is given the chosen one.
-        """
-        handle = self.gui.add_dropdown(label, tuple(options))
-        self.listen(handle, on_change)
-        return handle
+        """Add a drop-down, its first option chosen."""
+        return self.listen(self.gui.add_dropdown(label, tuple(options)), on_change)
 
     def tick(
-        self, label: str, on_change: Callable[[bool], None], start: bool = False
+        self, label: str, on_change: Callable[[bool], None]
     ) -> viser.GuiCheckboxHandle:
-        """Add a check box.
+        """Add a check box, unticked."""
+        return self.listen(self.gui.add_checkbox(label, False), on_change)
 
-        Args:
-            label: what a person reads.
-            on_change: is given whether it is ticked.
-            start: at first.
-        """
-        handle = self.gui.add_checkbox(label, start)
-        self.listen(handle, on_change)
-        return handle
-
-    def listen(self, handle: Any, then: Callable[[Any], None]) -> None:
-        """Have the event loop call a function when a person changes a widget.
+    def listen(self, handle: Widget, then: Callable[[Any], None]) -> Widget:
+        """Have a function called when a person changes a widget; return the widget.
 
         Args:
             handle: viser's.
@@ -167,6 +128,8 @@ class Widgets:
         async def _(event: viser.GuiEvent) -> None:
             if event.client is not None:  # else it was the page itself
                 self.host.heard(partial(then, handle.value))
+
+        return handle
 
     def bars(
         self,
@@ -208,3 +171,23 @@ class Widgets:
             least: the lowest value of a logarithmic axis; 0 for a plain one.
         """
         return Plot(self.gui, curves, x, y, height, least)
+
+    def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
+        """Add an image; setting `image` to what `as_bytes` makes of one changes it.
+
+        Args:
+            picture: (rows, columns, 3) of bytes, or (rows, columns) of any numbers,
+                drawn from black (the smallest) to white.
+            title: above.
+        """
+        return self.gui.add_image(as_bytes(picture), label=title or None, format="png")
+
+
+def as_bytes(picture: Array) -> NDArray[np.uint8]:
+    """Return an image of bytes, (rows, columns, 3), of one that may be of numbers."""
+    if picture.ndim == 3:
+        return np.asarray(picture, dtype=np.uint8)
+    finite = np.nan_to_num(np.asarray(picture, dtype=float))  # no ray: black
+    span = max(float(np.ptp(finite)), 1e-12)
+    grey = np.round(255.0 * (finite - finite.min()) / span).astype(np.uint8)
+    return np.repeat(grey[..., None], 3, axis=2)

@@ -21,11 +21,13 @@ import importlib
 import inspect
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
+
+import numpy as np
 
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
@@ -95,6 +97,8 @@ class Row:
             more: further fields of `Ask`: accept, held_out, unnamed and so on; what a
                 `HeldOut` calls truth or mistaken takes one question, too.
         """
+        if unknown := set(more) - {one.name for one in fields(Ask)}:
+            raise TypeError(f"a Row has no {min(unknown)}")
         self.kind, self.near, self.alike, self.more = kind, near, list(alike), more
         self._truth = truth
         self._draw: Inputs | None = None
@@ -253,7 +257,10 @@ class Row:
         more = dict(self.more)
         if "held_out" in more:
             more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
-        truth = None if "accept" in more else _Answered(self.truth, self._fault)
+        kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+        truth = None
+        if "accept" not in more:
+            truth = _Answered(self.truth, kinds, self._fault)
         if "accept" in more:
             more["accept"] = _told(more["accept"], self._fault)
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
@@ -264,15 +271,19 @@ class Row:
             self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
         )
 
-    def _fault(self, what: str, error: BaseException) -> Robo47Error:
+    def _fault(
+        self, what: str, error: BaseException | None, says: str = ""
+    ) -> Robo47Error:
         """Return an author's error: file, line and what to do."""
-        last = traceback.extract_tb(error.__traceback__)[-1]
-        where = f"{shown(Path(last.filename))}, line {last.lineno}"
-        return Robo47Error(
-            f"day{self._day.number}/{self.function}.py: its {what} stops with "
-            f"{type(error).__name__}: {error} ({where}). It has to take all that "
-            "@row.inputs yields, and any answer"
-        )
+        if error is not None:
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            where = f"{shown(Path(last.filename))}, line {last.lineno}"
+            says = f"stops with {type(error).__name__}: {error} ({where}). It has to "
+            says += "take all that @row.inputs yields" + ", and any answer" * (
+                what == "accept"
+            )
+        file = shown(self._day.own / f"{self.function}.py")
+        return Robo47Error(f"{file}: its {what} {says}")
 
     def _keep(self, way: Way) -> Code:
         self._entries.append(lambda: [way])
@@ -331,15 +342,21 @@ def _library_function(day: Day, function: str) -> Code:
 class _Answered(InTurn):
     """The truth: where it has no answer to a question, its author is told."""
 
-    def __init__(self, function: Code, fault: Code) -> None:
+    def __init__(self, function: Code, kinds: Sequence[Any], fault: Code) -> None:
         super().__init__(function)
-        self.fault = fault
+        self.kinds, self.fault = kinds, fault
 
     def nth(self, i: int, columns: Sequence[Any]) -> Any:
         try:
-            return super().nth(i, columns)
+            answer = super().nth(i, columns)
         except ValueError as error:
             raise self.fault("truth", error.__cause__ or error) from None
+        found = answer if isinstance(answer, tuple) else (answer,)
+        for one, kind in zip(found, self.kinds, strict=False):
+            if len(found) != len(self.kinds) or not kind.fits(np.shape(one)):
+                says = f"returns shape {np.shape(one)}, and its kind is {kind.expected}"
+                raise self.fault("truth", None, says)
+        return answer
 
 
 def _told(accept: Code, fault: Code) -> Code:

@@ -9,8 +9,8 @@ is an entry of the file, and is read by its type (`table.py`).
 import math
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
@@ -36,9 +36,16 @@ class Task:
     hints: tuple[str, ...] = entry(least=2)  # in the order to give them
     needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
     optional: bool = False  # a side quest: no part of what is handed in or graded
+    was: tuple[str, ...] = ()  # ids and names of functions that it had before
     seconds: float = 10.0  # for all its calls; one may take a third of it
     memory: float = 1.0  # GB
     numbers: int = NUMBERS  # in one answer
+
+    @property
+    def renamed(self) -> list[tuple[str, str]]:
+        """Functions that had another name: that, and the one they have."""
+        names = [name for name in self.was if name.isidentifier()]
+        return list(zip(names, self.functions, strict=False))
 
 
 @dataclass(frozen=True)
@@ -95,6 +102,7 @@ class Day:
     script: str  # file name of the lab script, in src/ and in work/
     guide: str  # the lab guide
     minutes: int  # how long it takes
+    was: tuple[str, ...] = ()  # file names that the lab script had before
     readings: tuple[str, ...] = ()  # what to read and watch
     # Modules of robo47 that are its answers; later days may import them.
     library: tuple[str, ...] = ()
@@ -128,6 +136,16 @@ class Day:
     def own(self) -> Path:
         """The day's own folder: questions.py, submissions/ and so on."""
         return self.folder / f"day{self.number}"
+
+    def named_as(self, is_there: Callable[[str], bool]) -> "Day":
+        """Return the day, under a name that its script had where only that is there.
+
+        Args:
+            is_there: whether a path from the clone's top is.
+        """
+        before = [replace(self, script=name, was=()) for name in self.was]
+        some = (day for day in (self, *before) if is_there(day.files["script"]))
+        return next(some, self)
 
     @property
     def week(self) -> Week:
@@ -176,9 +194,10 @@ class Day:
         Raises:
             Robo47Error: the day has no such task; names those it has.
         """
-        for task in self.tasks:
-            if task.id == task_id:
-                return task
+        for names in (lambda t: (t.id,), lambda t: t.was):
+            for task in self.tasks:
+                if task_id in names(task):
+                    return task
         known = ", ".join(task.id for task in self.tasks)
         raise Robo47Error(f"day {self.number} has no task {task_id}; it has {known}")
 

@@ -6,12 +6,14 @@ one day import each other as `from .mistakes import ...`.
 
 import importlib
 import sys
+import traceback
 import types
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 from labkit.lesson.day import Day
+from labkit.lesson.starter import read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -29,7 +31,7 @@ def load(day: Day, name: str) -> ModuleType:
         name: without the ending: "gains".
 
     Raises:
-        Robo47Error: the day has no such file.
+        Robo47Error: the day has no such file, or it stops while it is loaded.
     """
     if not has(day, name):
         raise Robo47Error(f"{shown(day.own / name)}.py is not there")
@@ -40,7 +42,17 @@ def load(day: Day, name: str) -> ModuleType:
             del sys.modules[module]
         sys.modules[package] = types.ModuleType(package)
         sys.modules[package].__path__ = [str(day.own)]
-    return importlib.import_module(f"{package}.{name}")
+    try:
+        return importlib.import_module(f"{package}.{name}")
+    except ModuleNotFoundError:  # a package that a picture or a page needs
+        raise
+    except Exception as error:
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        where = f" ({Path(last.filename).name}, line {last.lineno})"
+        where = "" if isinstance(error, SyntaxError) else where  # it says so itself
+        why = f"{type(error).__name__}: {error}{where}"
+        file = shown(day.own / name)
+        raise Robo47Error(f"{file}.py does not load: {why}") from error
 
 
 @cache
@@ -57,9 +69,13 @@ def load_lab(script: Path) -> ModuleType:
     """
     module = ModuleType(script.stem)
     module.__file__ = str(script)
-    source = without_kit(script.read_text("utf-8"))
-    exec(compile(source, str(script), "exec"), vars(module))
+    exec(_code(read_script(script), str(script)), vars(module))
     return module
+
+
+@lru_cache(maxsize=16)
+def _code(text: str, name: str) -> CodeType:
+    return compile(without_kit(text), name, "exec")
 
 
 def without_kit(text: str) -> str:

@@ -13,11 +13,32 @@ from robo47.paths import shown
 def is_kits(day: Day) -> bool:
     """Return whether a day's script in `src/` holds every task of the manifest."""
     try:
-        text = read_script(day.source)
-        found = {(r.task, r.function) for r in find_regions(text, day.script)}
+        return not _wanted(day) - _found(day)
     except Robo47Error:  # gone, in another encoding, or with broken markers
         return False
-    return found >= {(task.id, f) for task in day.tasks for f in task.functions}
+
+
+def _wanted(day: Day) -> set[tuple[str, str]]:
+    return {(task.id, f) for task in day.tasks for f in task.functions}
+
+
+def _found(day: Day) -> set[tuple[str, str]]:
+    text = read_script(day.source)
+    return {(r.task, r.function) for r in find_regions(text, shown(day.source))}
+
+
+def _fault(day: Day) -> str:
+    """Return what is wrong with the marks of a script that has some, else ""."""
+    try:
+        if "# region" not in read_script(day.source):
+            return ""
+    except Robo47Error:
+        return ""
+    try:
+        task, function = min(_wanted(day) - _found(day))
+    except Robo47Error as error:
+        return str(error)
+    return f"{shown(day.source)} has no region {task} in {function}"
 
 
 def require_kits(day: Day) -> None:
@@ -27,8 +48,11 @@ def require_kits(day: Day) -> None:
         Robo47Error: it lacks the markers of the tasks; says how to get ours back.
     """
     if not is_kits(day):
+        if fault := _fault(day):
+            author = f"Do you write this day? make author DAY={day.number}"
+            raise Robo47Error(f"{fault}. {author}. Else: make doctor")
         raise Robo47Error(
             f"{shown(day.source)} is not the kit's: the marks of its tasks are gone. "
-            f"Yours belongs into {shown(day.work.parent)}/; to get the kit's back: "
+            f"Yours belongs in {shown(day.work.parent)}/; to get the kit's back: "
             f"git checkout -- {shown(day.source)}"
         )

@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from labkit.lesson.sealed import opened
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -171,13 +172,13 @@ def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
 
 
 def read_script(path: Path) -> str:
-    """Return a script's text.
+    """Return a script's text, of a sealed one the complete lab's.
 
     Raises:
         Robo47Error: it is not there, or not text in UTF-8.
     """
     try:
-        return path.read_text("utf-8-sig")
+        return opened(path.read_text("utf-8-sig"))
     except FileNotFoundError:
         raise Robo47Error(f"{shown(path)} is not there") from None
     except UnicodeDecodeError:

@@ -121,9 +121,12 @@ def _faults(week: Week) -> Iterator[str]:
     wanted = f"w{week.number}-{week.name}"
     if week.folder.name != wanted:
         yield f": by number and name its folder is {wanted}, not {week.folder.name}"
-    numbers = [*week.days, *(one.number for one in week.soon)]
-    if numbers != sorted(set(numbers)):
-        yield f": days and soon are {numbers}; expected each once, in order"
+    soon = [one.number for one in week.soon]
+    for name, numbers in {"days": list(week.days), "soon": soon}.items():
+        if numbers != sorted(set(numbers)):
+            yield f": {name} are {numbers}; expected each once, in order"
+    if both := set(week.days) & set(soon):
+        yield f": day {min(both)} is in days, so it is not soon"
     there = {int(path.parent.name[3:]) for path in _day_folders(week.folder)}
     if missing := set(week.days) - there:
         yield f": day{min(missing)}/day.toml is not there"

@@ -20,7 +20,7 @@ from labkit.log.logfile import append_or_keep
 from labkit.log.rows import COLUMNS, Row, encode, normalise, typed
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, ROOT, shown
+from robo47.paths import HOME, METRICS_CSV, ROOT, shown
 
 __all__ = ["COLUMNS", "append_row", "append_rows", "read_rows"]
 
@@ -52,7 +52,7 @@ def append_row(
             that cannot take the row; then the message carries the row's text.
     """
     row = normalise(_filled(fields), allow_nonfinite)
-    append_or_keep(METRICS_CSV if path is None else path, encode(row), sync)
+    append_or_keep(_own() if path is None else path, encode(row), sync)
     return row
 
 
@@ -82,7 +82,7 @@ def append_rows(
         raise Robo47Error(f"no row is recorded: {'. '.join(faults)}.")
     if added:
         text = "\n".join(encode(row) for row in added)
-        append_or_keep(METRICS_CSV if path is None else path, text, sync)
+        append_or_keep(_own() if path is None else path, text, sync)
     return added
 
 
@@ -124,6 +124,13 @@ def _filled(fields: Mapping[str, object]) -> dict[str, object]:
     if "git_sha" not in filled:
         filled["git_sha"] = _sha(int(time.monotonic()))
     return filled
+
+
+def _own() -> Path:
+    """Return where the log is; an installed package makes its folder."""
+    if HOME != ROOT and METRICS_CSV.is_relative_to(HOME):
+        METRICS_CSV.parent.mkdir(parents=True, exist_ok=True)
+    return METRICS_CSV
 
 
 @lru_cache(1)

@@ -45,7 +45,7 @@ def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) ->
     fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
     names = {name for some in capstone.USES.values() for name in some}
     for facts, place in zip(days, folders, strict=True):
-        wanted = names & set(facts.own)
+        wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
         if wanted:
             script, lab = place / facts.day.script, folder.lab(facts.day)
             own = behind_wall(facts.day, script, sandbox, lab, budget)

@@ -135,13 +135,14 @@ def _days(facts: Sequence[DayFacts]) -> str:
         f"<tr><td class=day>{one.day.number}</td>"
         f"<td class=wide>{escape(one.day.title)}</td>"
         f"{_counts(one)}"
-        f"<td>{minutes_in_words(one.minutes)}</td>"
+        f"<td>{minutes_in_words(one.minutes)}"
+        f" of {minutes_in_words(one.day.minutes)}</td>"
         f"<td>{one.hints or '–'}</td></tr>"
         for one in facts
     ]
     head = (
         "<th>day</th><th></th><th>tasks that pass</th><th>functions yours</th>"
-        "<th>first to last commit</th><th>hints</th>"
+        "<th>first to last commit, of the time planned</th><th>hints</th>"
     )
     return html.section("The days", html.table(head, rows))
 

@@ -115,7 +115,8 @@ def _copy_of(robot: Robot | mujoco.MjModel) -> dict[str, Any]:
     """Return a robot as it travels; only an unchanged one is what `load` returns."""
     if isinstance(robot, mujoco.MjModel):
         return copy_model(robot)
-    return copy_model(robot.model, "" if robot.change else robot.entry)
+    known = isinstance(robot.entry, str) and not robot.change
+    return copy_model(robot.model, str(robot.entry) if known else "")
 
 
 def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:

@@ -8,7 +8,7 @@ import secrets
 import subprocess
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -34,13 +34,16 @@ _starter = ThreadPoolExecutor(1, thread_name_prefix="robo47-start")
 class Process:
     """One interpreter; it has no folder of its own, everything comes by a pipe."""
 
-    def __init__(self) -> None:
+    def __init__(self, extras: Sequence[str] = ()) -> None:
         """Start it; it gets ready while the caller prepares a request.
+
+        Args:
+            extras: packages that student code may import, pinned.
 
         Raises:
             FaultError: this machine starts no process now.
         """
-        self.wall = wall()
+        self.wall, self.extras = wall(), tuple(extras)
         self.secret = b""
         self.answers = 0
         self._room = MOST_BYTES
@@ -58,7 +61,7 @@ class Process:
             for run in (self._read, self._write)
         ]
         try:
-            self.process = _starter.submit(_start, command(self.wall)).result()
+            self.process = _starter.submit(_start, command(self.wall, extras)).result()
             for thread in self._threads:
                 thread.start()
         except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread

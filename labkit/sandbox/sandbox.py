@@ -102,7 +102,7 @@ class Sandbox:
                 for exchange in left:
                     exchange.reply = stopped(TOO_LONG)
                 break
-            with contextlib.closing(self._take()) as process:
+            with contextlib.closing(self._take(limits.extras)) as process:
                 try:
                     process.load(request)
                     rounds.ask(process, robots)
@@ -139,7 +139,7 @@ class Sandbox:
             script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
             memory=limits.memory, numbers=limits.numbers,
         )  # fmt: skip
-        process = self._take()
+        process = self._take(limits.extras)
         try:
             process.load(request)
         except BaseException:
@@ -148,12 +148,19 @@ class Sandbox:
         alive = [session for session in self._sessions if session.alive]
         self._sessions = [*alive, Session(process, robots, limits)]
         with contextlib.suppress(FaultError):  # a spare, for the next save
-            self._warm = Process()
+            self._warm = self._new(limits.extras)
         return self._sessions[-1]
 
-    def _take(self) -> Process:
-        process, self._warm = self._warm or Process(), None
-        return process
+    def _take(self, extras: tuple[str, ...]) -> Process:
+        """Return the warm process, or a new one where that lacks what is asked for."""
+        process, self._warm = self._warm, None
+        if process and extras and process.extras != extras:
+            process.close()
+            process = None
+        return process or self._new(extras)
+
+    def _new(self, extras: tuple[str, ...]) -> Process:
+        return Process(extras) if extras else Process()
 
 
 class Session:

@@ -13,16 +13,19 @@ that run other people's code say which wall stands, and so cannot be fooled by i
 """
 
 import functools
+import importlib.metadata
 import importlib.util
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.sandbox.inside import landlock, seccomp
 from robo47.errors import FaultError, Robo47Error
+from robo47.paths import shown
 
 INSIDE = Path(__file__).parent / "inside"
 FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
@@ -94,19 +97,41 @@ def refusal() -> str:
     return ""
 
 
-def command(chosen: Wall) -> list[str]:
+def command(chosen: Wall, extras: Sequence[str] = ()) -> list[str]:
     """Return the command that starts the sandbox's interpreter behind a wall.
 
+    Args:
+        chosen: the wall.
+        extras: packages that student code may import besides NumPy: "scipy==1.17.1".
+
     Raises:
-        Robo47Error: NumPy is not installed.
+        Robo47Error: NumPy is not installed, or an extra is not, in that version.
     """
+    packages = [name for extra in extras for name in _folders_of(extra)]
     spec = importlib.util.find_spec("numpy")
     if spec is None or spec.origin is None:
         raise Robo47Error("NumPy is not installed: run `make day1` once")
     libraries = Path(spec.origin).parent.parent
     if chosen.name == "bubblewrap":
-        return _behind_bubblewrap(libraries, chosen.name)
-    return [sys.executable, *FLAGS, str(INSIDE), chosen.name, str(libraries)]
+        return _behind_bubblewrap(libraries, chosen.name, packages)
+    return [sys.executable, *FLAGS, str(INSIDE), chosen.name, str(libraries), *packages]
+
+
+def _folders_of(extra: str) -> list[str]:
+    """Return the folders that a pinned package brings, beside NumPy's."""
+    name, _, version = extra.partition("==")
+    try:
+        found = importlib.metadata.distribution(name)
+    except importlib.metadata.PackageNotFoundError:
+        found = None
+    if found is None or found.version != version:
+        here = f"here is {found.version}" if found else "it is not installed"
+        raise Robo47Error(
+            f"this week's code may import {extra}, and {here}. To install it: "
+            f"{shown(Path(sys.executable))} -m pip install {extra}"
+        )
+    tops = {file.parts[0] for file in found.files or () if len(file.parts) > 1}
+    return sorted(top for top in tops if not top.endswith((".dist-info", "..")))
 
 
 def _landlock_works() -> bool:
@@ -130,13 +155,13 @@ def _bubblewrap_works() -> bool:
     return tried.returncode == 0
 
 
-def _behind_bubblewrap(libraries: Path, name: str) -> list[str]:
+def _behind_bubblewrap(libraries: Path, name: str, packages: list[str]) -> list[str]:
     """Return the command that runs the sandbox's program behind bubblewrap."""
     binds = _read_only(INSIDE, "/checker")
-    for package in ("numpy", "numpy.libs"):
+    for package in ("numpy", "numpy.libs", *packages):
         if (libraries / package).is_dir():
             binds += _read_only(libraries / package, f"/libraries/{package}")
-    return [*_bubblewrap(binds), *FLAGS, "/checker", name, "/libraries"]
+    return [*_bubblewrap(binds), *FLAGS, "/checker", name, "/libraries", *packages]
 
 
 def _bubblewrap(binds: list[str] | None = None) -> list[str]:

@@ -13,7 +13,7 @@ LARGEST = 2_000_000  # bytes of a page's film
 
 
 def films() -> dict[str, Callable[[], Recording]]:
-    """Return what records the film beside each picture, by its name: "day1_order"."""
+    """Return what records the film beside each picture, by its name."""
     return {name: make for day in all_days() for name, make in films_of(day).items()}
 
 

@@ -52,7 +52,7 @@ def test_quaternions_in_another_order_make_a_rigid_but_wrong_pose(monkeypatch, t
     assert f"as (x, y, z, w), and the hand is {off:.2f} m off at ready" in GUIDE
     assert_same(wrong @ lab.inverse(wrong), np.eye(4), 1e-10)
     assert se3.is_pose(wrong)
-    assert "Of the pose with (x, y, z, w) they hold, too" in GUIDE
+    assert "They also hold for the pose with (x, y, z, w)" in GUIDE
 
 
 @pytest.mark.parametrize(("degrees", "step"), [(45, 0.1), (0, 0.1), (45, 0.0)])

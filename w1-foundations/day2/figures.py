@@ -2,6 +2,7 @@
 
 screws        the arm at q = 0, its seven axes as lines, and how far apart they are
 dh_roulette   one DH table, five readings of it, drawn as five arms
+pitch, dh_conventions   drawings: a screw's two halves, one link's frame in two books
 """
 
 from itertools import pairwise
@@ -16,6 +17,7 @@ from labkit.figures.scene import Camera, Scene
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
 
+from .drawings import dh_conventions, pitch
 from .roulette import READINGS, distances
 
 SIZE = (1200, 1000)
@@ -142,4 +144,9 @@ def _polyline(
         layer.dot((x * 3, y * 3), INK, 5)
 
 
-FIGURES = {"screws": screws, "dh_roulette": dh_roulette}
+FIGURES = {
+    "screws": screws,
+    "dh_roulette": dh_roulette,
+    "pitch": pitch,
+    "dh_conventions": dh_conventions,
+}

@@ -11,7 +11,7 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, kinematics, panda, verify
+from robo47 import jacobian, panda, verify
 from robo47.arm import Arm
 from robo47.checks import Array
 
@@ -120,7 +120,7 @@ class Circle(Tab):
     def show(self) -> None:
         """Draw both arms and their lines, and say how far off each has been."""
         for pen, ghost, line in zip(self.pens, self.ghosts, self.lines, strict=True):
-            ghost.pose(_links(self.page, pen.q))
+            ghost.pose(self.page.links(pen.q))
             line.points = _segments([*pen.path[:1], *pen.path])
         self.bars.show([max(pen.rate) for pen in self.pens])
         told = "; ".join(
@@ -134,14 +134,3 @@ class Circle(Tab):
 def _segments(points: list[Array]) -> Array:
     p = np.array(points, dtype=np.float32)
     return np.stack([p[:-1], p[1:]], axis=1)
-
-
-def _links(page: Page, q: Array) -> dict[str, Array]:
-    whole = page.q
-    whole[:7] = q
-    poses = kinematics.fk_all(page.model, whole)
-    return {
-        name.removeprefix("body:"): T
-        for name, T in poses.items()
-        if name.startswith("body:link")
-    }

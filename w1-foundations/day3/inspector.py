@@ -11,7 +11,7 @@ from labkit.inspector import words
 from labkit.inspector.arm import END
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, kinematics, panda, screws
+from robo47 import jacobian, panda, screws
 from robo47.checks import Array
 
 from .circle import Circle
@@ -19,7 +19,7 @@ from .circle import Circle
 JOINTS = 7
 NEAR_SINGULAR = 0.05  # the smallest singular value that is shown in red below
 COLUMN, BALL = 0.35, 0.2  # metres drawn for 1 m/s per rad/s
-SAME = 1e-7  # of a column
+SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
 REACHED = 1e-3  # radians and metres together
 PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
@@ -84,8 +84,11 @@ class Jacobian(Tab):
         p, J, right = found
         off = np.abs(J - right).max(axis=0) > SAME
         arrows = _arrows(p, J)
-        self.columns.points = np.where(off[:, None, None], p, arrows).astype(np.float32)
-        self.wrong.points = np.where(off[:, None, None], arrows, p).astype(np.float32)
+        long = np.linalg.norm(arrows[:, 1] - p, axis=1) > SHORT
+        for drawn, some in ((self.columns, long & ~off), (self.wrong, long & off)):
+            drawn.visible = bool(some.any())
+            if some.any():
+                drawn.points = arrows[some]
         self.truth.points = _arrows(p, right)
         self.names.show(arrows[:, 1] + 0.03 * (arrows[:, 1] - p))
         self.ball.show(J[3:] @ J[3:].T, p, BALL)
@@ -96,6 +99,13 @@ class Jacobian(Tab):
         says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
         self.least.content = words.line(says, "sigma", kind)
 
+    def lost(self) -> None:
+        """Show no columns, and no second arm."""
+        self.columns.visible = self.wrong.visible = self.ball.ball.visible = False
+        self.bars.clear()
+        self.least.content = self.numbers.content = ""
+        self.ghost.pose({})
+
     def drag(self, shown: bool) -> None:
         """Show the target where the hand is, or hide it."""
         self.target.place(self.page.pose(END))
@@ -105,23 +115,15 @@ class Jacobian(Tab):
 
     def follow(self, T_goal: Array) -> None:
         """Have the student's own solve_ik take the second arm to the target."""
-        start = self.page.q
-        q0 = np.clip(start[:JOINTS], *self.limits.T)
+        q0 = np.clip(self.page.q[:JOINTS], *self.limits.T)
         self.page.job(
             lambda: self.own.solve_ik(self.S, self.M, T_goal, q0, self.limits),
-            lambda q: self.stand(start, q, T_goal),
+            lambda q: self.stand(q, T_goal),
         )
 
-    def stand(self, start: Array, q: Array, T_goal: Array) -> None:
+    def stand(self, q: Array, T_goal: Array) -> None:
         """Draw the second arm at q, (7,), and say how far its hand is off."""
-        whole = start.copy()
-        whole[:JOINTS] = q
-        poses = kinematics.fk_all(self.page.model, whole)
-        self.ghost.pose({
-            name.removeprefix("body:"): T
-            for name, T in poses.items()
-            if name.startswith("body:link")
-        })  # fmt: skip
+        self.ghost.pose(self.page.links(q))
         left = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
         mm, rad = 1000 * np.linalg.norm(left[3:]), np.linalg.norm(left[:3])
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))

@@ -1,12 +1,10 @@
 """The pictures of Day 4, made with the lab's own functions; drawn by `make figures`.
 
+momentum  of a body that turns and flies: what the corners m [c] of its inertia are for
 torques   what each joint's motor spends at three poses: gravity, Coriolis, inertia
 float     the hand's path: let go, on 99 % of gravity, on all of it, and pushed
 """
 
-import io
-
-import matplotlib
 import numpy as np
 from day4_dynamics import (
     PUSH,
@@ -18,13 +16,13 @@ from day4_dynamics import (
     mass_matrix,
 )
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure  # not pyplot, which may look for a display
-from PIL import Image
+from matplotlib.figure import Figure
 
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, GREEN, INK, ORANGE, RED, RULE
 from robo47 import panda, simulate
 from robo47.checks import Array
 
-BLUE, RED, GREEN, INK, RULE = "#1c64f2", "#e03131", "#2f9e44", "#212529", "#dee2e6"
 SPEED, ACCELERATION = 1.5, 5.0  # rad/s and rad/s^2, of every joint at once
 POSES = {
     "ready": READY_Q,
@@ -33,53 +31,67 @@ POSES = {
 }
 
 
-def torques() -> Image.Image:
-    """Return bars of the three torques per joint, a row for each pose."""
-    figure = Figure(figsize=(12, 10), dpi=100, layout="constrained")
-    with matplotlib.rc_context({"font.size": 17, "axes.linewidth": 1.2}):
-        rows = figure.subplots(len(POSES), 1, sharex=True, sharey=True)
-        for axes, (name, q) in zip(rows, POSES.items(), strict=True):
-            _bars(axes, name, q)
-        bars, words = rows[0].get_legend_handles_labels()
-        figure.legend(
-            bars, words, loc="outside upper left", ncols=3, frameon=False, fontsize=15
-        )
-        rows[1].set_ylabel("share of the motor's limit, %")
-    return _to_image(figure)
+@chart.picture(height=5.2)
+def momentum(figure: Figure) -> None:
+    """Draw a body with its centre, its momentum there, and both about the origin."""
+    axes, c, p = figure.subplots(), np.array([3.2, 1.3]), np.array([-0.55, 1.9])
+    phi = np.linspace(0.0, 2 * np.pi, 100)
+    body = c[:, None] + [[1.15, -0.25], [0.35, 0.6]] @ np.array(
+        [np.cos(phi), np.sin(phi)]
+    )
+    axes.fill(*body, facecolor=RULE, edgecolor=INK, lw=2)
+    chart.arrow(axes, (0, 0), c, INK)
+    chart.arrow(axes, c, c + p, BLUE, 3.5)
+    turn = np.linspace(-0.6, 3.4, 60)
+    x, y = 0.5 * np.cos(turn), 0.5 * np.sin(turn)
+    axes.plot(x, y, color=ORANGE, lw=3)
+    chart.arrow(axes, (x[-6], y[-6]), (x[-1], y[-1]), ORANGE, 3.0)
+    axes.plot(*np.array([(0, 0), c, c + p]).T, "o", color=INK, markevery=[0, 1])
+    axes.text(0.75, -0.35, "origin")
+    axes.text(-0.75, 0.55, r"$(\omega; v)$", color=ORANGE, ha="right")
+    axes.text(1.5, 0.3, "$c$")
+    axes.text(2.45, 3.15, r"$p = m (v + \omega \times c)$", color=BLUE, ha="right")
+    axes.text(4.7, 1.2, "angular, about the origin:", fontsize=chart.SMALL)
+    axes.text(4.7, 0.65, r"$I \omega + c \times p$", color=BLUE)
+    axes.set(xlim=(-2.2, 8.3), ylim=(-0.8, 3.6))
+    chart.blank(axes)
 
 
-def float_and_push() -> Image.Image:
-    """Return how far the hand is from where it was, over time, on a log axis."""
+@chart.picture(height=9.0)
+def torques(figure: Figure) -> None:
+    """Draw bars of the three torques per joint, a row for each pose."""
+    rows = figure.subplots(len(POSES), 1, sharex=True, sharey=True)
+    for axes, (name, q) in zip(rows, POSES.items(), strict=True):
+        _bars(axes, name, q)
+    figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper left")
+    rows[1].set_ylabel("share of the motor's limit, %")
+
+
+@chart.picture(height=6.6)
+def float_and_push(figure: Figure) -> None:
+    """Draw how far the hand is from where it was, over time, on a log axis."""
     model = panda.load("panda_nohand", drive="torque")
     arm, calm = panda.arm(model), 0 * PUSH
     runs = {
-        "let go (a joint limit stops it)": (RED, (0.0, (0.5, calm))),
-        "99 % of gravity_torque": ("#e8590c", (0.99, (2.0, calm))),
-        "all of it, pushed for 0.5 s": (BLUE, (1.0, (0.5, PUSH), (4.5, calm))),
-        "all of it": (GREEN, (1.0, (5.0, calm))),
+        "let go, to a limit": (RED, "-", (0.0, (0.5, calm))),
+        "99 % of gravity_torque": (ORANGE, "-.", (0.99, (2.0, calm))),
+        "all of it, pushed for 0.5 s": (BLUE, "--", (1.0, (0.5, PUSH), (4.5, calm))),
+        "all of it": (GREEN, "-", (1.0, (5.0, calm))),
     }
-    figure = Figure(figsize=(12, 7), dpi=100, layout="constrained")
-    with matplotlib.rc_context({"font.size": 17, "axes.linewidth": 1.2}):
-        axes = figure.subplots()
-        for name, (colour, given) in runs.items():
-            path = let_go(model, arm, *given)
-            away = np.linalg.norm(path - path[0], axis=1)[1:]
-            t = np.linspace(0.0, sum(s for s, _ in given[1:]), len(path))[1:]
-            axes.semilogy(t, np.maximum(away, 1e-17), color=colour, lw=3)
-            x, up = (2.05, 0.3) if "%" in name else (t[-1], 2.5)
-            side = "left" if t[-1] < 5 else "right"
-            axes.text(x, up * away[-1], name, color=colour, ha=side, va="bottom")
-        axes.axhline(1e-6, color=INK, ls="--", lw=2)
-        axes.text(4.98, 1.4e-6, "limit of float_5s", ha="right", color=INK)
-        axes.axhline(1e-10, color=RULE, lw=2, zorder=0)
-        axes.text(4.98, 1.4e-10, "size of an atom", ha="right", color=INK)
-        axes.set(
-            xlabel="seconds",
-            ylabel="the hand's distance from its start, m",
-            ylim=(3e-18, 30),
-        )
-        axes.spines[["top", "right"]].set_visible(False)
-    return _to_image(figure)
+    axes = figure.subplots()
+    for name, (colour, style, given) in runs.items():
+        away = np.linalg.norm(let_go(model, arm, *given), axis=1)[1:]
+        t = np.linspace(0.0, sum(s for s, _ in given[1:]), len(away) + 1)[1:]
+        axes.semilogy(t, np.maximum(away, 1e-17), style, color=colour)
+        x, up = (2.05, 0.02) if "%" in name else (t[-1], 2.5)
+        side = "left" if t[-1] < 5 else "right"
+        words = {"ha": side, "va": "bottom", "fontsize": chart.SMALL}
+        axes.text(x, up * away[-1], name, color=colour, **words)
+    axes.axhline(1e-6, color=INK, ls="--", lw=1.5)
+    axes.text(4.98, 1.6e-6, "limit of float_5s", ha="right", fontsize=chart.SMALL)
+    axes.axhline(1e-10, color=RULE, zorder=0)
+    axes.text(4.98, 1.6e-10, "size of an atom", ha="right", fontsize=chart.SMALL)
+    axes.set(xlabel="time, s", ylabel="the hand's way, m", ylim=(3e-18, 30))
 
 
 def _parts(q: Array) -> dict[str, tuple[str, Array]]:
@@ -106,27 +118,19 @@ def _bars(axes: Axes, name: str, q: Array) -> None:
     joints = np.arange(1, 8)
     for k, (label, (colour, tau)) in enumerate(_parts(q).items()):
         x, share = joints + 0.27 * (k - 1), 100 * tau / limits
-        axes.bar(x, share, 0.25, color=colour, label=label)
-        for x_bar, y, value in zip(x, share, tau, strict=True):
-            if abs(y) >= 3:
-                up, va = (1.5, "bottom") if y > 0 else (-1.5, "top")
-                text = f"{value:.1f}"
-                axes.text(x_bar, y + up, text, ha="center", va=va, fontsize=11)
+        hatch = ("", "//", "..")[k]
+        axes.bar(x, share, 0.25, color=colour, label=label, hatch=hatch, ec="white")
     axes.axhline(0, color=INK, lw=1)
-    for sign in (-100, 100):
-        axes.axhline(sign, color=INK, lw=2, ls="--")
-    axes.set_title(name, loc="left", fontsize=18, color=INK)
-    axes.set(ylim=(-112, 112), yticks=[-100, -50, 0, 50, 100], xlim=(0.5, 7.5))
-    words = [f"joint{i}\n±{limit:.0f} N m" for i, limit in enumerate(limits, 1)]
-    axes.set_xticks(joints, words, fontsize=14)
-    axes.spines[["top", "right", "bottom"]].set_visible(False)
+    axes.set_title(name, loc="left")
+    axes.set(ylim=(-70, 40), yticks=[-50, -25, 0, 25], xlim=(0.5, 7.5))
+    words = [f"{i}\n±{limit:.0f}" for i, limit in enumerate(limits, 1)]
+    axes.set_xticks(joints, words)
+    axes.set_xlabel(
+        "joint, and its motor's limit, N m"
+        if axes.get_subplotspec().is_last_row()
+        else ""
+    )
     axes.tick_params(length=0)
 
 
-def _to_image(figure: Figure) -> Image.Image:
-    file = io.BytesIO()
-    figure.savefig(file, format="png")
-    return Image.open(file).convert("RGB")
-
-
-FIGURES = {"torques": torques, "float": float_and_push}
+FIGURES = {"momentum": momentum, "torques": torques, "float": float_and_push}

@@ -1,24 +1,26 @@
 """Day 4 in the inspector: the tab Forces.
 
-A ball at each link's centre of mass, the torques that hold the arm as bars against the
-motors' limits, M as coloured cells, and the arm in a real simulation: let go, floating
-on gravity compensation, or floating and pushed.
+A ball at each link's centre of mass; the student's own torques as bars, with marks
+where they should be; their own M as coloured cells; and the arm in a real simulation:
+let go, floating on their own gravity torque, or pushed. A wrong sign falls.
 """
 
-import mujoco
 import numpy as np
 
+from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import panda, simulate
+from robo47 import dynamics, panda, simulate
 from robo47.checks import Array
 
 JOINTS = 7
 NAMES = [f"joint{i}" for i in range(1, JOINTS + 1)]
-LET_GO, FLOAT, PUSH, STOP = "let go", "float", "push", "stop"
+LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
 FORCE, PUSHED = np.array([0.0, 10.0, 0.0]), 0.5  # newtons in the world; seconds
-HZ, RATE = 30.0, 100.0  # of the picture; of the controller
+HZ, RATE = 25.0, 100.0  # of the picture; of the controller
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 LENGTH = 0.02  # metres of an arrow per newton
+SAME = 1e-6  # kg m2 of an entry of M
 
 
 class Forces(Tab):
@@ -31,106 +33,141 @@ class Forces(Tab):
         """Draw the centres of mass; nothing runs yet."""
         super().__init__(page)
         self.rig = panda.arm(page.model)
+        self.weights = panda.inertias(page.model)
         entry = "panda_nohand" if page.model.nq == JOINTS else "panda"
         self.model = panda.load(entry, drive="torque")
-        self.data = mujoco.MjData(self.model)
-        self.share, self.falls, self.force = 1.0, False, 0 * FORCE
-        self.shown = page.q
-        page.buttons([LET_GO, FLOAT, PUSH, STOP], self.press)
-        page.slider("share of gravity", 0.0, 1.2, 1.0, self.weigh, unit="of g")
+        self.data = simulate.start(self.model, page.q[:JOINTS])
+        self.share, self.force, self.falls = 1.0, 0 * FORCE, False
+        self.begun = self.shown = page.q
+        self.own = page.own(dynamics)
+        page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
+        page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, self.weigh, unit="")
+        self.clock = page.html()
         limits = simulate.limits(self.model)[1]
-        self.bars = page.bars(NAMES, limits, "N m", "torque that holds the arm")
+        title = "gravity_torque; marked is what holds the arm"
+        self.bars = page.bars(NAMES, limits, "N m", title)
         self.cells = page.html()
         radii = 0.03 * np.cbrt(self.rig.masses)  # the volume says what a link weighs
         self.balls = [page.draw.sphere(np.zeros(3), r, "orange") for r in radii]
         self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.01)
-        self.loop = page.animate(self.advance, HZ)
-        self.on_move(page.q)
+        self.loop = page.animate(self.show_arm, HZ, work=self.advance)
+        page.light("ee", {"ee"})
+        page.legend({"centre of mass of a link, its size what it weighs": "orange"})
 
     def weigh(self, share: float) -> None:
         """Hold the arm with that share of its weight."""
         self.share = share
 
     def press(self, name: str) -> None:
-        """Start a simulation where the arm is, or stop it."""
+        """Start a simulation where the last one began, or go back there."""
         self.loop.stop()
+        if not np.array_equal(self.page.q, self.shown):  # somebody moved it
+            self.begun = self.page.q
         self.force = FORCE if name == PUSH else 0 * FORCE
         self.falls = name == LET_GO
-        if name == STOP:
-            self.on_move(self.page.q)
-            return
-        self.data = simulate.start(self.model, self.page.q[:JOINTS])
-        self.shown = self.page.q
-        self.loop.start()
+        self.data = simulate.start(self.model, self.begun[:JOINTS])
+        if name == BACK:
+            self.show_arm(0.0)
+        else:
+            self.loop.start()
 
     def advance(self, seconds: float) -> None:
-        """Simulate until the next picture."""
+        """Simulate until the next picture; it waits for the student's torques."""
         if not np.array_equal(self.page.q, self.shown):  # somebody moved a slider
             self.data = simulate.start(self.model, self.page.q[:JOINTS])
-        push = None
-        if seconds < PUSHED and self.force.any():
-            push = self._push
-        period = 1.0 / RATE
-        until = self.data.time + 1.0 / HZ
-        while self.data.time < until:
-            simulate.run(self.model, self.data, self.hold, period, rate=RATE, push=push)
+        data, push = self.data, None
+        if self.force.any() and seconds < PUSHED:
+            wrench = np.append(np.zeros(3), self.force)
+            push = simulate.push_at("attachment_site", wrench)
+        steps = round(RATE / HZ)
+        simulate.run(self.model, data, self.hold, steps / RATE, rate=RATE, push=push)
+
+    def hold(self, t: float, q: Array, qd: Array) -> Array:
+        """Return a share of the student's gravity torque, or none."""
+        if self.falls:
+            return np.zeros(JOINTS)
+        wanted = self.share * self.own.gravity_torque(*self.pulled(q))
+        return np.clip(wanted, -HUGE, HUGE)
+
+    def pulled(self, q: Array) -> tuple[Array, ...]:
+        """Return what gravity_torque is given at q."""
+        now = self.rig.at(q)
+        return now.J_space, self.rig.masses, now.coms_world, self.rig.gravity
+
+    def show_arm(self, seconds: float) -> None:
+        """Move the arm to where the simulation is."""
         self.shown = self.page.q
         self.shown[:JOINTS] = self.data.qpos[:JOINTS]
         self.page.move(self.shown)
-
-    def hold(self, t: float, q: Array, qd: Array) -> Array:
-        """Return the torque of a share of gravity, or none."""
-        return (0.0 if self.falls else self.share) * self.rig.at(q).gravity_torque
-
-    def _push(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        body = model.body("link7").id
-        point = self.rig.at(data.qpos[:JOINTS]).T_world_ee[:3, 3]
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_applyFT(
-            model, data, self.force, np.zeros(3), point, body, data.qfrc_applied
-        )
+        t, speed = self.data.time, float(np.abs(self.data.qvel[:JOINTS]).max())
+        says = f"t = {t:.1f} s; the fastest joint turns at {speed:.2f} rad/s"
+        self.clock.content = words.line(says, "clock")
 
     def on_move(self, q: Array) -> None:
-        """Show masses, torques and M where the arm is."""
+        """Show masses and the push; ask for torques and M."""
         now = self.rig.at(q[:JOINTS])
         for ball, com in zip(self.balls, now.coms_world, strict=True):
             ball.position = com
-        self.bars.show(np.round(now.gravity_torque, 2) + 0.0)
-        self.cells.content = heat_map(now.M)
         pushing = self.loop.running and self.force.any() and self.data.time < PUSHED
         hand = now.T_world_ee[:3, 3]
         ends = np.array([[hand - LENGTH * self.force, hand]])
-        self.arrow.points = ends.astype(np.float32)
         self.arrow.visible = bool(pushing)
-        heaviest = int(np.argmax(np.abs(now.gravity_torque)))
+        if pushing:
+            self.arrow.points = ends.astype(np.float32)
+        self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
+
+    def ask(self, q: Array) -> tuple[Array, Array, Array, Array]:
+        """Return the student's torques, the needed ones, the student's M, the right."""
+        now, given = self.rig.at(q), self.pulled(q)
+        G = dynamics.link_inertias(now.T_links, *self.weights)
+        tau, M = self.own.many(
+            ("gravity_torque", *given),
+            ("mass_matrix", now.J_space, G, self.rig.armature),
+        )
+        return tau, now.gravity_torque, M, now.M
+
+    def show(self, found: tuple[Array, Array, Array, Array]) -> None:
+        """Show the torques beside those needed, and M."""
+        tau, needed, M, right = found
+        self.bars.show(tau, needed)
+        self.cells.content = heat_map(M, np.abs(M - right) > SAME)
+        heaviest = int(np.argmax(np.abs(needed)))
         self.page.say(
-            f"{NAMES[heaviest]} holds most: {now.gravity_torque[heaviest]:.2f} N m. "
-            f"Least eigenvalue of M: {np.linalg.eigvalsh(now.M).min():.3f} kg m2."
+            f"{NAMES[heaviest]} holds most: {needed[heaviest]:.1f} N m. "
+            f"Least eigenvalue of M: {np.linalg.eigvalsh((M + M.T) / 2).min():.3f} "
+            "kg m2."
         )
 
+    def lost(self) -> None:
+        """Show no torques and no M."""
+        self.page.say("")
+        self.bars.clear()
+        self.cells.content = ""
 
-def heat_map(M: Array) -> str:
+
+def heat_map(M: Array, wrong: Array | None = None) -> str:
     """Return M as a table of coloured cells: blue above 0, red below, as HTML.
 
     Args:
         M: mass matrix, kg m2, (7, 7).
+        wrong: entries to mark, (7, 7) of bool.
     """
     rows = []
-    for row in np.round(M, 2) + 0.0:  # no -0.00
+    for row, off in zip(np.round(M, 2) + 0.0, wrong if wrong is not None else 0 * M):
         cells = ""
-        for value in row:
+        for value, bad in zip(row, off, strict=True):
             shade = min(abs(value), 1.0) ** 0.5  # small entries can be seen, too
             colour = "28,100,242" if value > 0 else "224,49,49"
+            mark = ";outline:1px solid var(--r47-bad)" if bad else ""
             cells += (
                 f'<td style="background:rgba({colour},{0.7 * shade:.2f});'
-                f'padding:2px 4px;text-align:right">{value:.2f}</td>'
+                f'padding:2px 4px;text-align:right{mark}">{value:.2f}</td>'
             )
         rows.append(f"<tr>{cells}</tr>")
     table = "".join(rows)
-    style = "font:11px monospace;border-collapse:collapse;margin-left:10px"
-    title = '<b style="margin-left:10px">M, kg m2</b>'
-    return f'<div>{title}<table style="{style}">{table}</table></div>'
+    style = "font:11px monospace;border-collapse:collapse"
+    title = "<b>M, kg m2</b>"
+    return f'<div class="r47">{title}<table style="{style}">{table}</table></div>'
 
 
 TABS = [Forces]

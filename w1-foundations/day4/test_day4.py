@@ -1,5 +1,6 @@
 """Day 4: the numbers in the guide's sentences, the demo, and the errata rows."""
 
+import importlib.util
 import re
 import sys
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, need, paper
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
@@ -155,6 +156,32 @@ def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
     assert ends[2] > 3 * ends[1]
 
 
+def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):
+    G = lab.spatial_inertia(1.0, np.array([1.0, 0, 0]), np.zeros((3, 3)))
+    V = np.array([0.0, 0, 1, 0, 0, 0])
+    assert_same(G @ V, [0, 0, 1, 0, 1, 0], 0.0)
+    assert_same(-lab.ad(V).T @ G @ V, [0, 0, 0, -1, 0, 0], 0.0)
+    for words in ("is (0, 0, 1; 0, 1, 0)", "as (0, 0, 0; -1, 0, 0)"):
+        assert words in SENTENCES
+    # The law behind it: G rides on its link, so its rate is -ad(V)^T G - G ad(V).
+    V, h = np.random.default_rng(2).normal(size=6), 1e-6
+    X = np.eye(6) - h * lab.ad(V)  # takes what rides on the link back by h
+    rate = (X.T @ G @ X - G) / h
+    assert_same(rate, -lab.ad(V).T @ G - G @ lab.ad(V), 1e-4)
+
+
+def test_two_coriolis_matrices_give_one_torque_and_one_of_them_a_skew_rest(arm):
+    code = re.search(r"```python\n(q, qd, h.*?)```", GUIDE, re.S)[1]
+    rows = []
+    space = {"READY_Q": lab.READY_Q, "arm": arm, "np": np}
+    exec(code, {**space, "print": lambda *numbers: rows.append(numbers)})
+    for torque, power, _ in rows:
+        assert torque < 1e-9
+        assert abs(power) < 1e-12
+    assert rows[0][2] < 1e-12
+    assert f"symmetric part of up to {rows[1][2]:.2f} kg m²/s" in SENTENCES
+
+
 def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
     model = panda.load("panda_nohand", drive="torque")
     q, h = verify.random_q(model, 20, seed=1), model.opt.timestep
@@ -270,3 +297,31 @@ def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):
     M = arm.at(panda.READY_Q).M
     shown = [float(x) for x in re.findall(r">([-\d.]+)</td>", heat_map(M))]
     assert_same(np.reshape(shown, (7, 7)), M, 0.0051)
+
+
+def forces(functions):
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return folder.load(find_day(4), "inspector").Forces(page)
+
+
+def fallen(tab, seconds=1.0):
+    """Return how far the hand is from where it was after a while of floating."""
+    tab.press("float")
+    for _ in range(round(25 * seconds)):
+        tab.advance(1.0)
+    hand = [tab.rig.at(q).T_world_ee[:3, 3] for q in (panda.READY_Q, tab.data.qpos)]
+    return np.linalg.norm(hand[1] - hand[0])
+
+
+def test_the_tab_floats_on_ones_own_torque_and_falls_with_a_wrong_sign():
+    tab = forces(vars(lab))
+    assert fallen(tab) < 1e-3
+    assert tab.own.says()[1] == "good"
+    tab.on_move(panda.READY_Q)
+    assert_same(*tab.bars.show.call_args.args, 1e-9)  # the bars and the marks
+    negative = {"gravity_torque": lambda *args: -lab.gravity_torque(*args)}
+    tab = forces({**vars(lab), **negative})
+    assert fallen(tab) > 0.3
+    says, kind = tab.own.says()
+    assert (kind, "gravity_torque by" in says) == ("bad", True)

@@ -3,9 +3,6 @@
 error_curves   an error of 0.1 rad decays under five controllers; dashed: predicted
 """
 
-import io
-
-import matplotlib
 import numpy as np
 from day5_control import (
     E0,
@@ -18,15 +15,16 @@ from day5_control import (
     springs,
     springs_and_gravity,
 )
-from matplotlib.figure import Figure  # not pyplot, which may look for a display
-from PIL import Image
+from matplotlib.figure import Figure
 
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, GREEN, GREY, ORANGE, PURPLE
 from robo47 import panda, references, simulate
 from robo47.checks import Array
 from robo47.verify import loops
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
-COLOURS = ("#868e96", "#9c36b5", "#e8590c", "#2f9e44", "#1c64f2")
+LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 
 
 def curves() -> dict[str, Array]:
@@ -35,7 +33,7 @@ def curves() -> dict[str, Array]:
     arm = panda.arm(model)
     servos = panda.load("panda_nohand")
     logs = {
-        "servos of the file": simulate.run(
+        "servos": simulate.run(
             servos,
             simulate.start(servos, start),
             lambda t, q, qd: READY_Q,
@@ -45,9 +43,9 @@ def curves() -> dict[str, Array]:
     }
     for name, law in {
         "springs": springs,
-        "springs and gravity": springs_and_gravity,
-        "gains outside M": gains_outside,
-        "computed torque": equal_springs(),
+        "springs,\ngravity": springs_and_gravity,
+        "gains\noutside M": gains_outside,
+        "computed\ntorque": equal_springs(),
     }.items():
         logs[name] = run(model, arm, law, goal, SECONDS, start, RATE)
     return {
@@ -55,29 +53,19 @@ def curves() -> dict[str, Array]:
     }
 
 
-def error_curves() -> Image.Image:
-    """Return the five errors on one log axis, and the predicted curve dashed."""
-    t = np.arange(round(SECONDS * RATE) + 1) / RATE
-    figure = Figure(figsize=(12, 8), dpi=100, layout="constrained")
-    with matplotlib.rc_context({"font.size": 18, "axes.linewidth": 1.2}):
-        axes = figure.subplots()
-        for (name, e), colour in zip(curves().items(), COLOURS, strict=True):
-            axes.plot(t, e, color=colour, linewidth=3)
-            axes.text(1.01 * SECONDS, e[-1], name, color=colour, va="center")
-        predicted = error_response(t, OMEGA, 1.0)
-        axes.plot(t, predicted, "k--", linewidth=2)
-        axes.text(0.06, 2e-4, "predicted, dashed:\n(1 + ωt) e^(-ωt)", ha="left")
-        axes.set_yscale("log")
-        axes.set_xlim(0.0, SECONDS)
-        axes.set_ylim(1e-7, 4.0)
-        axes.set_title("0.1 rad off in every joint: what is left of it, worst joint")
-        axes.set_xlabel("time, s")
-        axes.set_ylabel("|e| / e0")
-        axes.grid(color="#dee2e6")
-        axes.spines[["top", "right"]].set_visible(False)
-    file = io.BytesIO()
-    figure.savefig(file, format="png")
-    return Image.open(file).convert("RGB")
+@chart.picture(height=7.2)
+def error_curves(figure: Figure) -> None:
+    """Draw the five errors on one log axis, and the predicted curve dashed."""
+    t, axes = np.arange(round(SECONDS * RATE) + 1) / RATE, figure.subplots()
+    for (name, e), (colour, style) in zip(curves().items(), LOOKS, strict=True):
+        axes.plot(t, e, style, color=colour)
+        axes.text(1.01 * SECONDS, e[-1], name, color=colour, va="center",
+                  fontsize=chart.SMALL)  # fmt: skip
+    axes.plot(t, error_response(t, OMEGA, 1.0), "k--", lw=1.5)
+    axes.text(0.04, 2e-4, "predicted, dashed:\n" r"$(1 + \omega t)\ e^{-\omega t}$")
+    axes.set(yscale="log", xlim=(0.0, SECONDS), ylim=(1e-7, 4.0))
+    axes.set(xlabel="time, s", ylabel="largest |e| / e0 of the seven joints")
+    axes.grid()
 
 
 FIGURES = {"error_curves": error_curves}

@@ -1,7 +1,7 @@
-"""Day 5 in the inspector: the tab Control, a controller at work in real time.
+"""Day 5 in the inspector: the tab Control, the student's controllers in real time.
 
-The arm is simulated with motors; the ghost is the reference. The controllers are the
-library's (`robo47.control`), at 500 Hz: the student's own run with `make run DAY=5`.
+The arm is simulated with motors, the blue one is the reference. The torques come from
+the student's own functions, 250 of them a second, as in the lab.
 """
 
 from collections.abc import Callable
@@ -9,49 +9,64 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
+from labkit.inspector import words
+from labkit.inspector.own import Own
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import control, kinematics, panda, references, scenes, simulate
+from robo47 import control, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
 
 SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"
-HZ, SHOWN = 25.0, 2  # frames a second; a point of the plot every so many frames
+HZ, RATE = 25.0, 250.0  # pictures a second; torques a second, as in the lab
 KP, KD = 100.0, 20.0  # of the plain springs, as in the lab
+KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s, as in the lab
+LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
 JOINTS = [f"joint{i}" for i in range(1, 8)]
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
+CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 Law = Callable[..., Array]
 
 
-def springs(arm: Arm, q: Array, qd: Array, ref: tuple, omega: float) -> Array:
+def springs(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give the torque of plain springs."""
-    return control.pd_torque(ref[0] - q, ref[1] - qd, KP, KD)
+    return own.pd_torque(ref[0] - q, ref[1] - qd, KP, KD)
 
 
-def with_gravity(arm: Arm, q: Array, qd: Array, ref: tuple, omega: float) -> Array:
+def with_gravity(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give the torque of springs that do not sag."""
     g = arm.at(q).gravity_torque
-    return control.gravity_pd(ref[0] - q, ref[1] - qd, KP, KD, g)
+    return own.gravity_pd(ref[0] - q, ref[1] - qd, KP, KD, g)
 
 
-def computed(arm: Arm, q: Array, qd: Array, ref: tuple, omega: float) -> Array:
+def computed(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give computed torque of a wanted omega, critically damped."""
     now, e, ed = arm.at(q), ref[0] - q, ref[1] - qd
-    M, bias, gains = now.M, now.bias(qd), control.gains(omega, 1.0)
-    return control.computed_torque(M, bias, arm.damping, qd, e, ed, ref[2], *gains)
+    known = now.M, now.bias(qd), arm.damping, qd
+    return own.computed_torque(*known, e, ed, ref[2], *tab.gains())
 
 
-def outside(arm: Arm, q: Array, qd: Array, ref: tuple, omega: float) -> Array:
+def outside(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give the public page's torque, its gains outside M."""
-    feedforward = computed(arm, q, qd, (q, qd, ref[2]), omega)
-    kp, kd = control.gains(omega, 1.0)
-    return feedforward + control.pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
+    feedforward = computed(own, arm, q, qd, (q, qd, ref[2]), tab)
+    return feedforward + own.pd_torque(ref[0] - q, ref[1] - qd, *tab.gains())
+
+
+def with_integral(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
+    """Give computed torque whose acceleration comes from PID."""
+    now, e, ed = arm.at(q), ref[0] - q, ref[1] - qd
+    given = e, ed, tab.integral, *tab.gains(), KI, 1.0 / RATE, CLAMP
+    acc, tab.integral = own.pid_step(*given)
+    known, none = (now.M, now.bias(qd), arm.damping, qd), np.zeros(7)
+    return own.computed_torque(*known, none, none, ref[2] + acc, 0.0, 0.0)
 
 
 LAWS: dict[str, Law] = {
     "computed torque": computed,
+    "with an integral (PID)": with_integral,
     "gains outside M": outside,
     "springs and gravity": with_gravity,
     "springs": springs,
@@ -79,29 +94,44 @@ class Control(Tab):
         ]
         self.arm = panda.arm(self.models[0])  # the model never knows of the load
         self.law, self.omega, self.heavy, self.swing = computed, 20.0, 0, False
+        self.known, self.kp_kd = (0.0, 0), np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
-        self.stiffest = float(control.stiffest_omega(self.models[0].opt.timestep))
+        h = self.models[0].opt.timestep
+        self.each = simulate.steps_per_period(self.models[0], RATE)
+        self.stiffest = float(control.stiffest_omega(h, self.each))
+        self.own = page.own(control)
         self.ghost = page.draw.ghost("blue")
-        page.choice("controller (the library's)", list(LAWS), self.choose)
-        says = f"omega; a loop of 2 ms breaks at {self.stiffest:.0f}"
-        page.slider(says, 2, 500, 20, self.tune, unit="rad/s", step=1)
-        page.tick("hang 1 kg on it; the model is not told", self.hang)
+        page.choice("controller", list(LAWS), self.choose)
+        page.slider("omega", 2, 300, 20, self.tune, unit="rad/s", step=1)
+        page.tick("hang 1 kg on it", self.hang)
         page.buttons([SWING, NUDGE, STOP], self.press)
-        self.plot = page.plot(["measured", "predicted"], y="largest error (mrad)")
-        self.bars = page.bars(JOINTS, self.limits, "Nm", "torque")
-        self.loop = page.animate(self.step, HZ)
+        self.clock = page.html()
+        curves = ["measured", "predicted"]
+        self.plot = page.plot(curves, y="largest error (mrad)", least=LEAST)
+        self.bars = page.bars(JOINTS, self.limits, "N m", "torque asked for")
+        self.loop = page.animate(self.step, HZ, work=self.work)
+        page.light("ee", {"ee"})
+        page.legend({"the simulated arm": "grey", "where it should be": "blue"})
         self.restart(READY_Q)
 
     def choose(self, name: str) -> None:
         """Take another controller, from now on."""
         self.law = LAWS[name]
+        self.integral = np.zeros(7)
 
     def tune(self, omega: float) -> None:
         """Make the springs stiffer or softer, critically damped."""
         self.omega = omega
-        broken = omega > self.stiffest
-        self.page.say("over the limit: the error grows at each step" if broken else "",
-                      "bad" if broken else "")  # fmt: skip
+        broken = omega > self.stiffest and self.law not in (springs, with_gravity)
+        says = f"a loop with a torque every 4 ms breaks at {int(self.stiffest)} rad/s"
+        self.page.say(says if broken else "", "bad")
+
+    def gains(self) -> Array:
+        """Return the student's gains for omega, asked when it or the file changes."""
+        key = self.omega, self.own.version
+        if self.known != key:
+            self.known, self.kp_kd = key, self.own.gains(self.omega, 1.0)
+        return self.kp_kd
 
     def hang(self, heavy: bool) -> None:
         """Add 1 kg or take it off, and go on from where the arm is."""
@@ -121,43 +151,62 @@ class Control(Tab):
     def restart(self, q: Array) -> None:
         """Put the arm at rest somewhere, time at 0, the plot empty."""
         self.data = simulate.start(self.models[self.heavy], q)
-        self.since = self.frames = 0
+        self.integral, self.since = np.zeros(7), 0
+        self.asked: list[Array] = []
         self.plot.clear()
         self.show(reference(0.0, self.swing)[0])
 
-    def step(self, seconds: float) -> None:
-        """Simulate one frame's time, one control period per time step."""
-        model = self.models[self.heavy]
-        for _ in range(round(1.0 / HZ / model.opt.timestep)):
-            ref = reference(self.since * model.opt.timestep, self.swing)
-            q, qd = self.data.qpos[:7].copy(), self.data.qvel[:7].copy()
-            wanted = self.law(self.arm, q, qd, ref, self.omega)
-            self.data.ctrl[:7] = control.saturate(wanted, self.limits)
-            mujoco.mj_step(model, self.data)
+    def work(self, seconds: float) -> None:
+        """Simulate one frame's time; it waits for the student's torques."""
+        data, model = self.data, self.models[self.heavy]
+        for _ in range(round(RATE / HZ)):
+            ref = reference(self.since / RATE, self.swing)
+            q, qd = data.qpos[:7].copy(), data.qvel[:7].copy()
+            wanted = self.law(self.own, self.arm, q, qd, ref, self)
+            given = self.own.saturate(wanted, self.limits)
+            data.ctrl[:7] = np.clip(given, -HUGE, HUGE)
+            mujoco.mj_step(model, data, self.each)
+            self.asked = [*self.asked[-49:], wanted]
             self.since += 1
-        self.frames += 1
-        t = self.since * model.opt.timestep
+        self.predicted = np.nan
+        if self.law is computed and not self.swing and not self.heavy:
+            t = np.array([self.since / RATE])
+            decay = self.own.error_response(t, self.omega, 1.0)
+            self.predicted = 100.0 * float(decay[0])
+
+    def step(self, seconds: float) -> None:
+        """Show what came of it."""
+        t = self.since / RATE
         ref = reference(t, self.swing)
-        self.bars.show(wanted)
-        if self.frames % SHOWN == 0:
-            self.plot.add(t, self.errors(t, ref[0]))
+        measured = 1e3 * float(np.abs(ref[0] - self.data.qpos[:7]).max())
+        self.bars.show(self.asked[-1])
+        self.plot.add(t, [measured, self.predicted])
+        chatter = self.chatter()
+        off = f"{measured:.3g}" if measured > LEAST else f"under {LEAST:g}"
+        says = f"t = {t:.2f} s; largest error {off} mrad{chatter}"
+        self.clock.content = words.line(says, "clock", "bad" if chatter else "")
         self.show(ref[0])
 
-    def errors(self, t: float, wanted: Array) -> list[float]:
-        """Return the largest error now and the predicted one, in mrad."""
-        measured = 1e3 * float(np.abs(wanted - self.data.qpos[:7]).max())
-        decay = control.error_response(t, self.omega, 1.0)
-        return [measured, 0.0 if self.swing else 100.0 * float(decay)]
+    def chatter(self) -> str:
+        """Return which motor goes from limit to limit, and how often; "" for none."""
+        some = np.array(self.asked)
+        over = np.abs(some) >= self.limits
+        flips = (np.sign(some[1:]) != np.sign(some[:-1])) & over[1:] & over[:-1]
+        worst = int(flips.sum(axis=0).argmax())
+        count = int(flips[:, worst].sum())
+        if count < CHATTER * len(some):
+            return ""
+        return (
+            f". It CHATTERS: {JOINTS[worst]} went from limit to limit {count} times in "
+            f"the last {len(some)} torques"
+        )
 
     def show(self, wanted: Array) -> None:
         """Move the arm to where the simulation is, the ghost to the reference."""
         q = self.page.q
         q[:7] = self.data.qpos[:7]
         self.page.move(q)
-        q[:7] = wanted
-        poses = kinematics.fk_all(self.page.model, q)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(wanted))
 
 
 TABS = [Control]

@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-from unittest.mock import MagicMock
 
 import mujoco
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from compare import assert_same
 from scipy.integrate import solve_ivp
 
-from conftest import ROOT, load_script, need
+from conftest import ROOT, load_script, need, paper
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from labkit.log import read_rows
@@ -23,6 +22,7 @@ ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
 ERRATA = ERRATA.partition("\n## Day 5\n")[2].partition("\n## ")[0]
 
 lab = load_script(ROOT / SCRIPT)
+raised_cosine = references.raised_cosine(lab.READY_Q, lab.REACH)
 START = lab.READY_Q - 1e-8 * lab.E0  # so near that no motor is at its limit
 
 
@@ -35,12 +35,12 @@ def bench():
 
 def swing_error(log):
     """Return the largest error of a run that follows the swing, in mrad."""
-    wanted = np.array([lab.raised_cosine(t)[0] for t in log.t])
+    wanted = np.array([raised_cosine(t)[0] for t in log.t])
     return 1e3 * np.abs(log.q - wanted).max()
 
 
 def swing(bench, law, rate=500.0):
-    return swing_error(lab.run(*bench, law, lab.raised_cosine, 2.0, rate=rate))
+    return swing_error(lab.run(*bench, law, raised_cosine, 2.0, rate=rate))
 
 
 def decay(bench, law, seconds, rate=500.0):
@@ -72,11 +72,11 @@ def test_the_rounded_numbers_in_the_docstrings_are_true():
 def test_the_reference_starts_and_ends_at_rest_and_is_its_own_derivative():
     h = 1e-5
     for t in (0.0, 2.0):
-        q, qd, _ = lab.raised_cosine(t)
+        q, qd, _ = raised_cosine(t)
         assert_same(q, lab.READY_Q, 1e-12)
         assert_same(qd, np.zeros(7), 1e-12)
     for t in (0.3, 0.8, 1.7):
-        before, now, after = (lab.raised_cosine(x) for x in (t - h, t, t + h))
+        before, now, after = (raised_cosine(x) for x in (t - h, t, t + h))
         assert_same((after[0] - before[0]) / (2 * h), now[1], 1e-8)
         assert_same((after[1] - before[1]) / (2 * h), now[2], 1e-8)
 
@@ -168,7 +168,7 @@ def test_ten_times_the_stiffness_sags_a_tenth(bench):
 
 
 def test_the_swing_takes_a_quarter_of_the_motors_torque(bench):
-    log = lab.run(*bench, lab.equal_springs(), lab.raised_cosine, 2.0)
+    log = lab.run(*bench, lab.equal_springs(), raised_cosine, 2.0)
     share = np.abs(log.tau) / simulate.limits(bench[0])[1]
     assert share.max() == pytest.approx(0.25, abs=0.03)
     assert "the swing takes a quarter of their torque" in GUIDE
@@ -225,7 +225,7 @@ def test_servos_lag_by_kd_over_kp_times_the_speed():
         lag = -servos.actuator_biasprm[:, 2] / servos.actuator_gainprm[:, 0]
         assert 1e3 * (lag * np.pi / 2 * lab.REACH).max() == pytest.approx(mrad, abs=0.3)
         start = simulate.start(servos, lab.READY_Q)
-        follow = lambda t, q, qd: lab.raised_cosine(t)[0]  # noqa: E731
+        follow = lambda t, q, qd: raised_cosine(t)[0]  # noqa: E731
         error = swing_error(simulate.run(servos, start, follow, 2.0))
         assert error == pytest.approx(mrad, rel=0.04)
     assert f"With half the servos' $k_d$ the error is {error:.0f} mrad" in GUIDE
@@ -375,7 +375,7 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
         kp, kd = servos.actuator_gainprm[:, 0], -servos.actuator_biasprm[:, 2]
 
         def inverted(t, q, qd, kp=kp, kd=kd):
-            tau = law(bench[1], q, qd, lab.raised_cosine(t))
+            tau = law(bench[1], q, qd, raised_cosine(t))
             return lab.servo_ctrl(tau, q, qd, kp, kd)
 
         data = simulate.start(servos, lab.READY_Q)
@@ -398,15 +398,19 @@ def test_the_motors_limits_are_those_of_the_guide(bench):
 
 @pytest.fixture
 def tab():
-    """Return the tab on a page that only listens."""
+    """Return the tab on a page that only listens; the lab is the student's file."""
+    return tab_of(vars(lab))
+
+
+def tab_of(functions):
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = folder.load(find_day(5), "inspector")
-    page = MagicMock(model=panda.load("panda_nohand"), q=panda.READY_Q.copy())
-    return inspector.Control(page)
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return folder.load(find_day(5), "inspector").Control(page)
 
 
 def frames(tab, seconds):
     for k in range(round(25 * seconds)):
+        tab.work(k / 25)
         tab.step(k / 25)
     return tab.plot.add.call_args.args
 
@@ -416,17 +420,38 @@ def test_the_tab_shows_the_measured_error_on_the_predicted_one(tab):
     t, (measured, predicted) = frames(tab, 0.16)
     assert t == pytest.approx(0.16)
     assert predicted == pytest.approx(1e2 * lab.error_response(np.array([t]), 20, 1)[0])
-    assert measured == pytest.approx(predicted, abs=2.0)
+    assert measured == pytest.approx(predicted, abs=4.0)
+    assert tab.own.says()[1] == "good"
     tab.choose("springs")
     assert frames(tab, 0.4)[1][0] > 50
 
 
-def test_the_tab_swings_hangs_and_says_where_the_loop_breaks(tab):
+def test_the_tab_swings_hangs_and_integrates(tab):
     tab.press("swing")
-    assert frames(tab, 0.4)[1][0] < 0.5
+    assert frames(tab, 0.4)[1][0] < 1.5
+    assert np.isnan(tab.predicted)  # nobody predicts it
     tab.hang(True)
     assert frames(tab, 0.4)[1][0] > 2.0
-    tab.tune(420.0)
-    assert "over the limit" in tab.page.say.call_args.args[0]
-    tab.tune(400.0)
+    tab.press("0.1 rad off")
+    tab.choose("with an integral (PID)")
+    assert frames(tab, 2.0)[1][0] < 0.2
+
+
+def test_the_tab_says_where_the_loop_breaks_and_that_it_chatters(tab):
+    assert tab.stiffest == pytest.approx(224, abs=1)
+    tab.tune(200)
     assert tab.page.say.call_args.args[0] == ""
+    tab.tune(290)
+    assert "every 4 ms breaks at 224 rad/s" in tab.page.say.call_args.args[0]
+    tab.press("0.1 rad off")
+    frames(tab, 1.0)
+    assert "It CHATTERS: joint" in tab.clock.content
+
+
+def test_the_tab_pushes_away_with_a_wrong_sign():
+    negative = {"pd_torque": lambda *args: -lab.pd_torque(*args)}
+    tab = tab_of({**vars(lab), **negative})
+    tab.choose("springs")
+    tab.press("0.1 rad off")
+    assert frames(tab, 0.4)[1][0] > 300
+    assert "pd_torque by" in tab.own.says()[0]

@@ -47,6 +47,13 @@ pinv = np.linalg.pinv
 
 
 @row.wrong
+def damping_summed(J, wrench, bias, damping, qd, tau_null):
+    """damping @ qd adds seven products up, and every joint gets the sum; each joint has
+    its own => the right one with damping @ qd"""
+    return J.T @ wrench + bias + damping @ qd + tau_null
+
+
+@row.wrong
 def bias_twice(J, wrench, bias, damping, qd, tau_null):
     """bias is added twice => the right one with 2 bias"""
     return J.T @ wrench + 2.0 * bias + damping * qd + tau_null

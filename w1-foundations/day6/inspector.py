@@ -1,35 +1,31 @@
 """Day 6 in the inspector: the tab Touch.
 
-The arm stands where the hand is wanted. A blue one beside it is simulated as it is held
-there by a spring: drag the handle to pull at its hand, pull at its elbow, put a table
-under it. All of it is the library's, `robo47.task_space`; the tab says so.
+The student's own impedance holds the hand where the handle was: drag the handle to pull
+at it, pull at its elbow, let it press on the table. The arm is simulated; the torques
+are the student's, 100 a second.
 """
 
-from functools import cache
+from functools import cache, partial
 
 import mujoco
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.instruments import three
 from labkit.inspector.page import Page
+from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
-from robo47 import (
-    contact,
-    control,
-    jacobian,
-    kinematics,
-    panda,
-    scenes,
-    simulate,
-    task_space,
-)
+from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
 
-RATE, HZ = 100.0, 50.0  # of the controller, and of the picture
-TURN, BACK = 30.0, 4.0  # Nm/rad of the hand; Nm s/rad of the elbow
+RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
+TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
+HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 PULL = 100.0  # N per metre that the handle is away
+PRESS = 20.0  # N, on the table
+MOST = 60.0  # N, where the bar of the table's force ends
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
-AGAIN, LET_GO, READY = "start / stop", "let go", "to the table"
+AGAIN, LET_GO, READY = "start / stop", "let go", "press the table"
 
 
 @cache
@@ -37,32 +33,37 @@ def _scene() -> mujoco.MjModel:
     return scenes.press_table()
 
 
+dressed = partial(scenes.press_table, meshes=True)
+
+
 class Touch(Tab):
     """Pull at a soft hand, and see how it gives way."""
 
     title = "Touch"
     wide = True
+    camera = ((1.75, -1.3, 0.95), (0.5, 0.25, 0.42))
 
     def __init__(self, page: Page) -> None:
-        """Make the sliders, the handle and the blue arm; nothing runs yet."""
+        """Make the sliders, the handle and the arm at its table; nothing runs yet."""
         super().__init__(page)
         self.robot, self.arm = _scene(), panda.arm(_scene())
         self.force, self.at_elbow, self.k, self.hold = np.zeros(3), 0.0, 400.0, 10.0
         self.goal_q = page.q[:7].copy()
         self.data = simulate.start(self.robot, self.goal_q)
-        page.html(words.line("The blue arm is held by robo47.task_space.", "library"))
-        page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
-        page.slider("elbow held", 0, 40, self.hold, self.set_hold, unit="Nm/rad")
-        page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
+        self.own = page.own(task_space)
         page.buttons([AGAIN, LET_GO, READY], self.press)
+        page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
+        unit = "N m/rad"
+        page.slider("elbow held", 0, 40, self.hold, self.set_hold, unit=unit, step=1)
+        page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
         self.numbers = page.html()
-        self.bars = page.bars(["table"], 60.0, "N", "contact force")
-        self.loop = page.animate(self.step, HZ)
-        self.ghost = page.draw.ghost("blue")
+        self.bars = page.bars(["table"], MOST, "N", "how hard the tip presses", "scale")
+        self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
+        self.drawn = Robot(page, self.robot, dressed)
         self.mass = page.draw.ellipsoid("purple")
-        self.arrow = page.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.008)
+        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
         self.target = page.draw.target(page.pose("ee"), self.drag)
-        page.light("ee", {"ee"})
+        page.legend({"your pull": "red", "how heavy the hand is": "purple"})
         self.show()
 
     def set_k(self, k: float) -> None:
@@ -77,19 +78,23 @@ class Touch(Tab):
     def set_elbow(self, force: float) -> None:
         """Push at link4, along y."""
         self.at_elbow = force
+        self.run()
 
     def drag(self, T: Array) -> None:
         """Pull at the hand, towards the handle."""
         self.force = PULL * (T[:3, 3] - self.arm.at(self.goal_q).T_world_ee[:3, 3])
+        self.run()
         self.show()
 
+    def run(self) -> None:
+        """Start, unless it runs already."""
+        if not self.loop.running:
+            self.loop.start()
+
     def press(self, name: str) -> None:
-        """Start, stop, let go, or stand over the table with 50 mm to go below it."""
+        """Start, stop, let go, or press on the table from just above it."""
         if name == AGAIN:
-            if self.loop.running:
-                self.loop.stop()
-            else:
-                self.loop.start()
+            (self.loop.stop if self.loop.running else self.loop.start)()
             return
         self.force = np.zeros(3)
         if name == READY:
@@ -97,39 +102,42 @@ class Touch(Tab):
             q[:7] = self.goal_q = _over_the_table()
             self.page.move(q)
             self.data = simulate.start(self.robot, self.goal_q)
-            self.force[2] = -20.0
+            self.force[2] = -PRESS
         self.target.place(self.arm.at(self.goal_q).T_world_ee)
+        self.run()
         self.show()
 
     def on_move(self, q: Array) -> None:
-        """Take the arm's configuration as the wanted one."""
+        """Take the page's configuration as the wanted one."""
         self.goal_q = q[:7].copy()
         if not self.loop.running:
             self.data = simulate.start(self.robot, self.goal_q)
         self.show()
 
     def step(self, seconds: float) -> None:
-        """Go on for one picture."""
-        law = self.law()
-        simulate.run(self.robot, self.data, law, 1.0 / HZ, rate=RATE, push=self.push)
-        self.show()
+        """Simulate one picture's time; it waits for the student's torques."""
+        simulate.run(
+            self.robot, self.data, self.law(), 1.0 / HZ, rate=RATE, push=self.push
+        )
 
     def law(self) -> simulate.Controller:
-        """Return the library's soft hand, with the chosen stiffness."""
+        """Return the student's soft hand, with the chosen stiffness."""
         T_goal = self.arm.at(self.goal_q).T_world_ee
-        K = np.array([TURN] * 3 + [self.k] * 3)
+        K, own = np.array([TURN] * 3 + [self.k] * 3), self.own
 
         def torque(t: float, q: Array, qd: Array) -> Array:
             now = self.arm.at(q)
-            J = now.J_site
-            Lambda = task_space.task_inertia(J, now.M)
-            D = task_space.critical_damping(K, Lambda)
+            J, M = now.J_site, now.M
+            Lambda = own.task_inertia(J, M)
             e = contact.pose_error(now.T_world_ee, T_goal)
-            F = task_space.spring_wrench(e, -J @ qd, np.diag(K), D)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
-            idle = task_space.null_torque(J, now.M, Lambda, back)
+            D, idle = own.many(
+                ("critical_damping", K, Lambda), ("null_torque", J, M, Lambda, back)
+            )
+            F = own.spring_wrench(e, -J @ qd, np.diag(K), D)
             bias, rub = now.bias(qd), self.arm.damping
-            return task_space.impedance_torque(J, F, bias, rub, qd, idle)
+            wanted = own.impedance_torque(J, F, bias, rub, qd, idle)
+            return np.clip(wanted, -HUGE, HUGE)
 
         return torque
 
@@ -142,28 +150,27 @@ class Touch(Tab):
         mujoco.mj_applyFT(model, data, F, none, point, link4, data.qfrc_applied)
 
     def show(self) -> None:
-        """Draw the blue arm, its mass and the pull, and say what was predicted."""
+        """Draw the arm, its mass and the pull, and say what was predicted."""
         q = self.data.qpos[:7].copy()
         now, goal = self.arm.at(q), self.arm.at(self.goal_q).T_world_ee[:3, 3]
         hand = now.T_world_ee[:3, 3]
-        poses = kinematics.fk_all(self.robot, q)
-        self.ghost.pose({
-            name.removeprefix("body:"): T
-            for name, T in poses.items()
-            if name.startswith("body:link")
-        })  # fmt: skip
+        self.drawn.show(self.data.qpos)
         mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
         self.mass.show(mass, hand, LONG)
-        end = hand + np.where(self.force, self.force, 1e-4) / PULL
-        self.arrow.points = np.array([[hand, end]], dtype=np.float32)
+        pulled = bool(self.force.any())
+        self.arrow.visible = pulled
+        if pulled:
+            ends = [[hand, hand + self.force / PULL]]
+            self.arrow.points = np.array(ends, dtype=np.float32)
         felt = scenes.contact_force(self.robot, self.data, "tip", "table_top")
         self.bars.show([felt])
         predicted, moved = 1000 * self.force / self.k, 1000 * (hand - goal)
         kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
         self.numbers.content = words.line(
-            f"pull ({_three(self.force)}) N; in the air F / k = ({_three(predicted)}) "
-            f"mm, moved ({_three(moved)}) mm. The hand weighs {kilograms} kg along "
-            f"x, y, z. The table feels {felt:.1f} N.",
+            f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
+            f"F / k = ({_three(predicted)}) mm, moved ({_three(moved)}) mm. The hand "
+            f"weighs {kilograms} kg along x, y, z. The table feels "
+            f"{three(felt, MOST)} N.",
             "touch",
         )
 

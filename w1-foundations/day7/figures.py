@@ -1,22 +1,22 @@
 """The pictures of Day 7, made with the lab's own functions; drawn by `make figures`.
 
 profiles   s, speed, acceleration and jerk of four ways to go from 0 to 1
+grip       a cube between two pads, with their friction cones
 pick       the arm over the table, and the way of the cube as a line
 letters    the arm that has written 47 in the air, and what it wrote
 """
 
-import io
 from collections.abc import Callable
 from itertools import pairwise
 
 import day7_trajectory
-import matplotlib
 import numpy as np
 from day7_trajectory import A_MAX, GOAL_Q, READY_Q, V_MAX, profiles, quintic_duration
-from matplotlib.figure import Figure  # not pyplot, which may look for a display
+from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import client, portrait
+from labkit.figures import chart, client, portrait
+from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
 from labkit.figures.overlay import HALO, Layer
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import capstone, scenes, se3
@@ -24,45 +24,74 @@ from robo47.checks import Array
 
 from . import letters
 
-COLOURS = {
-    "constant speed": "#868e96",
-    "trapezoid": "#e8590c",
-    "cubic": "#1c64f2",
-    "quintic": "#2f9e44",
+LOOKS = {
+    "constant speed": (GREY, "-"),
+    "trapezoid": (ORANGE, "--"),
+    "cubic": (BLUE, "-."),
+    "quintic": (GREEN, "-"),
 }
 ROWS = (
     ("s", (-0.05, 1.05)),
     ("speed, 1/s", (-0.1, 2.0)),
-    ("acceleration, 1/s²", (-8.0, 8.0)),
+    ("acc., 1/s²", (-8.0, 8.0)),
     ("jerk, 1/s³", (-90.0, 90.0)),
 )
 SAMPLES = 2000  # times at which the curves are drawn
 SIZE = (1200, 900)
 WAY = (224, 49, 49)
-WOOD, ORANGE = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
+WOOD, PAINT = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
 
 
-def profile_sheet() -> Image.Image:
-    """Return s, speed, acceleration and jerk over time, one below the other."""
-    T = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX)
-    figure = Figure(figsize=(12, 12), dpi=100, layout="constrained")
-    with matplotlib.rc_context({"font.size": 17, "axes.linewidth": 1.2}):
-        axes = figure.subplots(4, 1, sharex=True)
-        for name, (scaling, seconds) in profiles(T).items():
-            if name in COLOURS:
-                curves = _sampled(scaling, seconds, T)
-                for ax, curve in zip(axes, curves[1:], strict=True):
-                    ax.plot(curves[0], curve, color=COLOURS[name], lw=3, label=name)
-        for ax, (label, limits) in zip(axes, ROWS, strict=True):
-            ax.set_ylabel(label)
-            ax.set_ylim(*limits)
-            ax.grid(color="#dee2e6")
-            ax.set_axisbelow(True)
-        axes[3].text(0.5 * T, 62.0, "jumps of the acceleration leave the sheet",
-                     ha="center", color="#495057")  # fmt: skip
-        axes[0].legend(loc="upper left", frameon=False)
-        axes[3].set_xlabel("seconds")
-    return _to_image(figure)
+@chart.picture(height=9.5)
+def profile_sheet(figure: Figure) -> None:
+    """Draw s, speed, acceleration and jerk over time, one below the other."""
+    T, axes = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX), figure.subplots(4, 1)
+    for name, (scaling, seconds) in profiles(T).items():
+        if name in LOOKS:
+            colour, style = LOOKS[name]
+            curves = _sampled(scaling, seconds, T)
+            for ax, curve in zip(axes, curves[1:], strict=True):
+                ax.plot(curves[0], curve, style, color=colour, label=name)
+    for ax, (label, limits) in zip(axes, ROWS, strict=True):
+        ax.set(ylabel=label, ylim=limits, xticks=[])
+        ax.grid()
+    axes[3].text(0.5 * T, 58.0, "jumps of the acceleration leave the sheet",
+                 ha="center", fontsize=chart.SMALL)  # fmt: skip
+    figure.legend(
+        *axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2
+    )
+    axes[3].set(xlabel="time, s", xticks=np.arange(0.0, 1.1, 0.2))
+
+
+@chart.picture(height=5.6)
+def grip(figure: Figure) -> None:
+    """Draw a cube between two pads, and each force of the pads with its limit."""
+    axes = figure.subplots()
+    axes.fill([-1, 1, 1, -1], [-1, -1, 1, 1], facecolor="#f2dfc4", edgecolor=INK, lw=2)
+    for side in (-1, 1):
+        pad = np.array([[1.0, -0.5], [1.3, -0.5], [1.3, 0.5], [1.0, 0.5]]) * [side, 1]
+        axes.fill(*pad.T, color=GREY)
+        tip = np.array([side, 0.0])  # the force acts here, inwards and up
+        reach = np.array([-side * 0.85, 0.85])
+        axes.fill(
+            *np.array([tip, tip + reach, tip + reach * [1, -1]]).T,
+            color=BLUE,
+            alpha=0.15,
+        )
+        for y in (1, -1):
+            axes.plot(
+                *np.array([tip, tip + reach * [1, y]]).T, "--", color=BLUE, lw=1.5
+            )
+        chart.arrow(axes, (2.4 * side, 0), (1.3 * side, 0), INK, 3.0)
+        chart.arrow(axes, tip, (side, 0.85), GREEN, 3.5)
+        axes.text(2.45 * side, 0.25, "grip $N$", ha="center")
+    chart.arrow(axes, (0, -1.0), (0, -2.0), RED, 3.5)
+    axes.text(0.15, -1.7, r"$m (g + a)$", color=RED)
+    axes.text(1.45, 0.85, r"at most $\mu N$", color=GREEN)
+    axes.text(-1.45, 0.85, r"at most $\mu N$", color=GREEN, ha="right")
+    axes.text(0, 1.25, "cones for $\\mu = 1$", color=BLUE, ha="center")
+    axes.set(xlim=(-3.4, 3.4), ylim=(-2.2, 1.7))
+    chart.blank(axes)
 
 
 def pick() -> Image.Image:
@@ -117,13 +146,12 @@ def _table() -> Box:
 
 def _cube(pose: Array, opacity: float = 1.0) -> Box:
     T = se3.make_T(se3.quat_to_R(pose[3:]), pose[:3])
-    return Box(T, (scenes.CUBE_HALF,) * 3, (*ORANGE[:3], opacity))
+    return Box(T, (scenes.CUBE_HALF,) * 3, (*PAINT[:3], opacity))
 
 
-def _to_image(figure: Figure) -> Image.Image:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png")
-    return Image.open(buffer).convert("RGB")
-
-
-FIGURES = {"profiles": profile_sheet, "pick": pick, "letters": forty_seven}
+FIGURES = {
+    "profiles": profile_sheet,
+    "grip": grip,
+    "pick": pick,
+    "letters": forty_seven,
+}

@@ -1,27 +1,32 @@
-"""Day 7 in the inspector: the tab Plan.
+"""Day 7 in the inspector: the tabs Plan and Pick.
 
-A blue arm goes along a trajectory from where the arm stands to the lab's goal; the bars
-are its joint speeds against their limits. "Pick it" plays the capstone, cube and all.
-All of it is the library's, `robo47.trajectory`; the tab says so.
+Plan: the student's own trajectory from where the arm stands to the lab's goal, its
+joint speeds against their limits. Pick: the capstone at its table, by the student's
+own functions of today, or of all days.
 """
 
-import threading
+from functools import cache, partial
+from types import SimpleNamespace
 
+import mujoco
 import numpy as np
 
 from labkit.inspector import words
 from labkit.inspector.page import Page
+from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
-from robo47 import capstone, kinematics, panda, scenes, simulate, trajectory
+from labkit.inspector.week import week
+from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
 from robo47.checks import Array
 
 GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the lab's
 JOINTS = [f"joint{i}" for i in range(1, 8)]
 QUINTIC, TRAPEZOID = "quintic", "trapezoid"
-PLAY, PICK = "play / stop", "pick it"
-ORANGE = (242, 140, 38)
-ARM, CUBE = slice(0, 7), slice(9, 16)  # in the capstone's qpos
+PLAY, PICK, STOP = "play / stop", "pick it", "stop"
+ARM = slice(0, 7)
+COUNT = 60  # instants that the student's functions are asked for
+TODAY, ALL = "of today", "of all days"
 
 
 class Plan(Tab):
@@ -31,38 +36,36 @@ class Plan(Tab):
     wide = True
 
     def __init__(self, page: Page) -> None:
-        """Make the sliders, the bars and the blue arm; nothing moves yet."""
+        """Make the sliders, the bars and the moving arm; nothing moves yet."""
         super().__init__(page)
         self.kind, self.hurry, self.share = QUINTIC, 1.0, 0.0
-        self.done: Result | None = None
-        self.began: float | None = None
-        self.arm = panda.arm(page.model)
-        page.html(words.line("The blue arm is moved by robo47.trajectory.", "library"))
+        self.arm, self.T = panda.arm(page.model), 1.0
+        self.q = self.qd = np.zeros((COUNT, 7))
+        self.own = page.own(trajectory)
         page.choice("time scaling", [QUINTIC, TRAPEZOID], self.choose)
         page.slider("of the limits", 0.1, 1.5, 1.0, self.set_hurry, unit="")
-        self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="of T")
-        page.buttons([PLAY, PICK], self.press)
+        self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
+        page.buttons([PLAY], self.press)
         self.numbers = page.html()
-        limits = simulate.SPEED_LIMITS
-        self.bars = page.bars(JOINTS, limits, "rad/s", "joint speeds and limits")
+        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
+        self.bars = page.bars(JOINTS, limits, "rad/s", title)
+        curves = [*JOINTS, "limit"]
+        self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
         self.loop = page.animate(self.play)
-        self.picking = page.animate(self.replay)
         self.ghost = page.draw.ghost("blue")
-        self.way = page.draw.curve(self._way(page.q), "purple", 4.0)
-        edge = 2.0 * scenes.CUBE_HALF
-        self.cube = page.scene.add_box(
-            page.draw.path(), color=ORANGE, dimensions=(edge, edge, edge), visible=False
-        )
+        self.way = page.draw.curve(np.zeros((COUNT, 3)), "purple", 4.0)
+        page.light("ee", {"ee"})
+        page.legend({"goes along your trajectory": "blue", "its hand's way": "purple"})
 
     def choose(self, kind: str) -> None:
         """Take another time scaling."""
         self.kind = kind
-        self.show()
+        self.on_move(self.page.q)
 
     def set_hurry(self, hurry: float) -> None:
         """Choose the share of the limits that is used up; over 1 breaks them."""
         self.hurry = hurry
-        self.show()
+        self.on_move(self.page.q)
 
     def go(self, share: float) -> None:
         """Show the arm when a share of the time is over."""
@@ -70,64 +73,34 @@ class Plan(Tab):
         self.show()
 
     def press(self, name: str) -> None:
-        """Play the move, stop it, or have the cube picked."""
-        running = self.loop.running or self.picking.running
-        self.loop.stop()
-        self.picking.stop()
-        if name == PICK:
-            self.page.say("computing the capstone, a second or two", "")
-            if self.done is None:
-                threading.Thread(target=self._compute, daemon=True).start()
-            self.began = None
-            self.picking.start()
-        elif not running:
-            self.loop.start()
-
-    def _compute(self) -> None:
-        self.done = capstone.pick(capstone.library())
+        """Play the move, or stop it."""
+        (self.loop.stop if self.loop.running else self.loop.start)()
 
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
-        self.share = min(seconds / self.duration(), 1.0)
-        self.slider.set(self.share)
+        self.share = min(seconds / self.T, 1.0)
+        self.slider.value = self.share
         self.show()
         return self.share < 1.0
 
-    def replay(self, seconds: float) -> bool:
-        """Show the capstone as soon as it is computed; return whether there is more."""
-        if self.done is None:
-            return True
-        self.began = seconds if self.began is None else self.began
-        now = seconds - self.began
-        i = min(int(np.searchsorted(self.done.t, now)), len(self.done.t) - 1)
-        phase = [name for name, t in self.done.phases if t <= now][-1]
-        before = self.done.qpos[max(i - 1, 0), ARM]
-        speed = (self.done.qpos[i, ARM] - before) * capstone.RATE
-        self._draw(self.done.qpos[i, ARM], speed)
-        pose = self.done.qpos[i, CUBE]
-        self.cube.position, self.cube.wxyz = tuple(pose[:3]), tuple(pose[3:])
-        self.cube.visible = True
-        self.numbers.content = words.line(f"{phase}, {now:.1f} s", "plan")
-        if i < len(self.done.t) - 1:
-            return True
-        self.page.say(f"placed {self.done.place_mm:.1f} mm from its goal", "good")
-        return False
-
     def on_move(self, q: Array) -> None:
-        """Start from where the arm is now."""
-        ends = self._way(q)
-        self.way.points = np.stack([ends[:-1], ends[1:]], axis=1).astype(np.float32)
-        if not self.picking.running:
-            self.show()
+        """Ask for the way from where the arm is now."""
+        self.page.job(lambda: self.plan(q[ARM]), self.planned)
 
-    def duration(self) -> float:
-        """Return the time of the whole move, seconds."""
-        dq = GOAL_Q - self.page.q[ARM]
+    def plan(self, q0: Array) -> tuple[float, Array, Array]:
+        """Return the student's time T, and q and qd, (COUNT, 7), on the way."""
+        dq, s = GOAL_Q - q0, np.linspace(0.0, 1.0, COUNT)
         v, a = self.hurry * simulate.SPEED_LIMITS, self.hurry * simulate.ACC_LIMITS
         if self.kind == QUINTIC:
-            return max(float(trajectory.quintic_duration(dq, v, a)), 1e-3)
+            T = max(float(self.own.quintic_duration(dq, v, a)), 1e-3)
+            calls = [("joint_move", q0, GOAL_Q, float(t), T) for t in s * T]
+            moves = np.array(self.own.many(*calls))
+            return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
-        return 1.0 / top + ramp
+        T = 1.0 / top + ramp
+        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in s * T]
+        part = np.array(self.own.many(*calls))
+        return T, q0 + dq * part[:, :1], dq * part[:, 1:2]
 
     def _top(self, dq: Array) -> tuple[float, float]:
         """Return the trapezoid's top speed of s and how long its ramp takes."""
@@ -137,39 +110,124 @@ class Plan(Tab):
         top = min(v, float(np.sqrt(a)))
         return top, top / a
 
+    def planned(self, found: tuple[float, Array, Array]) -> None:
+        """Show the whole way."""
+        self.T, self.q, self.qd = found
+        p = np.array([self.arm.at(q).T_world_ee[:3, 3] for q in self.q])
+        self.way.points = np.stack([p[:-1], p[1:]], axis=1).astype(np.float32)
+        parts = np.abs(self.qd) / simulate.SPEED_LIMITS
+        times = np.linspace(0.0, self.T, COUNT)
+        self.plot.show(times, [*parts.T, np.ones(COUNT)])
+        self.show()
+
+    def lost(self) -> None:
+        """Show no way."""
+        self.loop.stop()
+        self.ghost.pose({})
+        self.bars.clear()
+        self.plot.clear()
+        self.numbers.content = ""
+
     def at(self, share: float) -> tuple[Array, Array]:
         """Return q and qd, (7,) each, when a share of the time is over."""
-        q0 = self.page.q[ARM]
-        T = self.duration()
-        if self.kind == QUINTIC:
-            q, qd, _ = trajectory.joint_move(q0, GOAL_Q, share * T, T)
-            return q, qd
-        top, ramp = self._top(GOAL_Q - q0)
-        s, sd, _ = trajectory.trapezoid(share * T, 1.0, top, top / ramp)
-        return q0 + (GOAL_Q - q0) * s, (GOAL_Q - q0) * sd
+        i = round(share * (COUNT - 1))
+        return self.q[i], self.qd[i]
 
     def show(self) -> None:
         """Show the blue arm and its speeds at the chosen moment."""
         q, qd = self.at(self.share)
-        self._draw(q, qd)
-        T = self.duration()
-        share = float((np.abs(qd) / simulate.SPEED_LIMITS).max())
-        text = f"t = {self.share * T:.3f} of {T:.3f} s; {share:.0%} of a speed limit"
-        self.numbers.content = words.line(text, "plan")
-
-    def _draw(self, q: Array, qd: Array) -> None:
-        full = self.page.q.copy()
-        full[ARM] = q
-        poses = kinematics.fk_all(self.page.model, full)
-        bodies = [name for name in poses if name.startswith("body:")]
-        self.ghost.pose({name.removeprefix("body:"): poses[name] for name in bodies})
+        self.ghost.pose(self.page.links(q))
         self.bars.show(qd)
+        most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
+        t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
+        says = f"{t}; at most {most:.0%} of a speed limit"
+        kind = "bad" if most > 1 + 1e-6 else ""
+        self.numbers.content = words.line(says, "plan", kind)
 
-    def _way(self, q: Array) -> Array:
-        """Return where the end goes, (n, 3): an arc, for joints that go straight."""
-        s = np.linspace(0.0, 1.0, 40)[:, None]
-        poses = [self.arm.at(x).T_world_ee for x in q[ARM] + (GOAL_Q - q[ARM]) * s]
-        return np.array(poses)[:, :3, 3]
+
+@cache
+def _scene() -> mujoco.MjModel:
+    return scenes.table_top(capstone.CUBE_XY, capstone.YAW)
 
 
-TABS = [Plan]
+dressed = partial(scenes.table_top, capstone.CUBE_XY, capstone.YAW, meshes=True)
+
+
+class Pick(Tab):
+    """The capstone, at its table."""
+
+    title = "Pick"
+    wide = True
+    camera = ((1.75, -1.15, 0.95), (0.55, 0.25, 0.35))
+
+    def __init__(self, page: Page) -> None:
+        """Stand at the table; nothing moves yet."""
+        super().__init__(page)
+        self.own, self.whose, self.begun = page.own(trajectory), TODAY, 0.0
+        self.done: Result | None = None
+        page.choice("your functions", [TODAY, ALL], self.choose)
+        page.buttons([PICK, STOP], self.press)
+        self.clock = page.html()
+        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
+        self.bars = page.bars(JOINTS, limits, "rad/s", title)
+        self.loop = page.animate(self.replay)
+        self.robot = Robot(page, _scene(), dressed)
+        goal = [*capstone.GOAL_XY, scenes.TABLE_HEIGHT]
+        half = scenes.CUBE_HALF
+        corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]) * half
+        ring = np.column_stack([corners + goal[:2], np.full(5, goal[2] + 1e-3)])
+        page.draw.curve(ring, "blue", 4.0)
+        page.legend({"the cube": "orange", "where it is to stand": "blue"})
+        self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
+
+    def choose(self, whose: str) -> None:
+        """Take today's functions from the student, or those of all days."""
+        self.whose = whose
+
+    def press(self, name: str) -> None:
+        """Have the cube picked, or stop."""
+        self.loop.stop()
+        if name == PICK:
+            says = "the simulation runs: some seconds, of all days up to a minute"
+            self.clock.content = words.line(says, "clock", "quiet")
+            self.page.say("")
+            self.page.job(self.pick, self.picked)
+
+    def pick(self) -> tuple[Result, str]:
+        """Return what the student's functions do, and whose; it waits for them."""
+        fns = vars(capstone.library())
+        if self.whose == TODAY:
+            own = {name: getattr(self.own, name) for name in capstone.USES[7]}
+            return capstone.pick(SimpleNamespace(**{**fns, **own})), ""
+        with week(fns) as mine:
+            done = capstone.pick(mine)
+            return done, f"; YOUR {mine.yours} of {mine.total} functions at work"
+
+    def lost(self) -> None:
+        """Nothing was picked."""
+        self.clock.content = ""
+
+    def picked(self, found: tuple[Result, str]) -> None:
+        """Replay it."""
+        self.done, self.mine = found
+        self.loop.start()
+
+    def replay(self, seconds: float) -> bool:
+        """Show the capstone in real time; return whether there is more."""
+        done = self.done
+        assert done is not None
+        i = min(int(np.searchsorted(done.t, seconds)), len(done.t) - 1)
+        phase = [name for name, t in done.phases if t <= seconds][-1]
+        before = done.qpos[max(i - 1, 0), ARM]
+        self.bars.show((done.qpos[i, ARM] - before) * capstone.RATE)
+        self.robot.show(done.qpos[i])
+        says = f"t = {seconds:.1f} of {done.seconds:.1f} s: {phase}"
+        self.clock.content = words.line(says, "clock")
+        if i < len(done.t) - 1:
+            return True
+        kind = "bad" if done.failed else "good"
+        self.page.say(f"placed {done.place_mm:.1f} mm from its goal{self.mine}", kind)
+        return False
+
+
+TABS = [Plan, Pick]

@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-import time
 from unittest.mock import MagicMock
 
 import numpy as np
@@ -13,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
-from conftest import ROOT, load_script, need
+from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
@@ -95,7 +94,7 @@ def test_step_1s_two_mistakes():
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
     assert says("with 6 and 10 swapped s still ends at 1, but at a speed of 8 / T")
-    assert says("sd is 1.3230 in place of 0.6615. Without the clip s is 1.2207")
+    assert says("sd is 1.3230 instead of 0.6615. Without the clip s is 1.2207")
     assert says("by 22 % of the way")
 
 
@@ -254,20 +253,22 @@ def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
 # --- the inspector's tab, without a browser ---
 
 
-def _plan():
+def tab_of(name, functions, monkeypatch):
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = folder.load(DAY, "inspector")
-    page = MagicMock(model=panda.load("panda"), q=np.append(panda.READY_Q, [0.0, 0.0]))
-    page.animate.side_effect = lambda step: MagicMock(running=False, step=step)
-    return inspector, page, inspector.Plan(page)
+    monkeypatch.setattr(inspector, "Robot", MagicMock())
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return inspector, getattr(inspector, name)(page)
 
 
-def test_the_tab_plans_the_labs_move_with_the_labs_numbers():
-    inspector, _, tab = _plan()
+def test_the_tab_plans_the_labs_move_with_ones_own_functions(monkeypatch):
+    inspector, tab = tab_of("Plan", vars(lab), monkeypatch)
     assert_same(inspector.GOAL_Q, lab.GOAL_Q)
+    tab.on_move(panda.READY_Q)
     tab.go(0.5)
-    assert "0.497 of 0.995 s; 100% of a speed limit" in tab.numbers.content
+    assert "0.50 of 0.995 s; at most 100% of a speed limit" in tab.numbers.content
+    assert tab.own.says()[1] == "good"
     tab.choose(inspector.TRAPEZOID)
     assert "of 0.803 s" in tab.numbers.content
     tab.set_hurry(1.5)
@@ -278,17 +279,24 @@ def test_the_tab_plans_the_labs_move_with_the_labs_numbers():
     assert tab.play(10.0) is False
 
 
-def test_the_tab_plays_the_capstone():
-    inspector, page, tab = _plan()
+def test_the_tab_shows_what_a_wrong_duration_does(monkeypatch):
+    half = {"quintic_duration": lambda *args: lab.quintic_duration(*args) / 2}
+    _, tab = tab_of("Plan", {**vars(lab), **half}, monkeypatch)
+    tab.on_move(panda.READY_Q)
+    assert "200% of a speed limit" in tab.numbers.content
+    assert "quintic_duration by" in tab.own.says()[0]
+
+
+def test_the_tab_plays_the_capstone_with_ones_own_functions(monkeypatch):
+    inspector, tab = tab_of("Pick", vars(lab), monkeypatch)
     tab.press(inspector.PICK)
+    assert tab.own.says()[1] == "good"
+    assert "joint_move" in tab.own.says()[0]
     assert tab.replay(0.0)
-    for _ in range(600):  # until the thread is ready
-        if tab.done is not None:
-            break
-        time.sleep(0.1)
-    assert tab.replay(1.0)
-    assert "reach, 0.0 s" in tab.numbers.content
-    assert tab.replay(4.0)
-    assert "carry" in tab.numbers.content or "lift" in tab.numbers.content
+    assert "reach" in tab.clock.content
+    assert tab.replay(2.6)
+    assert "carry" in tab.clock.content or "lift" in tab.clock.content, (
+        tab.clock.content
+    )
     assert tab.replay(20.0) is False
-    assert "placed 0.9 mm from its goal" in page.say.call_args.args[0]
+    assert "placed 0.9 mm from its goal" in tab.page.say.call_args.args[0]

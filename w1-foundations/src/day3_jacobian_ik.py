@@ -104,8 +104,8 @@ def solve_ik(
 ) -> np.ndarray:
     """Return joint angles, (7,), within limits, (7, 2), that bring the hand to T_goal.
 
-    At most 60 steps (60 updates of q) from q_start, with damping^2 = e.e / 2 + 1e-6. A
-    start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
+    From q_start on, with damping^2 = e.e / 2 + 1e-6; 60 steps (updates of q) will do.
+    A start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
     whose error was the shortest.
     """
     # region 3.6
@@ -135,9 +135,9 @@ def joint_torques(J_space: np.ndarray, p: np.ndarray, F: np.ndarray) -> np.ndarr
 
 
 def manipulability(J: np.ndarray) -> float:
-    """Return the volume of the box that J makes of six unit speeds: 0 where it is flat.
+    """Return the product of J's singular values, which is 0 where J is singular.
 
-    It is the product of the singular values. With 1, 2, 3, 1, 1, 1 on J's diagonal: 6.
+    With 1, 2, 3, 1, 1, 1 on the diagonal of J it is 6. Never NaN.
     """
     # region 3.8
     return np.linalg.svd(J, compute_uv=False).prod()
@@ -227,9 +227,9 @@ def main() -> int:
 
     lab.step("2. How far is it to the goal? A rotation vector and a translation")
     off = verify.off_log(log_rotation, TRIALS)
-    lab.check(f"log_rotation of {TRIALS} known turns, also near 0 and at pi", off)
+    lab.check(f"log_rotation of {TRIALS} turns, also near 0 and at pi", off)
     off = verify.off_goal(pose_error, T[:-1], T[1:])
-    lab.check("turned and moved by the error, the hand is at the goal", off)
+    lab.check("moved by the error, the hand is at the goal", off)
 
     lab.step("3. Steps, damped and unfelt, and the torques that a push costs")
     off = verify.off_least_squares(dls_step, J_mujoco[:12])  # singular at q = 0
@@ -238,14 +238,13 @@ def main() -> int:
     tau = verify.each(joint_torques, J_space, T[:, :3, 3], F)
     lab.check("joint_torques - MuJoCo's", tau - verify.mujoco_push(model, q, F))
     tau = joint_torques(J_space[1], T[1, :3, 3], DOWN)
-    lab.show("Pushing down with 10 N at ready costs the motors, N m", tau, 3)
     lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
     off = verify.off_null_vector(null_step, J_mujoco[1:])
     lab.check("null_step - the part along the null vector", off)
     off = verify.off_volume(manipulability, J_mujoco)
     lab.check("manipulability squared - det(J J^T)", off)
     flat, u = manipulability(J_mujoco[0]), np.linalg.svd(J_mujoco[0])[0][:, -1]
-    lab.show(f"At q = 0 it is {flat:.4f}; no motor feels the wrench", np.abs(u), 3)
+    lab.show(f"At q = 0 it is {abs(flat):.4f}; no motor feels the wrench", np.abs(u), 3)
 
     lab.step("4. Inverse kinematics")
     off = solve_ik(*arm, T[1], READY_Q, limits) - READY_Q

@@ -18,13 +18,12 @@ READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 DRIVE = "torque"  # motors, in N m; "servo" would take the same numbers for angles
 INTEGRATOR = "mjINT_IMPLICITFAST"  # the model's; with mjINT_EULER nothing changes here
 RATE = 250.0  # Hz; 500 fits the curve better, 100 misses it, 50: the springs buzz
-OMEGA = 20.0  # rad/s; 5 tracks 7 times worse, above 224 RATE is too slow: it breaks
+OMEGA = 20.0  # rad/s; 5 tracks 7 times worse; far above, RATE is too slow: it breaks
 KP, KD = 100.0, 20.0  # N m/rad, N m s/rad of the plain springs; kp 1000 sags a tenth
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s; well above 2 OMEGA^3 the loop swings up
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of the tracking run
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])  # rad, the first error
 TRIALS, SEED = 100, 47  # random states of step 1: how many, the same at every run
-raised_cosine = references.raised_cosine(READY_Q, REACH)  # a swing in 2 s, and back
 Gain = float | np.ndarray  # one number for all joints, or (7,)
 
 
@@ -142,6 +141,11 @@ def servo_ctrl(
     # endregion 5.9
 
 
+def raised_cosine(t: float) -> tuple:
+    """Return q, qd and qdd of a swing by REACH in a second, and back in the next."""
+    return references.raised_cosine(READY_Q, REACH)(t)
+
+
 def springs(arm, q, qd, ref):
     """Give the torque of plain springs: no model at all."""
     return pd_torque(ref[0] - q, ref[1] - qd, KP, KD)
@@ -194,15 +198,15 @@ def run(model, arm, law, reference, seconds: float, start=READY_Q, rate=RATE):
     return simulate.run(model, simulate.start(model, start), loop, seconds, rate=rate)
 
 
-def ladder(lab: Lab, model, arm) -> None:
+def ladder(lab: Lab, model, arm, swing) -> None:
     """Follow a swing of all joints with one controller after the other."""
-    logs = {"the model file's servos": loops.by_servos(raised_cosine, 2.0)}
+    logs = {"the model file's servos": loops.by_servos(swing, 2.0)}
     laws = {"springs": springs, "springs and gravity": springs_and_gravity,
             "feedforward, no springs": feedforward, "gains outside M": gains_outside,
             "computed torque": equal_springs()}  # fmt: skip
-    logs |= {k: run(model, arm, law, raised_cosine, 2.0) for k, law in laws.items()}
+    logs |= {k: run(model, arm, law, swing, 2.0) for k, law in laws.items()}
     for name, log in logs.items():
-        error = loops.tracking(log, raised_cosine)
+        error = loops.tracking(log, swing)
         print(f"  {name:24} {error.max():8.2f} mrad")
     lab.record("tracking", error.max(axis=1), label="computed torque, mrad")
 
@@ -211,6 +215,7 @@ def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
     model, goal = loops.motors(DRIVE, INTEGRATOR), references.hold(READY_Q)
+    swing = references.raised_cosine(READY_Q, REACH)  # out and back in 2 s
     arm = panda.arm(model)  # Day 4's M, bias and gravity torque, of the library
     print(panda.describe("panda_nohand"))
 
@@ -242,7 +247,7 @@ def main() -> int:
     print(f"  gains outside M miss their curve by {np.abs(off).max():.3f} of e0")
 
     lab.step("4. Six controllers follow a swing of all joints, largest error")
-    ladder(lab, model, arm)  # the more the model does, the less is left to the springs
+    ladder(lab, model, arm, swing)  # the more the model does, the less do springs
 
     lab.step("5. 1 kg nobody told the model about")
     heavy = loops.motors(DRIVE, INTEGRATOR, scenes.hang_kilogram)
@@ -261,7 +266,7 @@ def main() -> int:
         start = READY_Q - 1e-8 * E0
         loops.compare_breaking(lab, model, equal_springs, stiffest_omega, RATE, start)
         lab.check("a servo's torque as asked, N m", loops.servo_torque(servo_ctrl))
-        off = loops.through_servos(equal_springs(), servo_ctrl, raised_cosine)
+        off = loops.through_servos(equal_springs(), servo_ctrl, swing)
         print(f"  and yet computed torque through servos is {off:.1f} mrad off. Why?")
     return lab.finish()
 

@@ -30,7 +30,7 @@ RADIUS, TURN = 0.12, 2.0  # m; s for a turn
 
 
 def task_inertia(J: np.ndarray, M: np.ndarray) -> np.ndarray:
-    """Return Lambda, (6, 6): the mass and inertia that one feels at the hand.
+    """Return Lambda, (6, 6): the mass and inertia that you feel at the hand.
 
     With J the identity and M = 2 I it is 2 I.
     """
@@ -74,8 +74,8 @@ def null_torque(
 ) -> np.ndarray:
     """Return the part of tau, (7,), that does not accelerate the hand.
 
-    What is taken away from tau is a push at the hand. If J only takes the first six of
-    seven joints, and M and Lambda are the identity, of seven ones the last is left.
+    What is subtracted from tau is a push at the hand. If J takes only the first six of
+    seven joints, and M and Lambda are identities, seven ones become six 0 and one 1.
     """
     # region 6.4
     return tau - J.T @ Lambda @ J @ np.linalg.solve(M, tau)
@@ -108,8 +108,8 @@ def set_point_for_force(force: float, k: float, surface: float) -> float:
 def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     """Return D, (6, 6), with which a spring K, (6,), does not ring.
 
-    It is made of the square roots of Lambda and of K, two matrices. With every K = 4
-    and Lambda the identity it is 4 I.
+    It is made of the matrix square roots of Lambda and of K's diagonal matrix. With
+    every K = 4 and Lambda the identity it is 4 I.
     """
     # region 6.6
     values, vectors = np.linalg.eigh(Lambda)
@@ -125,7 +125,7 @@ def impedance_torque(
 ) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand pushes with a wrench.
 
-    At rest, with wrench and tau_null 0, they are bias. damping is that of the joints.
+    At rest, with wrench and tau_null 0, they are bias. damping, (7,), is the joints'.
     """
     # region 6.7
     return J.T @ wrench + bias + damping * qd + tau_null
@@ -135,7 +135,7 @@ def impedance_torque(
 def hybrid_wrench(
     e: np.ndarray, V_err: np.ndarray, K: np.ndarray, D: np.ndarray, force: float
 ) -> np.ndarray:
-    """Return a wrench, (6,): a spring but along z, where it pushes down with a force.
+    """Return a wrench, (6,): a spring, but along z a force that pushes down.
 
     The first four as in `spring_wrench`; with e and V_err 0: (0, 0, 0, 0, 0, -force).
     The damper stays in all six rows; along z there is nothing of K.
@@ -183,6 +183,8 @@ def press(lab: Lab, at: list[hand.State]) -> None:
     stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
     for name, felt in (("soft", soft), ("stiff", stiff)):
         print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
+    lab.measured("force of the soft arm, told to go 50 mm into a table, N", soft[-1])
+    lab.measured("force of the stiff arm, the model file's servos, N", stiff[-1])
     lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
 
 
@@ -245,6 +247,7 @@ def main() -> int:
     lab.show("pushed with 10 N and 1 N m; predicted, rad and m", PUSH / K)
     moved = hand.rest_after(model, soft_hand(arm, READY_Q), PUSH, RATE)
     lab.show("where the hand came to rest", moved)
+    lab.measured("way of a hand on 400 N/m, pushed with 10 N, mm", 1e3 * moved[3])
     lab.record("push_predicted", moved - PUSH / K, label="largest difference")
 
     lab.step("5. Pressing on a table, with a force that was chosen")

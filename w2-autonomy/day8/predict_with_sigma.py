@@ -42,66 +42,35 @@ def with_sigma(change):
 
 
 for slug, says, redone, change in (
-    (
-        "n-for-n-rank",
-        "the noise is divided by n; the fit took rank of the n, so n - rank are left",
-        "sigma with n",
-        lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / n),
-    ),
-    (
-        "n-less-one",
-        "the noise is divided by n - 1, as for a mean; the fit took rank of the n",
-        "sigma with n - 1",
-        lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / (n - 1)),
-    ),
-    (
-        "columns-for-rank",
-        "the noise is divided by n - p; the fit only used rank of the p columns",
-        "sigma with n - p",
-        lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / (n - p)),
-    ),
-    (
-        "noise-added",
-        "the noise of a new measurement is added; sigma is that of the prediction",
-        "the root of sigma^2 + noise^2",
-        lambda sigma, noise, n, rank, p: np.hypot(sigma, noise),
-    ),
-    (
-        "variance",
-        "this is the variance; sigma is its root",
-        "sigma squared",
-        lambda sigma, noise, n, rank, p: sigma**2,
-    ),
-    (
-        "noise-left-out",
-        "the noise is missing: this is how much a fit amplifies it",
-        "sigma over the noise",
-        lambda sigma, noise, n, rank, p: sigma / noise,
-    ),
-    (
-        "noise-for-sigma",
-        "this is the noise for every row; a motion that was never shown is less sure",
-        "the noise",
-        lambda sigma, noise, n, rank, p: noise + 0 * sigma,
-    ),
-    (
-        "two-sigma",
-        "this is 1.96 sigma, half the 95 % band; asked for is sigma",
-        "1.96 sigma",
-        lambda sigma, noise, n, rank, p: 1.96 * sigma,
-    ),
-):
+    ("n-for-n-rank", "the noise is divided by n; the fit took rank of the n, so "
+     "n - rank are left", "sigma with n",
+     lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / n)),
+    ("columns-for-rank", "the noise is divided by n - p; the fit only used rank of the "
+     "p columns", "sigma with n - p",
+     lambda sigma, noise, n, rank, p: sigma * np.sqrt((n - rank) / (n - p))),
+    ("noise-added", "the noise of a new measurement is added; sigma is that of the "
+     "prediction", "the root of sigma^2 + noise^2",
+     lambda sigma, noise, n, rank, p: np.hypot(sigma, noise)),
+    ("variance", "this is the variance; sigma is its root", "sigma squared",
+     lambda sigma, noise, n, rank, p: sigma**2),
+    ("noise-left-out", "the noise is missing: this is how much a fit amplifies it",
+     "sigma over the noise", lambda sigma, noise, n, rank, p: sigma / noise),
+    ("noise-for-sigma", "this is the noise for every row; a motion that was never "
+     "shown is less sure", "the noise",
+     lambda sigma, noise, n, rank, p: noise + 0 * sigma),
+):  # fmt: skip
     row.wrong(slug, says, redone)(with_sigma(change))
 
 
 @row.wrong
-def times_s(Y, tau, Y_new, rtol):
-    """the rows are multiplied by the singular values; a small one makes a prediction
-    unsure, so they are divided by => sigma with times s"""
+def sigma_not_cut(Y, tau, Y_new, rtol):
+    """the fit leaves small singular values out, sigma does not, as by Y^T Y inverted =>
+    the right torque, sigma with nothing cut"""
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     _, s, Vt = parts(Y, rtol)
-    rows = np.linalg.norm(Y_new @ Vt.T / s, axis=1)
-    return torque, sigma / rows * np.linalg.norm(Y_new @ Vt.T * s, axis=1)
+    _, every, along = np.linalg.svd(Y, full_matrices=False)
+    noise = sigma / np.linalg.norm(Y_new @ Vt.T / s, axis=1)
+    return torque, noise * np.linalg.norm(Y_new @ along.T / every, axis=1)
 
 
 @row.wrong

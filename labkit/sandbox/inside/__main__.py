@@ -1,7 +1,8 @@
 """Run the student's functions on what the checker asks, and send back plain numbers.
 
 Started by `labkit.sandbox.process` with an interpreter that has no site-packages. The
-arguments are the wall's name and the folder where NumPy is. Standard input brings one
+arguments are the wall's name, the folder where NumPy is, and what else of it student
+code may import. Standard input brings one
 line with the request, then one line per question; one line per answer goes out on what
 was standard output, each behind the request's secret. What student code prints goes
 elsewhere.
@@ -21,7 +22,7 @@ PYTHON = [path for path in sys.path if path]  # the standard library
 
 def main() -> None:
     """Answer until standard input ends."""
-    wall, libraries = sys.argv[1:]
+    wall, libraries, *extras = sys.argv[1:]
     asked, channel = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     sys.path[:] = [HERE, *PYTHON, libraries]
     import limits
@@ -49,14 +50,15 @@ def main() -> None:
         channel.write(line.encode("ascii"))
         channel.flush()
 
-    readable = [*PYTHON, *_numpy_folders()]
+    folders = [os.path.join(libraries, extra) for extra in extras]
+    readable = [*PYTHON, *_numpy_folders(), *folders]
     watch = audit.Guard(readable)
     makers = [_maker(fake_model, wire, data) for data in request["models"]]
     entries = [data["entry"] for data in request["models"]]
     named = dict(zip(entries, makers, strict=True))
     fake = fakes.Fakes(watch.refuse, named, request["facts"])
     beside = {name: base64.b64decode(code) for name, code in request["beside"].items()}
-    imports.Finder(request["library"], beside, fake).install()
+    imports.Finder(request["library"], beside, fake, libraries, extras).install()
     for name in os.listdir(HERE):  # a student may want these names for their own
         if not name.startswith("__"):
             sys.modules.pop(name.removesuffix(".py"), None)

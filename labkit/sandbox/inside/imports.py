@@ -14,14 +14,24 @@ from typing import Any
 class Finder:
     """Finds and loads modules from texts, and makes the fakes."""
 
-    def __init__(self, library: dict[str, str], beside: dict[str, bytes], fakes: Any):
+    def __init__(
+        self,
+        library: dict[str, str],
+        beside: dict[str, bytes],
+        fakes: Any,
+        libraries: str = "",
+        extras: list[str] | None = None,
+    ):
         """Take what there is.
 
         Args:
             library: source by dotted name, {"robo47.se3": "..."}.
             beside: source of the student's other files, {"helpers": b"..."}.
             fakes: see `fakes.Fakes`.
+            libraries: the folder where NumPy is.
+            extras: packages in it that may be imported too.
         """
+        self._libraries, self._extras = libraries, extras or []
         self._sources = {
             **{name: (text.encode(), f"<{name}>") for name, text in library.items()},
             **{
@@ -43,6 +53,8 @@ class Finder:
             return ModuleSpec(name, self, origin=self._sources[name][1])  # type: ignore
         if name in self._fakes.known or name.startswith("mujoco."):
             return ModuleSpec(name, self, is_package=True)  # type: ignore
+        if name in self._extras:
+            return PathFinder.find_spec(name, [self._libraries])
         return None
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:

@@ -17,6 +17,7 @@ from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 ENTRY, FRAMES = "panda_nohand", 40
 REACH_Q = np.array(
@@ -46,6 +47,9 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     ghost = day_tabs(day).ghost
     qs = there_and_back(panda.READY_Q, REACH_Q, FRAMES)
     said: dict[bytes, Difference] = {}
+    alone = f"MuJoCo's arm; {shown(script)} is not there" if ghost else ""
+    if ghost is None:
+        alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
     if ghost is not None and script.is_file():
         said = _differences(arm, ghost, day, script, qs)
 
@@ -54,7 +58,7 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
 
     def caption_of(q: Array) -> Caption:
         if not said:
-            return "", None
+            return alone, None
         apart = said[q.tobytes()]
         return apart.sentence.rstrip("."), apart.good
 

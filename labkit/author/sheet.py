@@ -1,0 +1,44 @@
+"""A worksheet's skeleton: what a day's manifest says that it asks for."""
+
+from labkit.lesson.day import Day
+
+HEAD = """\
+# Day {number} worksheet
+
+Write below each heading; what is in *(italics)* is yours to replace. `make check
+DAY={number}` looks at what you have so far.
+"""
+PREDICTIONS = """\
+## Predictions
+
+Write the first column before you run anything, the others after it. If your prediction
+was right, say why it could be.
+
+| number | predicted | measured | why apart |
+|---|---|---|---|
+"""
+PREDICTION = "| {} | *(your prediction)* | *(your number)* | *(your reason)* |\n"
+
+
+def worksheet_of(day: Day) -> str:
+    """Return an empty worksheet: its terms, drawings, numbers, questions, checklist."""
+    parts = [HEAD.format(number=day.number), "## Glossary\n"]
+    parts += [f"### {term}\n\n*(your words)*\n" for term in day.terms]
+    parts += ["## Drawings\n"] * (day.drawings > 0)
+    drawn = "### Drawing {}: what it shows\n\n*(your drawing)*\n"
+    parts += [drawn.format(i + 1) for i in range(day.drawings)]
+    checks = dict.fromkeys(metric.check for metric in day.metrics)
+    parts.append(PREDICTIONS + "".join(map(PREDICTION.format, checks)))
+    parts.append("## Can you explain?\n")
+    asked = "{}. What do you want to ask?\n\n   *(your answer)*\n"
+    parts += [asked.format(i + 1) for i in range(day.questions)]
+    boxes = [f"All tasks of `make check DAY={day.number}` pass", *_handed_in(day)]
+    lines = "".join(f"- [ ] {box}\n" for box in [*boxes, "I committed all of it"])
+    return "\n".join([*parts, f"## Checklist\n\n{lines}"])
+
+
+def _handed_in(day: Day) -> list[str]:
+    """Return what the checklist says of the picture and of the log."""
+    found = [f"My picture is `{day.files['figure']}`"] if day.figure else []
+    log = "`metrics/metrics.csv` has my rows for the day"
+    return [*found, "The words above are mine", *([log] if day.metrics else [])]

@@ -1,0 +1,97 @@
+"""The files of a new day, and of a new week: they pass their own tests as they are."""
+
+import re
+from pathlib import Path
+from string import Template
+
+from labkit.author.sheet import worksheet_of
+from labkit.lesson.day import day_numbers, load_day
+from labkit.lesson.week import weeks
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+TEMPLATES = Path(__file__).parent / "templates"
+OF_A_WEEK = {"week.toml": "week.toml", "README.md": "README.md"}
+COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
+LAST_DAY = 47
+
+
+def new_day(number: int, week: str, name: str, root: Path = ROOT) -> list[Path]:
+    """Write a day's skeleton, and its week's where that is new; return the files.
+
+    Args:
+        number: of the day.
+        week: its week's folder, "w2-autonomy", or the number of one that is there.
+        name: of its script, "identification" for src/dayN_identification.py.
+        root: the clone.
+
+    Raises:
+        Robo47Error: the day is there, or a number or a name cannot be one.
+    """
+    if not 1 <= number <= LAST_DAY or number in day_numbers(root):
+        why = "is there already" if number in day_numbers(root) else "cannot be"
+        raise Robo47Error(f"day {number} {why}; expected a new one, 1 to {LAST_DAY}")
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+        raise Robo47Error(f"{name!r} is no name of a script; expected one like my_day")
+    known = {str(one.number): one.folder.name for one in weeks(root)}
+    folder = root / known.get(week, week)
+    values = {"number": str(number), "name": name, "script": f"day{number}_{name}"}
+    values |= {"title": name.replace("_", " ").capitalize(), "week": folder.name}
+    begun = [] if folder.name in known.values() else _new_week(folder, values, root)
+    files = {
+        f"day{number}/day.toml": "day.toml",
+        f"day{number}/reach.py": "function.py",
+        f"day{number}/test_day{number}.py": "test.py",
+        f"src/{values['script']}.py": "lab.py",
+        f"docs/day{number}-lab.md": "guide.md",
+    }
+    written = [_write(folder / to, of, values) for to, of in files.items()]
+    sheet = folder / "docs" / f"day{number}.md"
+    sheet.write_text(worksheet_of(load_day(written[0])), "utf-8", newline="\n")
+    if not begun:
+        _list(folder / "week.toml", number)
+    return [*begun, *written, sheet]
+
+
+def _new_week(folder: Path, values: dict[str, str], root: Path) -> list[Path]:
+    """Write a week's own files."""
+    parts = re.fullmatch(r"w(\d+)-([a-z0-9-]+)", folder.name)
+    if not parts:
+        raise Robo47Error(
+            f"{folder.name} is no folder of a week; expected one like w2-autonomy"
+        )
+    if any(one.number == int(parts[1]) for one in weeks(root)):
+        raise Robo47Error(f"week {parts[1]} is there already, in another folder")
+    other = weeks(root)[-1]
+    values |= {"weeknumber": parts[1], "weekname": parts[2]}
+    values |= {"other": other.folder.name, "otherweek": str(other.number)}
+    files = [_write(folder / to, of, values) for to, of in OF_A_WEEK.items()]
+    for name in COPIED:
+        files.append(folder / name.format(parts[1]))
+        files[-1].parent.mkdir(parents=True, exist_ok=True)
+        text = (other.folder / name.format(other.number)).read_text("utf-8")
+        text = text.replace(f"# Week {other.number}:", f"# Week {parts[1]}:")
+        files[-1].write_text(text, "utf-8", newline="\n")
+    return files
+
+
+def _write(path: Path, template: str, values: dict[str, str]) -> Path:
+    """Write a file from its template."""
+    if path.exists():
+        raise Robo47Error(f"{shown(path)} is there already and stays as it is")
+    text = (TEMPLATES / f"{template}.txt").read_text("utf-8")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(Template(text).substitute(values), "utf-8", newline="\n")
+    return path
+
+
+def _list(manifest: Path, number: int) -> None:
+    """Add a day to its week's, and take it from what is announced."""
+    text = manifest.read_text("utf-8")
+    days = re.search(r"^days = \[(.*?)\]", text, re.MULTILINE | re.DOTALL)
+    if not days:
+        raise Robo47Error(f"{shown(manifest)} has no line like: days = [8, 9]")
+    numbers = sorted({*map(int, re.findall(r"\d+", days[1])), number})
+    text = text.replace(days[0], f"days = {numbers}")
+    text = re.sub(rf"\n *\{{ *number = {number}\b.*?\}},?", "", text)
+    manifest.write_text(text, "utf-8", newline="\n")

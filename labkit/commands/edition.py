@@ -1,0 +1,142 @@
+"""Write the kit for students: no solutions to read, no catalogues, no history.
+
+    python3 scripts/edition.py ../robo47-students      (make edition OUT=...)
+
+A repository of its own, one commit a version: run it again after a change, and the
+students' `make update` brings it over. The labs' answers are sealed: they run, so
+`make day1` verifies them, and nobody reads them by chance. EDITION.md in it says what
+the library still shows.
+"""
+
+import re
+import shutil
+from pathlib import Path
+
+from labkit import log
+from labkit.base import cli
+from labkit.lesson.day import all_days
+from labkit.lesson.sealed import seal
+from labkit.lesson.starter import read_script
+from labkit.update.merge import NOBODY, ask
+from robo47 import __version__
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+NOTE = "EDITION.md"
+LEFT_OUT = re.compile(
+    r"\.ci/|\.github/|bench/|site/|tests/|conftest\.py|CONTRIBUTING\.md"
+    r"|docs/|w[^/]*/(work|notebooks)/|w[^/]*/day\d+/(submissions/|test_)"
+)
+COMMANDS: tuple[str, ...] = (
+    "test",
+    "soak",
+    "lint",
+    "docs",
+    "site",
+    "oracle",
+    "bench",
+    "test-matrix",
+)
+COMMANDS += ("grade", "edition")
+NOT_HERE = re.compile(rf"make ({'|'.join(COMMANDS)})\b")
+SECTIONS = ("How fast", "Where things are")  # of README: about what is left out
+ABOUT = """# Student edition of robo47 {version}
+
+The whole course, its checker and its library, without what gives answers away: the
+labs' solutions are sealed in `src/` (they run, and `make day1` shows that they are
+right); catalogues of mistakes, notebooks, the kit's tests and its history are left out.
+
+What is still here, honestly: the library `robo47/` holds most of the functions that the
+labs ask for, under their names, since later days are built on it; the files of a day
+(`w*/day*/`) hold mistakes and right answers, since the checker judges by them; and a
+seal is no lock. A copied function teaches nothing, and your teacher's page shows who
+handed in the kit's own.
+"""
+
+
+def main() -> int:
+    """Write the edition and commit it."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("out", type=Path, help="a folder outside the clone")
+    out = parser.parse_args().out.resolve()
+    empty(out)
+    for name in ask("ls-files", "-z").split("\0"):
+        if name and not LEFT_OUT.match(name) and (ROOT / name).is_file():
+            target = out / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, target)
+    for day in all_days():
+        target = out / day.source.relative_to(ROOT)
+        target.write_text(seal(read_script(day.source), day.number), "utf-8")
+        if day.figure:
+            (out / day.files["figure"]).unlink(missing_ok=True)
+    header = ",".join(log.COLUMNS) + "\n"
+    (out / "metrics" / "metrics.csv").write_text(header, "utf-8")
+    (out / NOTE).write_text(ABOUT.format(version=__version__), "utf-8")
+    shorten(out)
+    commit(out)
+    print(f"wrote {shown(out)}: push it where students clone it from; {NOTE} says what")
+    print("is left out. After a change of the kit: the same command, and push again.")
+    return cli.EXIT_OK
+
+
+def empty(out: Path) -> None:
+    """Make room: a new folder, or an older edition, whose history stays.
+
+    Raises:
+        Robo47Error: something else is there, or it is in the clone.
+    """
+    if out.is_relative_to(ROOT):
+        raise Robo47Error(f"{shown(out)} is inside the kit; expected a place beside it")
+    if not out.exists() or not any(out.iterdir()):
+        return
+    if not (out / NOTE).is_file() or not (out / ".git").is_dir():
+        raise Robo47Error(f"{shown(out)} is there and is no edition; choose another")
+    if ask("status", "--porcelain", "--untracked-files=no", at=out):
+        raise Robo47Error(f"{shown(out)} has changes; commit or take them back first")
+    for name in ask("ls-files", "-z", at=out).split("\0"):
+        (out / name).unlink(missing_ok=True) if name else None
+
+
+def shorten(out: Path) -> None:
+    """Take from Makefile and README what is about things that are left out."""
+    makefile = out / "Makefile"
+    blocks = makefile.read_text("utf-8").split("\n\n")
+    gone = re.compile(rf"({'|'.join(COMMANDS)}|site/\S+|\.venv-bench/\S+):")
+    makefile.write_text("\n\n".join(b for b in blocks if not gone.match(b)), "utf-8")
+    readme = out / "README.md"
+    text = readme.read_text("utf-8")
+    for name in SECTIONS:
+        until = r"\n.*?(?=\n## |\nThe robot is)"
+        text = re.sub(rf"\n## {name}{until}", "", text, flags=re.S)
+    note = f"\nWhat is left out: [{NOTE}]({NOTE}).\n"
+    text = re.sub(r"\nTeaching with it.*", note, text, flags=re.S)
+    text = text.replace(" The kit's own tests: `make test`.", "")
+    lines = [line for line in text.splitlines() if not NOT_HERE.search(line)]
+    readme.write_text("\n".join(lines) + "\n", "utf-8")
+    for page in out.rglob("*.md"):
+        unlink_missing(page)
+
+
+def unlink_missing(page: Path) -> None:
+    """Make text of a page's links that lead to what is left out."""
+
+    def kept(link: re.Match[str]) -> str:
+        target = link[2].partition("#")[0]
+        there = not target or ":" in target or (page.parent / target).exists()
+        return link[0] if there else link[1]
+
+    text = page.read_text("utf-8")
+    found = re.sub(r"(?<!!)\[([^\]\n]*(?:\n[^\]\n]*)?)\]\(([^)\s]+)\)", kept, text)
+    if found != text:
+        page.write_text(found, "utf-8")
+
+
+def commit(out: Path) -> None:
+    """Commit the edition, with nothing of the kit's history."""
+    if not (out / ".git").exists():
+        ask("init", "-q", "-b", "main", at=out)
+    ask("add", "-A", at=out)
+    if ask("status", "--porcelain", at=out):
+        message = f"robo47 {__version__}, student edition"
+        ask(*NOBODY, "commit", "-q", "--no-verify", "-m", message, at=out)

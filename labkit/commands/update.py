@@ -1,0 +1,108 @@
+"""Bring your clone to the kit's newest version; all that is yours stays.
+
+    python3 scripts/update.py                          (make update)
+    python3 scripts/update.py --from https://...       (make update FROM=...)
+    python3 scripts/update.py --to v0.3.0              (make update TO=v0.3.0)
+
+Your work is committed first, rows and worksheets are merged line by line, and your
+labs get what is new around your functions, helpers and constants; a copy of each as
+it was stays beside it. Without a network, or interrupted, nothing has changed.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from labkit.base import cli
+from labkit.commands.start import free_name
+from labkit.update import merge
+from labkit.update.merge import ask
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
+
+CHANGES = 24  # lines of the changelog to print
+
+
+def main() -> int:
+    """Update, and say what is new."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--from", dest="place", metavar="URL", help="where the kit is")
+    parser.add_argument("--to", metavar="TAG", help="default: the newest commit")
+    options = parser.parse_args()
+    if not (ROOT / ".git").exists():
+        raise Robo47Error("this folder is no git repository; clone the kit instead")
+    with cli.busy("fetching"):
+        source = merge.fetch(options.place, options.to)
+    merge.save_own()
+    own = ask("rev-parse", "HEAD")
+    with cli.busy("merging"), merge.beside(own) as worktree:
+        taken = merge.merge(worktree, source.commit)
+        found = renew_labs(worktree, own, source.commit)
+        if ask("status", "--porcelain", at=worktree):
+            ask("add", "-A", at=worktree)
+            merge.commit("My labs on the newer kit", worktree)
+        copies = keep_copies(found["days"])
+        try:
+            merge.take(worktree, source)
+        except Robo47Error:
+            for copy in copies:
+                copy.unlink()
+            raise
+    tell(found, copies, taken, own)
+    return cli.EXIT_OK
+
+
+def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
+    """Return what the newer kit's own code did with the labs.
+
+    Raises:
+        Robo47Error: it could not.
+    """
+    command = [sys.executable, "-m", "labkit.update.labs", own, target]
+    environment = {**os.environ, "PYTHONPATH": str(worktree), "PYTHONUTF8": "1"}
+    done = subprocess.run(
+        command, cwd=worktree, env=environment, capture_output=True, encoding="utf-8"
+    )
+    if done.returncode:
+        why = done.stderr.strip().splitlines()[-1:] or ["it ended early"]
+        raise Robo47Error(f"the newer kit stops: {why[0]}. {merge.UNCHANGED}")
+    found: dict[str, Any] = json.loads(done.stdout)
+    return found
+
+
+def keep_copies(days: list[dict[str, Any]]) -> list[Path]:
+    """Keep each lab that changes as it was; return where."""
+    copies = []
+    for day in days:
+        if day.get("changed"):
+            work = ROOT / Path(day["lab"]).with_name(day["was"])
+            copies.append(free_name(work, "update"))
+            copies[-1].write_bytes(work.read_bytes())
+    return copies
+
+
+def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:
+    """Say what is new and what to run again."""
+    now, files = ask("describe", "--tags", "--always"), ask("diff", "--name-only", own)
+    if not files:
+        print("This is the kit's newest version; nothing has changed.")
+        return
+    print(f"The kit is at {now} now; your work is as it was.")
+    for line in found["changes"][:CHANGES]:
+        print(f"  {line}")
+    if len(found["changes"]) > CHANGES:
+        print("  ... (CHANGELOG.md has it all)")
+    for name in taken:
+        print(f"{name} is the kit's now; as you had it: git show {own[:7]}:{name}")
+    for day in found["days"]:
+        print(f"\nDay {day['day']}:")
+        for line in day["news"]:
+            print(cli.wrapped(f"  {line}", "    "))
+        if "changed" in day:
+            what = "check" if not day["changed"] else "run"
+            print(f"  Once more: make {what} DAY={day['day']}")
+    for copy in copies:
+        print(f"your lab as it was: {shown(copy)}")

@@ -1,0 +1,8 @@
+"""`make update`: a clone on the kit's newest commit, with all that is the student's.
+
+    merge    the commits, in a worktree of their own
+    labs     the student's labs, by the newer kit's own code
+    news     what is new in a day, and what to run again
+
+Nothing of the clone changes before all of it is done, and then in one step of git's.
+"""

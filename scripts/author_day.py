@@ -1,0 +1,3 @@
+import kit
+
+kit.run("author")  # labkit/commands/author.py

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("new")  # labkit/commands/new.py

@@ -1,0 +1,141 @@
+"""A new day's skeleton passes; what is wrong with a day is told with its line."""
+
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT, environment_of
+from labkit.author.sheet import worksheet_of
+from labkit.handin.worksheet import split_sections
+from labkit.lesson.day import all_days, find_day
+
+pytestmark = pytest.mark.kit
+NEW, AUTHOR = "scripts/new_day.py", "scripts/author_day.py"
+WEEK = "w9-trial"
+
+
+def run_in(kit, *command):
+    return subprocess.run(
+        [sys.executable, *command],
+        cwd=kit,
+        env=environment_of(kit),
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=300,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Return a copy of the kit with a new day 46, in a week of its own."""
+    kit = tmp_path_factory.mktemp("author") / "kit"
+    skipped = shutil.ignore_patterns(".*", "_site", "*node_modules", "work")
+    shutil.copytree(ROOT, kit, ignore=skipped)
+    done = run_in(kit, NEW, "46", WEEK, "trial")
+    assert done.returncode == 0, done.stderr
+    return kit
+
+
+@pytest.fixture
+def kit(made):
+    """Return that copy, put back afterwards."""
+    before = made.parent / "before"
+    readme = (made / "README.md").read_text()
+    shutil.copytree(made / WEEK, before)
+    yield made
+    shutil.rmtree(made / WEEK)
+    before.rename(made / WEEK)
+    (made / "README.md").write_text(readme)
+
+
+def test_a_new_day_is_all_as_it_must_be(kit):
+    assert run_in(kit, "scripts/make_notebook.py", "--day", "46").returncode == 0
+    done = run_in(kit, AUTHOR, "46")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.count("PASS") == 7
+    assert (
+        "| [46: Trial](w9-trial/docs/day46-lab.md) |" in (kit / "README.md").read_text()
+    )
+
+
+def test_its_starter_is_to_do_and_its_lab_passes(kit):
+    assert run_in(kit, "scripts/run_day.py", "46", "--kit", "--no-log").returncode == 0
+    assert run_in(kit, "scripts/start_day.py", "46").returncode == 0
+    told = run_in(kit, "scripts/check_day.py", "46").stdout
+    assert "46.1  reach               to do" in told
+
+
+def test_nothing_is_written_over(kit):
+    done = run_in(kit, NEW, "46", WEEK, "trial")
+    assert (done.returncode, "day 46 is there already" in done.stderr) == (2, True)
+    done = run_in(kit, NEW, "45", "w1-other", "trial")
+    assert "week 1 is there already, in another folder" in done.stderr
+    done = run_in(kit, NEW, "45", "perception", "trial")
+    assert "expected one like w2-autonomy" in done.stderr
+
+
+def test_a_second_day_of_a_week_is_listed_and_no_longer_announced(kit):
+    manifest = kit / WEEK / "week.toml"
+    soon = 'soon = [\n    { number = 47, title = "The end" },\n]\n'
+    manifest.write_text(manifest.read_text() + soon)
+    done = run_in(kit, "scripts/build_docs.py", "--day", "46")
+    readme = kit / WEEK / "README.md"
+    assert "| 47: The end | | not written yet | |" in readme.read_text(), done.stderr
+    assert run_in(kit, NEW, "47", "9", "end").returncode == 0
+    assert "days = [46, 47]" in manifest.read_text()
+    assert "The end" not in manifest.read_text()
+    assert "[47: End](docs/day47-lab.md)" in readme.read_text()
+
+
+FUNCTION, LAB = f"{WEEK}/day46/reach.py", f"{WEEK}/src/day46_trial.py"
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "says"),
+    [
+        (FUNCTION, "end.imag])", "end.imag.nothing])", "reach.py, line 12)"),
+        (FUNCTION, "[end.real, end.imag]", "[end.real]", "shape (1,), and its kind is"),
+        (FUNCTION, "truth=ends", "thruth=ends", "a Row has no thruth"),
+        (FUNCTION, "def sine_first(q1", "def sine_first(q1 q2", "(reach.py, line 36)"),
+        (FUNCTION, "yield 0.0, np.pi", "yield np.pi", "takes 4: q1, q2, a, b"),
+        (FUNCTION, "(q1, q2))\n", "(q1, q1 + q2))\n", "angle-of-its-own"),
+        (LAB, "# region 46.1", "# region 46.2", "endregion 46.1 closes region 46.2"),
+        (LAB, "def reach(", "def reached(", "no region 46.1 in reach"),
+        (f"{WEEK}/docs/day46-lab.md", "### Step 1: w", "### Step 1: W", "no heading"),
+        (
+            f"{WEEK}/docs/day46-lab.md",
+            "(0.913 m",
+            "(0.9 m",
+            "test_day46.py:18: in test_the_guides",
+        ),
+        (f"{WEEK}/docs/day46.md", "### planar arm", "### arm", "section 'planar arm'"),
+        (f"{WEEK}/day46/day.toml", 'id = "46.1"', 'id = "45.1"', "id 45.1 is not one"),
+        (f"{WEEK}/week.toml", "days", "day", "w9-trial/week.toml: "),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_file_and_no_traceback(
+    kit, file, old, new, says
+):
+    path = kit / file
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    done = run_in(kit, AUTHOR, "46")
+    told = " ".join((done.stdout + done.stderr).split())
+    assert done.returncode in (1, 2)
+    assert says in told
+    assert f"{WEEK}/" in told
+    assert "Traceback" not in told
+    assert "git checkout" not in told
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")
+def test_the_worksheets_skeleton_has_what_the_manifest_asks_for(day):
+    sections = split_sections(worksheet_of(day))
+    assert {term.lower() for term in day.terms} <= set(sections)
+    assert sum(name.startswith("drawing ") for name in sections) == day.drawings
+    assert worksheet_of(find_day(day.number)).count("*(your answer)*") == day.questions

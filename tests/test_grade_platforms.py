@@ -1,0 +1,101 @@
+"""A class's grades as Canvas and Moodle ask for them, read back as they read them."""
+
+import csv
+import io
+import re
+
+import pytest
+
+from conftest import ROOT
+from labkit.grade.platforms import PLATFORMS, as_csv, known
+from labkit.grade.result import UNGRADED
+from labkit.grade.roster import find_students
+from labkit.grade.week import Standing, Week
+from labkit.lesson.day import find_day
+from robo47.errors import Robo47Error
+
+pytestmark = pytest.mark.kit
+
+CANVAS, MOODLE = PLATFORMS["canvas"], PLATFORMS["moodle"]
+HOSTILE = '=HYPERLINK("http://x")', "+1", "@a", "a;b", "a\tb", '"', "Ünal, Ay\u202eşe"
+HEAD = "Student,ID,SIS User ID,SIS Login ID,Section,Email address,ID number,folder"
+
+
+def class_of(tmp_path, head=HEAD):
+    """Return ten students, seven with names that try something; s9 is not graded."""
+    lines, names = io.StringIO(), [*HOSTILE, "Mia", "Tom", "Zoe"]
+    table = csv.writer(lines)
+    table.writerow(head.split(","))
+    for i, name in enumerate(names):
+        row = [name, 100 + i, f"u{i}", f"login{i}", "A", f"s{i}@x.org", f"0{i}"]
+        table.writerow([*row, f"s{i}"])
+    (tmp_path / "roster.csv").write_text(lines.getvalue(), "utf-8-sig")
+    week = Week(find_students(tmp_path), [find_day(1), find_day(2)])
+    for i, student in enumerate(week.students):
+        for day in (1, 2):
+            state = UNGRADED if (i, day) == (9, 2) else "done"
+            one = Standing(min(i, 8), 8, 0, 6, state, "")
+            week.standings[day, student.folder] = one
+    return week
+
+
+def read(content):
+    return list(csv.reader(io.StringIO(content.decode("utf-8-sig")), strict=True))
+
+
+def test_canvas_finds_its_header_its_points_and_everybody(tmp_path):
+    week = class_of(tmp_path)
+    known(CANVAS, week.students)
+    head, points, *rows = read(as_csv(CANVAS, week, "Lab {day} (471{day})"))
+    # What its importer asks of a header: row_has_student_headers?, update_column_count.
+    assert "Student" in head[0]
+    assert "ID" in head[1]
+    assert re.search(r"SIS\s+Login\s+ID", head[2])
+    assert "Section" in head[3]
+    assert head[4:] == ["Lab 1 (4711)", "Lab 2 (4712)"]  # the title and Canvas' own id
+    assert "Points Possible" in points[0]
+    assert points[4:] == ["100", "100"]
+    assert [row[1:4] for row in rows] == [
+        [str(100 + i), f"login{i}", "A"] for i in range(9)
+    ]
+    assert [row[4] for row in rows] == [f"{12.5 * min(i, 8):.1f}" for i in range(9)]
+
+
+def test_moodle_finds_everybody_by_number_or_email(tmp_path):
+    head, *rows = read(as_csv(MOODLE, class_of(tmp_path), "Day {day}"))
+    assert head == ["ID number", "Email address", "Day 1", "Day 2"]
+    assert [row[:2] for row in rows] == [[f"0{i}", f"s{i}@x.org"] for i in range(9)]
+
+
+@pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS)
+def test_no_cell_is_a_formula_or_splits_a_row(tmp_path, platform):
+    content = as_csv(platform, class_of(tmp_path), "=1+{day}")
+    table = read(content)
+    assert {len(row) for row in table} == {len(table[0])}
+    cells = [cell for row in table for cell in row]
+    assert not [c for c in cells if re.match(r"\s*[=+@|%-]", c) or set(c) & {";", "\t"}]
+    assert "\u202e" not in content.decode("utf-8")
+
+
+def test_who_is_not_graded_has_no_row_that_would_wipe_a_grade_out(tmp_path):
+    for platform in PLATFORMS.values():
+        table = read(as_csv(platform, class_of(tmp_path), "Day {day}"))
+        assert not [row for row in table if "" in row[-2:] or "login9" in row]
+
+
+def test_whom_the_platform_cannot_know_is_named_before_anybody_is_graded(tmp_path):
+    week = class_of(tmp_path, "name,a,b,c,Section,d,e,folder")
+    says = r"Canvas cannot know .*: give roster.csv a column ID or SIS Login ID"
+    with pytest.raises(Robo47Error, match=says):
+        known(CANVAS, week.students)
+
+
+def test_the_teachers_guide_shows_what_is_written(tmp_path):
+    guide = (ROOT / "docs" / "teaching.md").read_text("utf-8")
+    roster, canvas, moodle = re.findall(r"```csv\n(.*?)```", guide, re.DOTALL)
+    (tmp_path / "roster.csv").write_text(roster)
+    week = Week(find_students(tmp_path), [find_day(1)])
+    week.standings[1, "mia"] = Standing(7, 8, 0, 6, "done", "")
+    week.standings[1, "tom"] = Standing(8, 8, 0, 6, "done", "")
+    assert as_csv(CANVAS, week, "Lab {day}").decode("utf-8-sig") == canvas
+    assert as_csv(MOODLE, week, "Day {day}").decode("utf-8-sig") == moodle

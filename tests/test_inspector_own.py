@@ -1,0 +1,131 @@
+"""The student's functions beside the library's, as a tab of the page asks them."""
+
+import numpy as np
+import pytest
+
+from conftest import Answers
+from labkit.base.exchange import Reply
+from labkit.inspector.own import NoAnswerError, Own
+
+pytestmark = pytest.mark.kit
+
+LIBRARY = {
+    "double": lambda x: 2.0 * x,
+    "both": lambda x: (x, -x),
+    "any_root": lambda x: np.sqrt(x),
+}
+ONE = np.array([1.0, 4.0])
+
+
+def own_of(functions, free=()):
+    student = Answers(functions)
+    return student, Own(lambda: student, LIBRARY, free)
+
+
+def test_an_answer_is_the_students_and_is_compared_with_the_librarys():
+    _, own = own_of({"double": lambda x: 2.0 * x, "both": lambda x: (x, x)})
+    np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
+    assert own.says() == ("YOUR double: the same as the library's", "good")
+    assert own.both(ONE)[1][1] == 4.0  # as wrong as it is
+    assert own.says() == ("YOUR functions. Off the library's: both by 8", "bad")
+
+
+def test_what_is_not_written_is_the_librarys_and_is_called_that():
+    _, own = own_of({"double": lambda x: 2.0 * x})
+    assert own.any_root(4.0) == 2.0
+    says = "At work: the library's any_root (yours is not written yet)"
+    assert own.says() == (says, "quiet")
+    own.double(ONE)
+    assert own.says()[0].startswith("YOUR double: the same as the library's; besides")
+
+
+def test_without_a_file_all_is_the_librarys():
+    student = Answers({})
+    student.there = False
+    own = Own(lambda: student, LIBRARY)
+    np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
+    says = "At work: the library's double (there is no file yet)"
+    assert own.says() == (says, "quiet")
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        (np.zeros(3), r"YOUR double returned shape \(3,\)"),
+        (np.array([1.0, np.nan]), "YOUR double returned NaN"),
+        (np.array([1.0, np.inf]), "a number without end"),
+        (None, "YOUR double returned nothing"),
+        ((ONE, ONE), r"returned shape \(2,\) and shape \(2,\)"),
+    ],
+)
+def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, says):
+    _, own = own_of({"double": lambda x: answer})
+    with pytest.raises(NoAnswerError, match=says):
+        own.double(ONE)
+
+
+@pytest.mark.parametrize(
+    ("reply", "says"),
+    [
+        (Reply(kind="stopped", error="it runs on"), "YOUR double did not return: it"),
+        (Reply(kind="ValueError", error="no", line=3), r"YOUR double: It stops with V"),
+    ],
+)
+def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
+    student, own = own_of({})
+    student.ask = lambda questions: [reply]
+    with pytest.raises(NoAnswerError, match=says):
+        own.double(ONE)
+
+
+def test_a_file_that_is_not_asked_any_more_says_why():
+    student, own = own_of({})
+    student.problem = "double did not return. Save the file to have it asked again."
+    with pytest.raises(NoAnswerError, match=r"YOUR double did not return\. Save"):
+        own.double(ONE)
+
+
+def test_a_save_forgets_what_was_wrong_before():
+    student, own = own_of({"double": lambda x: -2.0 * x})
+    own.double(ONE)
+    assert own.says()[1] == "bad"
+    student.version, student.functions = 2, {"double": lambda x: 2.0 * x}
+    own.double(ONE)
+    assert own.says()[1] == "good"
+
+
+def test_a_function_with_many_right_answers_is_not_compared():
+    _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
+    assert own.any_root(4.0) == -2.0
+    assert own.says() == ("YOUR any_root", "good")
+
+
+def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
+    from labkit.inspector import week
+    from labkit.lesson.day import Day, find_day
+
+    monkeypatch.setattr(Day, "work", find_day(5).source)
+    monkeypatch.setattr(week, "all_days", lambda: [find_day(5)])
+    monkeypatch.setattr(week, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
+        [task.id for task in day.tasks if task.id != "5.2"], "wrong"
+    ))  # fmt: skip
+    library = {"gains": None, "pd_torque": LIBRARY["double"]}
+    with week.week(library) as fns:
+        np.testing.assert_array_equal(fns.gains(20.0, 1.0), [400.0, 40.0])
+        assert fns.pd_torque is LIBRARY["double"]  # the file's is wrong
+        assert (fns.yours, fns.total) == (1, 2)
+        with pytest.raises(NoAnswerError, match="YOUR gains: TypeError"):
+            fns.gains(ONE)
+
+
+def test_what_an_answer_says_cannot_become_part_of_the_page():
+    from labkit.inspector import words
+
+    student, own = own_of({})
+    evil = "<img src=x onerror=alert(1)>"
+    student.ask = lambda questions: [Reply(kind="ValueError", error=evil)]
+    with pytest.raises(NoAnswerError) as said:
+        own.double(ONE)
+    shown = words.judged(str(said.value), "whose", "bad")
+    assert "<img" not in shown
+    assert "&lt;img" in shown

@@ -1,0 +1,273 @@
+"""Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
+
+import importlib.util
+import re
+from unittest.mock import MagicMock
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+
+from conftest import ROOT, load_script, need
+from labkit.judge.row import rows_of
+from labkit.lesson import folder
+from labkit.lesson.day import find_day
+from robo47 import identification, panda, secret, verify
+
+DAY = find_day(8)
+GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
+OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
+SENTENCES = " ".join(OWN.replace("*", "").split())
+lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
+LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
+
+
+@pytest.fixture(scope="module")
+def model():
+    return panda.load("panda_nohand", drive="torque")
+
+
+@pytest.fixture(scope="module")
+def hung():
+    edit = secret.load(lab.LOAD, lab.AT)
+    return panda.load("panda_nohand", drive="torque", edit=edit)
+
+
+@pytest.fixture(scope="module")
+def arm(model):
+    return panda.arm(model)
+
+
+@pytest.fixture(scope="module")
+def data(model, arm):
+    """Return Y, exact torques and the fast rows of three motions."""
+    robot = secret.changed(model, lab.SEED)
+    motions = {
+        "swing": secret.swing(),
+        "excited": secret.excitation(model, lab.SEED),
+        "elsewhere": secret.anywhere(model, lab.SEED, lab.TRIALS),
+    }
+    return {
+        name: (lab.regressor(arm, m), secret.torques(robot, m), np.abs(m.qd) > lab.SLOW)
+        for name, m in motions.items()
+    }
+
+
+def fitted(data, name, noise, rtol=lab.RTOL, known=0.0):
+    """Return the residual of a fit and its error elsewhere, RMS."""
+    (Y, tau, fast), (Y_new, truth, new) = data[name], data["elsewhere"]
+    Y, tau = Y[fast], (tau + noise)[fast]
+    phi = known + identification.fit(Y, tau - Y @ (known + np.zeros(91)), rtol)
+    return lab.rms(tau - Y @ phi), lab.rms((Y_new @ phi - truth)[new])
+
+
+def noises(seed):
+    """Return the lab's noise of both motions, with another seed."""
+    return lab.NOISE * np.random.default_rng(seed).normal(size=(2, 200, 7))
+
+
+def test_what_the_arm_hides(data, arm):
+    Y = data["elsewhere"][0]
+    flat = Y.reshape(-1, 91)
+    rank = lambda A: np.linalg.matrix_rank(A, tol=1e-9 * np.linalg.norm(A, 2))  # noqa: E731
+    assert rank(flat[:, :70]) == 1 + 6 * 7 == 43
+    assert rank(flat) == 43 + 21 - 2 == 62
+    zero = np.flatnonzero(np.abs(flat).max(axis=0) < 1e-12)
+    assert zero.tolist() == [0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 13]
+    assert f"{len(zero)} of the 70 columns are zero" in SENTENCES
+    hidden = np.abs(np.linalg.svd(flat)[2][62:]).max(axis=0) > 1e-9
+    assert hidden[:70:10].all()  # no link's mass
+    assert hidden[70:].nonzero()[0].tolist() == [0, 1]  # two rotors, and no friction
+    assert [rank(Y[:k].reshape(-1, 91)) for k in (8, 9)] == [56, 62]
+    assert "Nine states at random, 63 rows" in SENTENCES
+
+
+def test_one_hinge_feels_three_of_ten():
+    A = [[0, a, 0, a, 0, 9.81] for a in (-1, 1, 2)]
+    row = identification.link_regressor([0, 2.0, 0, 0, 0, 0], A)[:, 1]
+    assert np.flatnonzero(np.abs(row).max(axis=0)).tolist() == [1, 3, 5]
+    assert "feel at all? (Three." in SENTENCES
+
+
+def test_without_noise_torques_are_right_and_masses_wrong(data, model):
+    robot = secret.changed(model, lab.SEED)
+    Y, tau, fast = data["excited"]
+    phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
+    Y_new, truth, new = data["elsewhere"]
+    assert np.abs((Y_new @ phi - truth)[new]).max() < 1e-12
+    dof = np.concatenate([robot.dof_damping, robot.dof_frictionloss])
+    assert_same(phi[77:], dof, 1e-13)
+    true = robot.body_mass[[model.body(f"link{i}").id for i in range(1, 8)]]
+    for masses in (phi[:70:10] + 0.0, true):
+        words = ", ".join("0" if abs(m) < 1e-9 else f"{m:.2f}" for m in masses)
+        assert f"({words})" in SENTENCES
+    assert max(fitted(data, name, 0.0)[0] for name in ("swing", "excited")) < 1e-12
+
+
+def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
+    smaller = 0
+    for seed in range(1, 9):
+        swing, excited = noises(seed)
+        one, other = fitted(data, "swing", swing), fitted(data, "excited", excited)
+        smaller += one[0] < other[0]
+        assert 0.09 < min(one[0], other[0]) <= max(one[0], other[0]) < 0.11
+        assert other[1] < 0.2 < 15_000 < one[1]
+    assert f"In {smaller} of 8 the swing's is the smaller one" in SENTENCES
+
+
+def test_the_trap_of_the_lab_and_what_tells(data):
+    swing, excited = noises(lab.SEED)
+    (small, off), (large, good) = (
+        fitted(data, name, noise)
+        for name, noise in (("swing", swing), ("excited", excited))
+    )
+    assert f"{small:.4f} for {large:.4f}" in SENTENCES
+    assert f"of two fits be {off:,.0f} N m wrong" in SENTENCES
+    Y, tau, fast = data["swing"]
+    new = data["elsewhere"][0][data["elsewhere"][2]]
+    given = Y[fast], (tau + swing)[fast], new
+    _, sigma = identification.predict_with_sigma(*given, lab.RTOL)
+    assert f"sigma, which says {lab.rms(sigma):,.0f}" in SENTENCES
+    _, sigma = identification.predict_with_sigma(*given, 1e-3)
+    cut = fitted(data, "swing", swing, 1e-3)[1]
+    assert f"it is {cut:.1f} N m off" in SENTENCES
+    assert f"Sigma says {lab.rms(sigma):.1f}" in SENTENCES
+    known = secret.numbers(panda.arm(panda.load("panda_nohand")))
+    near = fitted(data, "swing", swing, 1e-2, known)[1]
+    assert f"as the file has it: {near:.2f} N m" in SENTENCES
+    s = np.linalg.svd(Y[fast], compute_uv=False)
+    assert s[0] / s[61] == pytest.approx(1e8, rel=0.05)
+    Y, tau, _ = data["excited"]
+    slow = identification.fit(Y.reshape(-1, 91), (tau + excited).ravel(), lab.RTOL)
+    Y_new, truth, fast = data["elsewhere"]
+    worse = lab.rms((Y_new @ slow - truth)[fast])
+    assert f"half as wrong again, {worse:.3f} for {good:.3f}" in SENTENCES
+
+
+def test_dry_friction_spoils_the_rows_that_the_guide_says(data, model):
+    Y, tau, fast = data["excited"]
+    phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
+    motion = secret.excitation(model, lab.SEED)
+    bad = np.abs(Y @ phi - tau) > 0.01
+    turned = motion.qd + motion.qdd * (0.95 * 0.02 / 2.0)
+    assert (bad == (np.sign(turned) != np.sign(motion.qd))).all()
+    assert f"{(~fast).sum()} of 1,400 have a speed below 0.1" in SENTENCES
+    assert f"exactly the {bad.sum()} where" in SENTENCES
+    fastest = np.abs(motion.qd)[bad].max()
+    assert f"none is faster than {fastest:.3f} rad/s" in SENTENCES
+    phi = identification.fit(Y.reshape(-1, 91), tau.ravel(), lab.RTOL)
+    worst = np.abs(Y @ phi - tau).max()
+    assert f"they cost {worst:.2f} N m at worst" in SENTENCES
+
+
+def costs(code, arm, motion):
+    """Return the largest wrong torque of an arm_regressor at some states, N m."""
+    off = 0.0
+    for q, qd, qdd in zip(*motion, strict=True):
+        now = arm.at(q)
+        given = now.J_space, now.T_links, qd, qdd, arm.gravity
+        wrong = np.asarray(code(*given)) - identification.arm_regressor(*given)
+        off = max(off, np.abs(wrong @ secret.numbers(arm)[:70]).max())
+    return off
+
+
+def test_what_mistakes_cost_in_motion_and_at_rest(arm, model):
+    still = np.zeros((1, 7))
+    at_rest = secret.Motion(panda.READY_Q[None], still, still)
+    motions = secret.anywhere(model, lab.SEED, 20), at_rest
+    ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
+    cost = {slug: [costs(code, arm, m) for m in motions] for slug, code in ways.items()}
+    rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
+    assert len(rows) == 6
+    for slug, *written in rows:
+        for value, words in zip(cost[slug], written, strict=True):
+            assert f"{value:.{len(words.partition('.')[2])}f}" == words
+    unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
+    assert f"shows nothing of {unseen} of the {len(cost)} mistakes" in SENTENCES
+
+
+@pytest.mark.kit
+def test_other_robots_are_weighed_as_well_and_friction_is_why_not(model, hung, arm):
+    def grams(q, extra):
+        given = *secret.hands(arm, q), extra, arm.gravity
+        return 1000 * identification.payload_from_holds(*given)[0]
+
+    both, crossed = [], []
+    poses = panda.READY_Q + np.random.default_rng(lab.SEED).uniform(-0.5, 0.5, (5, 7))
+    for seed in range(1, 9):
+        robots = (secret.changed(one, seed) for one in (model, hung))
+        (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in robots)
+        both.append(grams(q.mean(axis=0), (full - empty).mean(axis=0)))
+        crossed += [grams(q[i], full[i] - empty[1 - i]) for i in (0, 1)]
+    assert f"is {np.abs(np.array(both) - 500).max():.1f} g off at worst" in SENTENCES
+    assert f"finds {min(crossed):.0f} to {max(crossed):.0f} g" in SENTENCES
+
+
+def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre(model, hung, arm):
+    q = np.array([panda.READY_Q] * 5)
+    q[:, 0] = np.linspace(-1, 1, 5)
+    extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
+    rows = identification.load_regressor(*secret.hands(arm, q), arm.gravity)
+    assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
+    m, *h = identification.payload_from_holds(*secret.hands(arm, q), extra, arm.gravity)
+    c = 1000 * np.array(h) / m
+    assert_same(c, [20, -30, 0], 1e-9)
+    assert "comes out as (20, -30, 0) mm" in SENTENCES
+
+
+def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(capsys, monkeypatch):
+    monkeypatch.setattr("sys.argv", ["lab", "--no-log"])
+    assert lab.main() == 0
+    printed = capsys.readouterr().out
+    grams = re.findall(r"([\d.]+) g at +(\S+) +(\S+) +(\S+) mm +(\S+) mm", printed)
+    _, one, crossed, both = (np.array(row, dtype=float) for row in grams)
+    assert f"{crossed[0] - 500:.0f} g, and the centre is" in SENTENCES
+    away = np.linalg.norm(crossed[1:4] - 1000 * lab.AT)
+    assert f"the centre is {away:.0f} mm off" in SENTENCES
+    assert f"sinks by {-float(grams[0][4]):.0f} mm" in SENTENCES
+    assert f"the {crossed[0]:.0f} g, it rises by {crossed[4]:.0f}" in SENTENCES
+    assert f"the {one[0]} g are {one[0] - 500:.1f} g wrong" in SENTENCES
+    assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
+    least = re.search(r"links found: (\S+)", printed)[1]
+    assert f"It is {least}: there is no such arm" in SENTENCES
+    assert all(len(line) <= 80 for line in printed.splitlines())
+
+
+def test_mujoco_refuses_what_no_body_can_have():
+    body = (
+        '<mujoco><worldbody><body><inertial pos="0 0 0" mass="1" diaginertia="{}"/>'
+        "</body></worldbody></mujoco>"
+    )
+    mujoco.MjModel.from_xml_string(body.format("1 1 2"))
+    with pytest.raises(ValueError, match="inertia"):
+        mujoco.MjModel.from_xml_string(body.format("1 1 3"))
+
+
+def test_second_differences_of_an_encoder_are_off_as_predicted(model):
+    dt, step = 0.002, 2.0 * np.pi / 2**16
+    motion = secret.excitation(model, lab.SEED, 5000)
+    q = np.round(motion.q / step) * step
+    off = (q[2:] - 2 * q[1:-1] + q[:-2]) / dt**2 - motion.qdd[1:-1]
+    assert lab.rms(off) == pytest.approx(np.sqrt(0.5) * step / dt**2, rel=0.01)
+    assert f"off by {lab.rms(off):.1f} rad/s²" in SENTENCES
+    assert lab.rms(off) / np.abs(motion.qdd).max() == pytest.approx(3.0, abs=0.2)
+
+
+def test_the_tab_weighs_and_shows_what_has_no_sigma():
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    inspector = folder.load(DAY, "inspector")
+    tab = inspector.Weigh(MagicMock(q=panda.READY_Q.copy()))
+    assert "Not held yet" in tab.table.content
+    tab.press(inspector.HERE)
+    assert "3 of 4 numbers show" in tab.table.content
+    load, sigma = tab.weighed()["both, averaged"]
+    assert abs(load[3]) < 0.001 < 0.02 < LOAD[3]  # far off, and says it is sure
+    assert 1000 * sigma[3] / load[0] < 0.25
+    tab.press(inspector.FIVE)
+    good, sure = tab.weighed()["both, averaged"]
+    _, unsure = tab.weighed()["one from either side"]
+    assert_same(good, LOAD, 2e-3)
+    assert sure[0] < 0.001 < 0.02 < unsure[0]
+    tab.hang(1000)
+    assert not tab.held
