@@ -3,7 +3,7 @@
     make docs                                run the commands, rewrite outputs
     python3 scripts/build_docs.py            the same
     python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
-    make docs DAY=8                          that day's, and the tables that list it
+    make docs DAY=8                          its own, and the tables that list it
 
 A document asks for an output between two comments:
 
@@ -118,7 +118,7 @@ def days_list(wanted: str, folder: Path) -> str:
                 os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
             )
             if paths[1].is_file():
-                row.append(f"[![Day {day.number}]({small})]({guide})")
+                row.append(f"[![A picture of day {day.number}]({small})]({guide})")
             lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
         soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
     lines += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
