@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from inspection import Served  # noqa: E402 (the tests' own way to start it)
 
 RIGHT, WRONG = "make_T(Rz(q), np.zeros(3))", "make_T(Rz(-q), np.zeros(3))"
-ARM = {"x": 70, "y": 120, "width": 430, "height": 370}  # of the page, 900 x 640
+ARM = {"x": 30, "y": 140, "width": 460, "height": 340}  # of the page, 900 x 640
 STYLE = """body { margin: 0; width: 600px; font: 21px/1.35 "DejaVu Sans", sans-serif;
   background: #fff; color: #1b1f24; } img { display: block; width: 100%; }
 pre { margin: 0; padding: 14px 18px; background: #1b1f24; color: #e6eaee;
@@ -63,7 +63,7 @@ def played(browser, url: str, work: Path, source: str) -> list:
     page = browser.new_page(
         viewport={"width": 900, "height": 640}, device_scale_factor=1.4
     )
-    sheet = browser.new_page(viewport={"width": 600, "height": 800})
+    sheet = browser.new_page(viewport={"width": 600, "height": 100})
     page.goto(url)
     says = awaited(page, "8 of 8")
     if page.get_by_text("Software WebGL").count():  # of a machine without a GPU
