@@ -184,7 +184,7 @@ class TestAMachineThatStartsNoProcess:
     def test_keeps_the_session_where_only_the_spare_fails(self, student, monkeypatch):
         with Sandbox() as box:
             one = Process()
-            monkeypatch.setattr(box, "_take", lambda: one)
+            monkeypatch.setattr(box, "_take", lambda _: one)
             monkeypatch.setattr(sandbox, "Process", _no_process)
             session = box.session(student(FINE))
             assert session.ask([Question("", "f", ())])[0].value == 47

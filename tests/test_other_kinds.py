@@ -13,6 +13,7 @@ from labkit.judge import (
     Mask,
     Matrix,
     Pixels,
+    Robot,
     Scalar,
     Vector,
     Waypoints,
@@ -101,6 +102,23 @@ class TestSizes:
         assert judged(ask, right(ask)[0]).status == "passed"
 
 
+def test_robots_of_a_row_may_differ_and_be_all_that_is_asked():
+    def shorter(model):
+        model.body_pos[:] *= 0.5
+
+    robots = [Robot(), Robot(change=shorter), Robot("panda")]
+    ask = Ask(
+        lambda rng: [(robot,) for robot in robots],
+        Vector((2,)),
+        truth=InTurn(lambda model: [model.nq, np.abs(model.body_pos).sum()]),
+        fresh=0,
+    )
+    answers = right(ask)[0]
+    assert answers[:, 0].tolist() == [7, 7, 9]
+    assert answers[0, 1] == pytest.approx(2 * answers[1, 1])
+    assert judged(ask, answers).status == "passed"
+
+
 class TestCovariance:
     A = NUMBERS.normal(size=(6, 3, 3))
     RIGHT = A @ A.transpose(0, 2, 1) + np.eye(3)
@@ -157,8 +175,8 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "True and False are swapped"),
         (np.ones_like(MASKS), "ignores-its-input", "does not depend on it"),
-        (MASKS | ONE_EACH, "too-often-true", "Of 48 it is True"),
-        (MASKS & ~ONE_EACH, "too-seldom-true", "it is False"),
+        (MASKS | ONE_EACH, "too-often-true", "It is True 3 times where"),
+        (MASKS & ~ONE_EACH, "too-seldom-true", "It is False"),
         (MASKS * 0.5, "not-true-or-false", "0.5; True or False, in shape (8,), is"),
     ],
 )
@@ -206,6 +224,13 @@ def test_a_path_of_any_length_is_accepted_by_a_property():
 
 
 PIXELS = NUMBERS.uniform(0.0, 300.0, (5, 8, 2))
+
+
+def test_pixels_of_several_sizes_may_be_shifted_too():
+    clouds = [PIXELS[0][:n] for n in (2, 5, 8)]
+    ask = asked(Pixels((None, 2)), clouds)
+    replies = [Reply(value=one + 0.5, again=one + 0.5) for one in clouds]
+    assert judged_replies(ask, replies).mistake == "shifted"
 
 
 @pytest.mark.parametrize(

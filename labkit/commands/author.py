@@ -24,7 +24,7 @@ from robo47.paths import ROOT, shown
 
 TESTS = ("test_days.py", "test_days_judging.py", "test_days_catalogue.py")
 TOLD = "test_a_file_is_told_what_the_catalogue_says"  # the catalogue has better words
-MOST_LINES = 20  # of failing tests
+MOST_FAILURES = 10  # that are told
 MARKS = "not soak and not browser and not network"
 
 
@@ -45,6 +45,9 @@ def run(day: Day, *command: str) -> tuple[int, list[str]]:
 def catalogue(day: Day) -> Iterator[str]:
     """Yield each way of the catalogue that is not told what it must be."""
     code, lines = run(day, "tests/catalogue.py", str(day.number))
+    if any(line.startswith("Traceback") for line in lines):
+        own = [ln for ln in lines if f"{day.own}{os.sep}" in ln] or lines[-3:-2]
+        lines = [own[-1].strip(), lines[-1]]
     yield from lines if code else ()
 
 
@@ -57,10 +60,21 @@ def tests(day: Day) -> Iterator[str]:
         day, "-m", "pytest", *files, *quiet, "-m", MARKS, "-k", f"not {TOLD}"
     )
     if code:
-        found = [ln for ln in lines if re.match(r"\S+:\d+: |ERROR |E  ", ln)]
-        for line in (found or lines)[:MOST_LINES]:
-            yield line.replace(f"{ROOT}{os.sep}", "")
-        yield f"all of one test's output: .venv/bin/python -m pytest {shown(day.own)}"
+        yield from (_failures(lines, shown(day.own)) or lines[-5:])[:MOST_FAILURES]
+        yield f"more: ROBO47_DAY={day.number} .venv/bin/python -m pytest " + files[0]
+
+
+def _failures(lines: list[str], own: str) -> list[str]:
+    """Return a line on each test that fails: its name, where, the error."""
+    found = []
+    for block in re.split(r"^_{3,} ", "\n".join(lines), flags=re.MULTILINE)[1:]:
+        name = block.partition(" ___")[0]
+        places = re.findall(r"^(\S+:\d+): in", block, re.MULTILINE)
+        place = next((p for p in reversed(places) if p.startswith(own)), places[:1])
+        errors = re.findall(r"^E +(.+)", block, re.MULTILINE)[:1]
+        where = place if isinstance(place, str) else "".join(place)
+        found.append(f"{name} ({where}): {''.join(errors)}")
+    return found
 
 
 def documents(day: Day) -> Iterator[str]:

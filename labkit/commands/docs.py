@@ -34,6 +34,7 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+SMALL = "figures/small/day{}.png"  # of a week's folder: a day's picture for the table
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -107,15 +108,20 @@ def days_table(wanted: str, folder: Path) -> str:
         wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
-    lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
+    lines = ["| | what you will see |", "|---|---|"]
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
-        rows = {s.number: f"| {s.number}: {s.title} | | not written yet | |"
-                for s in week.soon}  # fmt: skip
+        rows = {
+            soon.number: f"| | Day {soon.number}: {soon.title}, not written yet |"
+            for soon in week.soon
+        }
         for day in days_of(week):
-            guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
-            title = f"[{day.number}: {day.title}]({guide})"
-            row = f"| {title} | `make day{day.number}` | {day.see} | {day.minutes} |"
-            rows[day.number] = row
+            paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
+            guide, small = (
+                os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
+            )
+            picture = f"![Day {day.number}]({small})" if paths[1].is_file() else ""
+            title = f"[Day {day.number}: {day.title}]({guide})"
+            rows[day.number] = f"| {picture} | **{title}**: {day.see} |"
         lines += [row for _, row in sorted(rows.items())]
     return "\n".join(lines) + "\n"
 

@@ -34,7 +34,7 @@ NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Robot:
     """A model as an argument: student code gets plain data that reads like an MjModel.
 
@@ -79,7 +79,7 @@ class HeldOut:
         says: what to say then, a sentence or two.
         inputs: as those of `Ask`.
         truth: the right answers; None is the function's own truth.
-        mistaken: in place of `truth`: what is found are these very answers.
+        mistaken: instead of `truth`: what is found are these very answers.
         status: "wrong", "close", or "passed" for a remark only.
     """
 
@@ -152,7 +152,7 @@ class Ask:
         kind: of the answer; a tuple of kinds where the function returns a tuple.
         truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
             takes them; an oracle, never the lab script.
-        accept: in place of `truth` where many answers are right: takes one call's
+        accept: instead of `truth` where many answers are right: takes one call's
             arguments and the answer, and returns what is wrong with it, or None.
         mistakes: the named ones, the more general first; a function that returns them
             where making them costs something.
@@ -272,7 +272,7 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
 def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
     """Return whether a call has one right answer, whatever its last digits are."""
     assert ask.truth is not None
-    columns = [_column((arg,)) for arg in call]
+    columns = [_column((arg,), True) for arg in call]
     answers = []
     for nudge in (0.0, NUDGE, -NUDGE):
         near = [c + nudge if isinstance(c, np.ndarray) else c for c in columns]
@@ -290,22 +290,32 @@ def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
 def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     """Return all questions' arguments, one array (n, ...) per argument.
 
-    A robot is one model for all of them, and a path one path. Arguments of several
-    sizes are an array (n,) of arrays.
+    A robot or a path that all share is one, beside what they do not share. Several,
+    and arrays of several sizes, are an array (n,) of them.
     """
-    columns = zip(*(exchange.question.args for exchange in exchanges), strict=True)
-    return tuple(_column(column) for column in columns)
+    columns = list(zip(*(e.question.args for e in exchanges), strict=True))
+    special = [isinstance(column[0], Robot | Path) for column in columns]
+    alone = all(special)
+    shared = [
+        one and all(argument == column[0] for argument in column)
+        for one, column in zip(special, columns, strict=True)
+    ]
+    pairs = zip(columns, shared, strict=True)
+    return tuple(_column(column, one and not alone) for column, one in pairs)
 
 
-def _column(column: tuple[Any, ...]) -> Any:
-    first = column[0]
-    if isinstance(first, Robot):
-        return first.model
-    if isinstance(first, Path):
-        return first.pairs
-    if len({np.shape(one) for one in column}) > 1:  # of several sizes
+def _column(column: tuple[Any, ...], shared: bool) -> Any:
+    plain = [
+        a.model if isinstance(a, Robot) else a.pairs if isinstance(a, Path) else a
+        for a in column
+    ]
+    special = isinstance(column[0], Robot | Path)
+    if special and shared:
+        return plain[0]
+    if special or len({np.shape(one) for one in plain}) > 1:  # of several sizes
         found = np.empty(len(column), dtype=object)
-        found[:] = column
+        for at, one in enumerate(plain):
+            found[at] = one
         return found
     whole = np.array(column)
     return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)

@@ -79,6 +79,12 @@ def capitalised(clause: str) -> str:
     return clause[0].upper() + clause[1:]
 
 
+def _own(argument: Any) -> Any:
+    """Return a copy of an array or a number; a model or a path is as it is."""
+    plain = isinstance(argument, np.ndarray | np.generic)
+    return np.copy(argument)[()] if plain else argument
+
+
 class InTurn:
     """A function of one question's arguments as one of all, stacked."""
 
@@ -104,7 +110,7 @@ class InTurn:
 
     def nth(self, i: int, columns: Sequence[Any]) -> Any:
         """Return the answer to one question; it gets arrays of its own."""
-        args = [np.copy(c[i])[()] if isinstance(c, np.ndarray) else c for c in columns]
+        args = [_own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
         try:
             return self.function(*args)
         except Exception as error:  # a mistake may stop, as a student's may

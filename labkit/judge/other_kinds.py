@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from labkit.base.words import count
 from labkit.judge.compare import difference
 from labkit.judge.kinds import NEAR, TRUNCATED, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
@@ -85,10 +86,10 @@ class Mask(Kind):
             says = f"It is {odd[0]:g}; {self.expected} is expected."
             return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
-        parts = [f"True {yes} times where False is right"] * (yes > 0)
-        parts += [f"False {no} times where True is right"] * (no > 0)
+        parts = [f"True {count(yes, 'time')} where False is right"] * (yes > 0)
+        parts += [f"False {count(no, 'time')} where True is right"] * (no > 0)
         slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
-        return Finding(slug, f"Of {T.size} it is {', and '.join(parts)}.")
+        return Finding(slug, f"It is {', and '.join(parts)}.")
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,8 @@ class Pixels(Kind):
         return (ROWS_FIRST, TRUNCATED)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        off = (S - T).reshape(-1, 2)
+        there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up
+        off = (S - T)[there]
         if (
             difference(off[:, None], np.broadcast_to(off[:1], (len(off), 1, 2))).max()
             < NEAR
