@@ -119,7 +119,8 @@ def days_table(wanted: str, folder: Path) -> str:
             guide, small = (
                 os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
             )
-            picture = f"![Day {day.number}]({small})" if paths[1].is_file() else ""
+            alt = f"Day {day.number} in one picture: {day.title}"
+            picture = f"![{alt}]({small})" if paths[1].is_file() else ""
             title = f"[Day {day.number}: {day.title}]({guide})"
             rows[day.number] = f"| {picture} | **{title}**: {day.see} |"
         lines += [row for _, row in sorted(rows.items())]
