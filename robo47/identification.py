@@ -8,8 +8,8 @@ model can be fitted, and what a motion cannot show can be counted. Conventions:
   (not about its centre). kg, kg m, kg m^2.
 - Twists are (omega; v), wrenches (moment; force); `J_space` is the space Jacobian.
 - Gravity is the vector g = (0, 0, -9.81), as in `robo47.dynamics`.
-- Bodies and motions broadcast over leading dimensions; a fit takes one matrix.
-- A wrong shape or a number that is not finite is a ValueError, in every function.
+- Bodies and motions broadcast; a fit takes one matrix. A wrong shape or a number that
+  is not finite is a ValueError, in every function.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
 *Robotics* (2009), section 7.3; Golub and Van Loan, *Matrix Computations*, section 5.5;
@@ -24,7 +24,6 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.screws import ad, adjoint, skew
 
-PER_LINK = 10  # numbers that say how a rigid body moves
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
 
 
@@ -39,7 +38,7 @@ def inertia_of(phi: ArrayLike) -> Array:
     Returns:
         G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
     """
-    phi = checks.array(phi, "phi", (PER_LINK,))
+    phi = checks.array(phi, "phi", (10,))
     G = np.zeros((*phi.shape[:-1], 6, 6))
     for k, (i, j) in enumerate(_UPPER):
         G[..., i, j] = G[..., j, i] = phi[..., 4 + k]
@@ -50,15 +49,12 @@ def inertia_of(phi: ArrayLike) -> Array:
 
 
 def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array:
-    """Return phi of bodies that are given as Day 4 gives them.
+    """Return phi, (..., 10), of bodies as `dynamics.spatial_inertia` is given them.
 
     Args:
         masses: kg, (...).
         coms: centres of mass, metres, (..., 3).
         inertias: about the centres of mass, kg m^2, (..., 3, 3).
-
-    Returns:
-        phi, (..., 10).
     """
     m = checks.array(masses, "masses", ())[..., None]
     c = checks.array(coms, "coms", (3,))
@@ -81,7 +77,7 @@ def link_regressor(V: ArrayLike, A: ArrayLike) -> Array:
         (..., 6, 10): times phi it is the wrench (moment; force) that moves the body.
     """
     V, A = checks.array(V, "V", (6,)), checks.array(A, "A", (6,))
-    G = inertia_of(np.eye(PER_LINK))
+    G = inertia_of(np.eye(10))
     V, A, turned = V[..., None, :, None], A[..., None, :, None], ad(V)[..., None, :, :]
     columns = G @ A - np.swapaxes(turned, -1, -2) @ (G @ V)
     return np.swapaxes(columns[..., 0], -1, -2)
@@ -118,7 +114,7 @@ def arm_regressor(
     seen = np.swapaxes(X @ J[..., None, :, :], -1, -2)  # the joints from each link
     felt = np.swapaxes(seen @ wrenches, -3, -2)  # (..., joint, link, 10)
     felt = np.tri(n).T[..., None] * felt  # a joint carries its own link and those after
-    return felt.reshape(*felt.shape[:-2], PER_LINK * n)
+    return felt.reshape(*felt.shape[:-2], 10 * n)
 
 
 def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
@@ -129,7 +125,7 @@ def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
         qdd: joint accelerations, rad/s^2, (..., n).
 
     Returns:
-        (..., n, 3 n): times (armature, damping, dry friction) it is their torque.
+        (..., n, 3 n): times (armature, damping, dry friction) it is a torque.
     """
     qd, qdd = checks.same_size(qd=qd, qdd=qdd)
     blocks = [each[..., None] * np.eye(qd.shape[-1]) for each in (qdd, qd, np.sign(qd))]
@@ -153,18 +149,15 @@ def identifiable(Y: ArrayLike, rtol: float) -> tuple[int, float]:
 def fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
     """Return the smallest parameters that explain the torques best.
 
-    V S^-1 U^T tau over the singular values that count (Golub and Van Loan, 5.5).
+    V S^-1 U^T tau, (p,), over the singular values that count (Golub and Van Loan, 5.5).
 
     Args:
         Y: regressor, (n, p).
         tau: measured torques, N m, (n,).
         rtol: as in `identifiable`.
-
-    Returns:
-        phi, (p,).
     """
     U, s, Vt = _kept(Y, rtol)
-    return Vt.T @ (U.T @ checks.array(tau, "tau", (len(U),)) / s)
+    return Vt.T @ (U.T @ checks.array(tau, "tau", U.shape[:1]) / s)
 
 
 def predict_with_sigma(
@@ -185,13 +178,12 @@ def predict_with_sigma(
         (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
         noise of a new measurement. What a motion never showed has no sigma.
     """
-    Y, (_, s, Vt) = _stacked(Y), _kept(Y, rtol)
-    Y_new = checks.array(Y_new, "Y_new", (Y.shape[1],))
-    if len(Y) <= len(s):
-        raise ValueError(f"{len(Y)} rows leave no residual at rank {len(s)}")
-    phi = fit(Y, tau, rtol)
-    residual = np.asarray(tau) - Y @ phi
-    noise = np.linalg.norm(residual) / np.sqrt(len(Y) - len(s))
+    _, s, Vt = _kept(Y, rtol)
+    Y_new, phi = checks.array(Y_new, "Y_new", Vt.shape[1:]), fit(Y, tau, rtol)
+    residual = np.asarray(tau) - np.asarray(Y) @ phi
+    if len(residual) <= len(s):
+        raise ValueError(f"{len(residual)} rows leave no residual at rank {len(s)}")
+    noise = np.linalg.norm(residual) / np.sqrt(len(residual) - len(s))
     return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt.T / s, axis=-1)
 
 
@@ -206,7 +198,7 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
         g: gravity, m/s^2, (3,).
 
     Returns:
-        (..., n, 4): times (m, m c) it is the torque that holds the load.
+        (..., n, 4): times (m, m c) it is the torque that holds the load, N m.
     """
     J = checks.array(J_site, "J_site", (6, "n"))
     R, g = checks.array(R_site, "R_site", (3, 3)), checks.array(g, "g", (3,))
@@ -237,37 +229,31 @@ def payload_from_holds(
 
 
 def least_pseudo(phi: ArrayLike) -> Array:
-    """Return the least eigenvalue of a body's pseudo-inertia; no body is below 0.
+    """Return the least eigenvalue, (...), of a pseudo-inertia; no body's is below 0.
 
     [[S, h], [h^T, m]] with S = tr(I)/2 - I, the integral of r r^T (Wensing 2018).
 
     Args:
         phi: as above, (..., 10).
     """
-    G, phi = inertia_of(phi), np.asarray(phi, dtype=np.float64)
-    about = G[..., :3, :3]
-    trace = np.trace(about, axis1=-2, axis2=-1)[..., None, None]
+    about, phi = inertia_of(phi)[..., :3, :3], np.asarray(phi, dtype=np.float64)
+    half = np.trace(about, axis1=-2, axis2=-1)[..., None, None] / 2.0
     P = np.empty((*phi.shape[:-1], 4, 4))
-    P[..., :3, :3] = trace / 2.0 * np.eye(3) - about
+    P[..., :3, :3], P[..., 3, 3] = half * np.eye(3) - about, phi[..., 0]
     P[..., 3, :3] = P[..., :3, 3] = phi[..., 1:4]
-    P[..., 3, 3] = phi[..., 0]
     return np.linalg.eigvalsh(P)[..., 0]
 
 
 def _kept(Y: ArrayLike, rtol: float) -> tuple[Array, Array, Array]:
     """Return U, s and V^T of the singular values that count."""
-    U, s, Vt = np.linalg.svd(_stacked(Y), full_matrices=False)
+    Y = checks.array(Y, "Y", ("n", "p"))
+    if Y.ndim != 2:
+        raise ValueError(f"Y has shape {Y.shape}; stack its samples: (n, p)")
+    U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     rank = int(np.sum(s > rtol * s[0]))
     if not rank:
         raise ValueError("Y is zero, or rtol is 1 or more: nothing counts")
     return U[:, :rank], s[:rank], Vt[:rank]
-
-
-def _stacked(Y: ArrayLike) -> Array:
-    Y = checks.array(Y, "Y", ("n", "p"))
-    if Y.ndim != 2:
-        raise ValueError(f"Y has shape {Y.shape}; stack its samples: (n, p)")
-    return Y
 
 
 def _times(A: Array, x: Array) -> Array:

@@ -39,12 +39,7 @@ class Motion(NamedTuple):
 
 
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
-    """Return a copy whose links weigh otherwise, and whose joints rub otherwise.
-
-    Args:
-        model: any Panda; what its hand carries stays as it is.
-        seed: the same one makes the same robot.
-    """
+    """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
     rng, secret = np.random.default_rng(seed), copy.copy(model)
     joints = [secret.joint(name) for name in ARM_JOINTS]
     links = [int(secret.jnt_bodyid[joint.id]) for joint in joints]
@@ -53,25 +48,21 @@ def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))
     secret.dof_damping[dofs] = rng.uniform(*DAMPING, 7)
     secret.dof_frictionloss[dofs] = rng.uniform(*DRY, 7) * [1, 1, 1, 1, 0.5, 0.5, 0.5]
-    return settled(secret)
+    # MuJoCo's friction is scaled with the masses that it found when it was compiled.
+    mujoco.mj_setConst(secret, mujoco.MjData(secret))
+    return secret
 
 
-def settled(model: mujoco.MjModel) -> mujoco.MjModel:
-    """Return a model that was changed in place, made consistent again.
-
-    MuJoCo's friction is scaled with the mass that it had when it was compiled.
-    """
-    mujoco.mj_setConst(model, mujoco.MjData(model))
-    return model
+def without_friction(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return a copy whose joints have no dry friction."""
+    free = copy.copy(model)
+    free.dof_frictionloss[:] = 0.0
+    mujoco.mj_setConst(free, mujoco.MjData(free))
+    return free
 
 
 def load(mass: float, com: ArrayLike) -> Edit:
-    """Return an edit for `panda.load`: a ball hangs on the hand.
-
-    Args:
-        mass: kg.
-        com: where its centre is, in the axes of `attachment_site`, metres, (3,).
-    """
+    """Return an edit for `panda.load`: a ball on the hand, com in the site's axes."""
 
     def edit(spec: mujoco.MjSpec) -> None:
         site = spec.site("attachment_site")
@@ -85,10 +76,7 @@ def load(mass: float, com: ArrayLike) -> Edit:
 def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
     """Return a motion that shows much: random harmonics, as far and fast as allowed.
 
-    Args:
-        model: whose ranges count.
-        seed: of the harmonics.
-        n: samples in its ten seconds.
+    Its n samples are spread over ten seconds; the model's ranges count.
     """
     sin, cos = np.random.default_rng(seed).normal(size=(2, HARMONICS, 7))
     w = 2.0 * np.pi * BASE * np.arange(1, HARMONICS + 1)
@@ -112,7 +100,7 @@ def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 
 def swing(n: int = 200) -> Motion:
-    """Return n samples of Day 5's swing of all joints together, five times in 10 s."""
+    """Return n samples, over ten seconds, of Day 5's swing of all joints together."""
     t = np.pi * np.arange(n)[:, None] * SECONDS / n
     c, s = np.cos(t), np.sin(t)
     return Motion(
@@ -130,11 +118,7 @@ def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 
 def numbers(known: Arm) -> Array:
-    """Return the 91 numbers that an arm's model holds: links, rotors, friction.
-
-    Returns:
-        phi of the links one after the other, armature, damping, dry friction 0, (91,).
-    """
+    """Return what a model holds: phi of its links, armature, damping, dry 0, (91,)."""
     links = identification.parameters(known.masses, known.coms, known.inertias)
     return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
 
@@ -148,64 +132,51 @@ def torques(model: mujoco.MjModel, motion: Motion) -> Array:
     return verify.mujoco_inverse_dynamics(model, *motion)
 
 
-def hold(
-    model: mujoco.MjModel, known: Arm, q: ArrayLike, side: float, seconds: float = REST
-) -> tuple[Array, Array]:
+def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, Array]:
     """Return where the arm came to rest on springs, and what the springs gave there.
 
     Gravity, Coriolis forces and damping of the known arm are made up for, so what the
-    springs give is what is not known: other masses, a load, dry friction.
+    springs give is what is not known: other masses, a load, dry friction. From the one
+    side every joint turns as it lets the hand down, from the other as it lifts it; dry
+    friction points the other way then.
 
     Args:
         model: the robot, with motors.
         known: what its controller takes it for.
-        q: where it is to be held, rad, (7,).
-        side: 1 lets every joint come down to its angle in the sense in which it lifts
-            the hand, -1 come up to it; so dry friction points the one or the other way.
-        seconds: how long it is waited.
+        poses: where it is to be held, rad, (k, 7).
 
     Returns:
-        (q at rest in rad, torque of the springs in N m), (7,) each.
+        (q at rest in rad, torque of the springs in N m), (2, k, 7) each, by side.
     """
-    q = checks.array(q, "q", (7,))
+    poses = checks.array(poses, "poses", (7,))
+    found = [[_hold(model, known, q, side) for q in poses] for side in (1.0, -1.0)]
+    at, torque = np.moveaxis(np.array(found), 2, 0)
+    return at, torque
 
-    def springs(q_now: Array, qd: Array) -> Array:
-        return known.at(q_now).M @ (OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd)
 
+def _hold(model: mujoco.MjModel, known: Arm, q: Array, side: float) -> list[Array]:
     def law(t: float, q_now: Array, qd: Array) -> Array:
-        return springs(q_now, qd) + known.at(q_now).bias(qd) + known.damping * qd
+        now, pull = known.at(q_now), OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd
+        return now.M @ pull + now.bias(qd) + known.damping * qd
 
     lifts = np.where(known.at(q).J_site[5] < -1e-9, -1.0, 1.0)
     data = simulate.start(model, q + side * AWAY * lifts)
-    run = simulate.run(model, data, law, seconds, rate=RATE)
-    return run.q[-2], run.tau[-1] - known.at(run.q[-2]).gravity_torque
-
-
-def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, Array]:
-    """Return `hold` of k poses from either side: q and torques, (2, k, 7) each."""
-    poses = checks.array(poses, "poses", (7,))
-    found = [[hold(model, known, q, side) for q in poses] for side in (1.0, -1.0)]
-    at, torque = np.moveaxis(np.array(found), 2, 0)
-    return at, torque
+    run = simulate.run(model, data, law, REST, rate=RATE)
+    return [run.q[-2], run.tau[-1] - known.at(run.q[-2]).gravity_torque]
 
 
 def hands(known: Arm, q: ArrayLike) -> tuple[Array, Array]:
     """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations."""
     now = [known.at(x) for x in checks.array(q, "q", (7,))]
-    return (
-        np.array([x.J_site for x in now]),
-        np.array([x.T_world_ee[:3, :3] for x in now]),
-    )
+    R = [x.T_world_ee[:3, :3] for x in now]
+    return np.array([x.J_site for x in now]), np.array(R)
 
 
 def rises(
-    model: mujoco.MjModel,
-    known: Arm,
-    still: Callable[[ArmState], Array],
+    model: mujoco.MjModel, known: Arm, still: Callable[[ArmState], Array],
     load: ArrayLike,
-    seconds: float = REST,
-) -> float:
-    """Return how far the hand rises, m, on torques that should just hold the arm.
+) -> float:  # fmt: skip
+    """Return how far the hand rises in two seconds on what should just hold the arm.
 
     The robot's dry friction is taken off, so that nothing else holds it.
 
@@ -214,19 +185,18 @@ def rises(
         known: where its hand and links are.
         still: from the arm at a configuration to the torque that holds it empty, (7,).
         load: (m, m c) that its hand is said to carry, in the site's axes, (4,).
-        seconds: how long it floats.
+
+    Returns:
+        Metres; less than 0 where it sinks.
     """
     m, *h = checks.array(load, "load", (4,))
-    free = copy.copy(model)
-    free.dof_frictionloss[:] = 0.0
+    free, g = without_friction(model), known.gravity
 
     def law(t: float, q: Array, qd: Array) -> Array:
         now = known.at(q)
-        weight = m * known.gravity, np.cross(now.T_world_ee[:3, :3] @ h, known.gravity)
-        return still(now) - now.J_site.T @ np.concatenate(weight[::-1])
+        moment = np.cross(now.T_world_ee[:3, :3] @ h, g)
+        return still(now) - now.J_site.T @ np.append(moment, m * g)
 
-    run = simulate.run(
-        settled(free), simulate.start(free, READY_Q), law, seconds, rate=SLOW_RATE
-    )
-    heights = [known.at(q).T_world_ee[2, 3] for q in run.q[[0, -1]]]
-    return float(heights[1] - heights[0])
+    run = simulate.run(free, simulate.start(free, READY_Q), law, REST, rate=SLOW_RATE)
+    before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)
+    return float(end - before)

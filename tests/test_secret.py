@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import identification, panda, secret, simulate, verify
+from robo47 import panda, secret, simulate, verify
 
 AT = np.array([0.02, -0.03, 0.06])
 
@@ -12,6 +12,12 @@ AT = np.array([0.02, -0.03, 0.06])
 @pytest.fixture(scope="module")
 def model():
     return panda.load("panda_nohand", drive="torque")
+
+
+@pytest.fixture(scope="module")
+def hung():
+    edit = secret.load(0.5, AT)
+    return panda.load("panda_nohand", drive="torque", edit=edit)
 
 
 def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
@@ -40,10 +46,8 @@ def test_the_motions_are_their_own_derivatives_and_keep_the_limits(model):
 def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd(model):
     robot, motion = secret.changed(model, 3), secret.anywhere(model, 3, 100)
     slow = motion._replace(qd=motion.qd / 40.0)
-    free = secret.changed(model, 3)
-    free.dof_frictionloss[:] = 0.0
-    secret.settled(free)
-    rub = secret.torques(robot, slow) - secret.torques(free, slow)
+    free = secret.torques(secret.without_friction(robot), slow)
+    rub = secret.torques(robot, slow) - free
     b = 2.0 / (0.95 * 0.02)  # 1/s, of MuJoCo's default solimp and solref
     full = np.abs(slow.qd + slow.qdd / b) > 0.01  # near 0 it is a ramp
     sign = np.sign(slow.qd + slow.qdd / b)
@@ -51,30 +55,19 @@ def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd(model):
     assert (sign != np.sign(slow.qd)).mean() > 0.2
 
 
-def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load(model):
-    arm, q = panda.arm(model), panda.READY_Q
-    at, torque = secret.hold(model, arm, q, 1.0)
-    assert_same(at, q, 1e-6)
-    assert_same(torque, np.zeros(7), 1e-3)
-    hung = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
-    at, torque = secret.hold(hung, arm, q, 1.0)
+def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load(model, hung):
+    arm, q = panda.arm(model), panda.READY_Q[None]
+    at, torque = secret.holds(model, arm, q)
+    assert_same(at[:, 0], [panda.READY_Q] * 2, 1e-6)
+    assert_same(torque, np.zeros((2, 1, 7)), 1e-3)
+    at, torque = (each[0] for each in secret.holds(hung, arm, q))
     extra = verify.mujoco_bias(hung, at, 0 * at) - verify.mujoco_bias(model, at, 0 * at)
     assert_same(torque, extra, 1e-4)
 
 
-def test_an_arm_floats_on_what_it_really_weighs(model):
+def test_an_arm_floats_on_what_it_really_weighs(model, hung):
     arm, still = panda.arm(model), lambda now: now.gravity_torque
-    hung = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
     load = np.append(0.5, 0.5 * AT)
     assert abs(secret.rises(hung, arm, still, load)) < 1e-12
     assert secret.rises(hung, arm, still, 0 * load) < -0.4
     assert secret.rises(hung, arm, still, 1.2 * load) > 0.05
-
-
-def test_the_numbers_of_a_known_arm_are_its_torque(model):
-    arm, motion = panda.arm(model), secret.anywhere(model, 4, 5)
-    for q, qd, qdd, tau in zip(*motion, secret.torques(model, motion), strict=True):
-        now = arm.at(q)
-        Y = identification.arm_regressor(now.J_space, now.T_links, qd, qdd, arm.gravity)
-        Y = np.hstack([Y, identification.motor_features(qd, qdd)])
-        assert_same(Y @ secret.numbers(arm), tau, 1e-11)

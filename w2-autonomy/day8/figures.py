@@ -1,7 +1,6 @@
 """The picture of Day 8, made with the lab's own functions; drawn by `make figures`.
 
-shown   left: what two motions show, singular value by singular value; right: how far a
-        predicted torque is off, with the band in which it should be
+shown   what two motions show, value by value; how far a predicted torque is off
 """
 
 import io

@@ -30,14 +30,21 @@ def parts(Y, rtol):
     return U[:, kept], s[kept], Vt[kept]
 
 
-@row.wrong
-def nothing_cut(Y, tau, rtol):
-    """small values are kept as well: what the motion does not show is made up of noise,
-    and large => the right one with nothing cut"""
-    s = np.linalg.svd(Y, compute_uv=False)
-    return fit(Y, tau, min(rtol, 0.5 * s[-1] / s[0])) if s[-1] > 1e-12 * s[0] else (
-        fit(Y, tau, rtol)
-    )  # fmt: skip
+for slug, says, redone, code in (
+    ("nothing-cut", "small values are kept as well: what the motion does not show is "
+     "made up of noise, and large", "the right one with nothing cut",
+     lambda Y, tau, rtol: fit(Y, tau, 1e-12)),
+    ("rtol-absolute", "a value is compared with rtol itself; it counts above rtol "
+     "times the largest", "the right one with rtol absolute",
+     lambda Y, tau, rtol: fit(Y, tau, min(rtol / np.linalg.norm(Y, 2), 0.999))),
+    ("cut-not-squared", "the cut is made on eigenvalues of Y^T Y, which are squares, "
+     "and is not squared", "the right one with rtol's square root",
+     lambda Y, tau, rtol: fit(Y, tau, np.sqrt(rtol))),
+    ("ridge", "something is added to the diagonal of Y^T Y: every parameter is pulled "
+     "towards 0, also what the motion shows", "(Y^T Y + 1)^-1 Y^T tau",
+     lambda Y, tau, rtol: np.linalg.solve(Y.T @ Y + np.eye(Y.shape[1]), Y.T @ tau)),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(code)
 
 
 @row.wrong
@@ -49,59 +56,12 @@ def times_s(Y, tau, rtol):
 
 
 @row.wrong
-def s_forgotten(Y, tau, rtol):
-    """the singular values are not divided by => V U^T tau"""
-    U, _, Vt = parts(Y, rtol)
-    return Vt.T @ (U.T @ tau)
-
-
-@row.wrong
-def divided_by_squares(Y, tau, rtol):
-    """it is divided by the squares of the singular values; that is for Y^T tau => V
-    S^-2 U^T tau"""
-    U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (U.T @ tau / s**2)
-
-
-@row.wrong
-def rtol_absolute(Y, tau, rtol):
-    """a value is compared with rtol itself; it counts above rtol times the largest =>
-    the right one with rtol absolute"""
-    largest = np.linalg.norm(Y, 2)
-    return fit(Y, tau, rtol / largest) if largest > rtol else np.zeros(Y.shape[1])
-
-
-@row.wrong
-def cut_not_squared(Y, tau, rtol):
-    """the cut is made on eigenvalues of Y^T Y, which are squares, and is not squared =>
-    the right one with rtol's square root"""
-    return fit(Y, tau, np.sqrt(rtol))
-
-
-@row.wrong
 def first_columns(Y, tau, rtol):
     """only the first columns are fitted, as many as the rank; which ones hide one
     another is not known by their place => the first columns alone, 0 for the rest"""
     rank, _ = identifiable(Y, rtol)
     first, *_ = np.linalg.lstsq(Y[:, :rank], tau, rcond=None)
     return np.append(first, np.zeros(Y.shape[1] - rank))
-
-
-@row.wrong
-def ridge(Y, tau, rtol):
-    """something is added to the diagonal of Y^T Y: every parameter is pulled towards 0,
-    also what the motion shows => (Y^T Y + 1)^-1 Y^T tau"""
-    return np.linalg.solve(Y.T @ Y + np.eye(Y.shape[1]), Y.T @ tau)
-
-
-@row.wrong
-def V_not_transposed(Y, tau, rtol):
-    """V^T stands where V belongs: svd returns V^T => V^T S^-1 U^T tau"""
-    U, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    kept = s > rtol * s[0]
-    along = np.zeros(len(s))
-    along[kept] = U[:, kept].T @ tau / s[kept]
-    return Vt @ along
 
 
 @row.right  # NumPy's lstsq, told where to cut.
@@ -112,9 +72,3 @@ def _(Y, tau, rtol):
 @row.right  # The pseudo-inverse of Y^T Y, cut at the square.
 def _(Y, tau, rtol):
     return np.linalg.pinv(Y.T @ Y, rcond=max(rtol, 1e-7) ** 2) @ (Y.T @ tau)
-
-
-@row.close("rounded-somewhere")  # A very small ridge on the values that count.
-def _(Y, tau, rtol):
-    U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (s / (s**2 + 1e-10 * s[0] ** 2) * (U.T @ tau))

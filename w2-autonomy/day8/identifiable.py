@@ -22,72 +22,29 @@ def values(Y):
     return np.linalg.svd(Y, compute_uv=False)
 
 
-@row.wrong
-def rtol_absolute(Y, rtol):
-    """a value is compared with rtol itself; it counts above rtol times the largest, or
-    newtons and millinewtons would have another rank => the right one with rtol
-    absolute"""
-    s = values(Y)
-    rank = np.sum(s > rtol)
-    return rank, s[0] / s[rank - 1]
-
-
-@row.wrong
-def condition_of_all(Y, rtol):
-    """the condition is that of all values; those that do not count are only rounding,
-    so it ends at the last that does => the largest over the smallest of all"""
-    s = values(Y)
-    return np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300)
-
-
-@row.wrong
-def nothing_cut(Y, rtol):
-    """every value counts, so rtol is not used => the number of values, the largest over
-    the smallest"""
-    s = values(Y)
-    return len(s), s[0] / max(s[-1], 1e-300)
-
-
-@row.wrong
-def cut_not_squared(Y, rtol):
-    """these are eigenvalues of Y^T Y, squares of singular values; the cut has to be
-    squared, too => the right one with rtol's square root"""
-    s = values(Y)
-    kept = s[s**2 > rtol * s[0] ** 2]
-    return len(kept), kept[0] / kept[-1]
-
-
-@row.wrong
-def condition_squared(Y, rtol):
-    """the condition is that of Y^T Y, the square of the one of Y => its square"""
-    s = values(Y)
-    kept = s[s > rtol * s[0]]
-    return len(kept), (kept[0] / kept[-1]) ** 2
-
-
-@row.wrong
-def condition_inverted(Y, rtol):
-    """the condition is upside down: it is 1 or more => smallest over largest"""
-    s = values(Y)
-    kept = s[s > rtol * s[0]]
-    return len(kept), kept[-1] / kept[0]
-
-
-@row.wrong
-def hidden_counted(Y, rtol):
-    """this counts what cannot be seen; the rank is what can => the number of columns
-    less the rank"""
-    s = values(Y)
-    kept = s[s > rtol * s[0]]
-    return Y.shape[1] - len(kept), kept[0] / kept[-1]
-
-
-@row.wrong
-def condition_of_the_cut(Y, rtol):
-    """the condition is 1 / rtol: it is what the motion shows, not what you allow => 1 /
-    rtol"""
-    s = values(Y)
-    return np.sum(s > rtol * s[0]), 1.0 / rtol
+for slug, says, redone, told in (
+    ("rtol-absolute", "a value is compared with rtol itself; it counts above rtol "
+     "times the largest, or newtons and millinewtons would have another rank",
+     "the right one with rtol absolute",
+     lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
+    ("condition-of-all", "the condition is that of all values; those that do not count "
+     "are only rounding, so it ends at the last that does",
+     "the largest over the smallest of all",
+     lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
+    ("nothing-cut", "every value counts, so rtol is not used",
+     "the number of values, the largest over the smallest",
+     lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
+    ("cut-not-squared", "these are eigenvalues of Y^T Y, squares of singular values; "
+     "the cut has to be squared, too", "the right one with rtol's square root",
+     lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
+    ("condition-squared", "the condition is that of Y^T Y, the square of the one of Y",
+     "its square",
+     lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
+    ("condition-inverted", "the condition is upside down: it is 1 or more",
+     "smallest over largest",
+     lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(lambda Y, rtol, told=told: told(values(Y), rtol))
 
 
 @row.right  # By the eigenvalues of Y^T Y, the cut squared too.

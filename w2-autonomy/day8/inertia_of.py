@@ -17,44 +17,21 @@ def _(rng):
     return [(np.array([2.0, 0, 0, 2, 2, 2, 0, 0, 0, 0]),), *((x,) for x in bodies(rng))]
 
 
-def ordered(phi, order):
-    """Return the matrix with the six numbers of I in another order."""
-    return right(np.append(phi[:4], phi[4:][order]))
-
-
-@row.wrong
-def products_negative(phi):
-    """Ixy, Ixz and Iyz have changed their sign; here they are the entries of I as they
-    stand in it => the right one with -Ixy, -Ixz, -Iyz"""
-    return right(phi * np.append(np.ones(7), -np.ones(3)))
-
-
-@row.wrong
-def row_by_row(phi):
-    """the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of other
-    software; here the diagonal comes first => I in that order"""
-    return ordered(phi, [0, 2, 5, 1, 3, 4])
-
-
-@row.wrong
-def products_in_another_order(phi):
-    """the last three are read as Iyz, Ixz, Ixy; here they are Ixy, Ixz, Iyz => I in
-    that order"""
-    return ordered(phi, [0, 1, 2, 5, 4, 3])
-
-
-@row.wrong
-def first_moment_times_m(phi):
-    """phi[1:4] is multiplied by m; it is m c already, which keeps all of it linear =>
-    the right one with m [h] for [h]"""
-    return right(np.append(phi[0], np.append(phi[0] * phi[1:4], phi[4:])))
-
-
-@row.wrong
-def corners_swapped(phi):
-    """the corners are swapped: [h] stands at the upper right, [h]^T at the lower left
-    => the right one with -h"""
-    return right(phi * np.append([1.0, -1, -1, -1], np.ones(6)))
+for slug, says, redone, change in (
+    ("products-negative", "Ixy, Ixz and Iyz have changed their sign; here they are the "
+     "entries of I as they stand in it", "the right one with -Ixy, -Ixz, -Iyz",
+     lambda phi: phi * np.append(np.ones(7), -np.ones(3))),
+    ("row-by-row", "the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the "
+     "order of other software; here the diagonal comes first", "I in that order",
+     lambda phi: phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]]),
+    ("first-moment-times-m", "phi[1:4] is multiplied by m; it is m c already, which "
+     "keeps all of it linear", "the right one with m [h] for [h]",
+     lambda phi: phi * np.append([1.0, *[phi[0]] * 3], np.ones(6))),
+    ("corners-swapped", "the corners are swapped: [h] stands at the upper right, [h]^T "
+     "at the lower left", "the right one with -h",
+     lambda phi: phi * np.append([1.0, -1, -1, -1], np.ones(6))),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(lambda phi, change=change: right(change(phi)))
 
 
 @row.wrong
@@ -81,29 +58,6 @@ def velocity_first(phi):
     """the blocks are in the order (v; omega); here omega comes first => the right one
     with its halves swapped"""
     return right(phi)[np.ix_(SWAP, SWAP)]
-
-
-@row.wrong
-def mass_everywhere(phi):
-    """m fills the whole lower right; it is m times the identity => m in all nine
-    places"""
-    G = right(phi)
-    G[3:, 3:] = phi[0]
-    return G
-
-
-@row.wrong
-def corners_empty(phi):
-    """m c is not in it: a force would not turn the body => the right one with h = 0"""
-    return right(phi * np.append([1.0, 0, 0, 0], np.ones(6)))
-
-
-@row.right  # In blocks, as the guide draws it.
-def _(phi):
-    i, j = np.triu_indices(3)
-    about, H = np.zeros((3, 3)), skew(phi[1:4])
-    about[i, j] = about[j, i] = phi[[4, 7, 8, 5, 9, 6]]
-    return np.block([[about, H], [H.T, phi[0] * np.eye(3)]])
 
 
 @row.right  # One constant matrix for each number: that is what linear means.

@@ -1,8 +1,7 @@
 """Day 8 in the inspector: the tab Weigh.
 
-Hang a ball on the hand of the lab's secret robot, choose a pose, and let it be held
-from both sides. What `robo47.identification` finds stands beside what hangs there, with
-its sigma; the blue ball is where the load is said to be.
+Hang a ball on the hand of the lab's secret robot and let it be held, from both sides.
+What `robo47.identification` finds stands there with its sigma; the blue ball is where.
 """
 
 import numpy as np
@@ -31,26 +30,23 @@ class Weigh(Tab):
         self.mass, self.com = 0.5, np.array([0.02, -0.03, 0.06])
         self.held: list[Array] = []  # q, torque with and without, from either side
         page.html(words.line("Weighed by robo47.identification.", "library"))
-        page.slider("load", 50, 2000, 500, self.set_mass, unit="g", step=50)
-        for k, axis in enumerate("xyz"):
-            start = 1000 * self.com[k]
-            change = lambda mm, k=k: self.set_com(k, mm)  # noqa: E731
-            page.slider(f"centre {axis}", -100, 100, start, change, unit="mm", step=5)
+        page.slider("load", 50, 2000, 500, self.hang, unit="g", step=50)
+        page.slider("below the hand", 0, 200, 60, self.lower, unit="mm", step=5)
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
-        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange")
+        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange", 0.5)
         self.found = page.draw.sphere(np.zeros(3), secret.RADIUS / 2, "blue")
         page.light("ee", {"ee"})
         self.show()
 
-    def set_mass(self, grams: float) -> None:
+    def hang(self, grams: float) -> None:
         """Hang another load on the hand, which was never held."""
         self.mass = grams / 1000.0
         self.press(FORGET)
 
-    def set_com(self, axis: int, mm: float) -> None:
-        """Hang it somewhere else."""
-        self.com[axis] = mm / 1000.0
+    def lower(self, mm: float) -> None:
+        """Hang it lower, or higher."""
+        self.com[2] = mm / 1000.0
         self.press(FORGET)
 
     def press(self, name: str) -> None:
@@ -59,7 +55,7 @@ class Weigh(Tab):
         if name == FIVE:
             beside = np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
             poses = list(panda.READY_Q + beside)
-        if name == FORGET:
+        if name != HERE:  # the same holds again would only look like more
             self.held = []
         edit = secret.load(self.mass, self.com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)

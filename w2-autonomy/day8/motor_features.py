@@ -22,63 +22,25 @@ def side_by_side(*blocks):
     return np.hstack([np.diag(block) for block in blocks])
 
 
-@row.wrong
-def sign_of_the_acceleration(qd, qdd):
-    """dry friction takes the sign of qdd; it works against the motion, so that of qd
-    => sign(qdd) in the last block"""
-    return side_by_side(qdd, qd, np.sign(qdd))
-
-
-@row.wrong
-def smoothed(qd, qdd):
-    """dry friction is tanh(qd / 0.1); here it is the sign itself; the lab leaves slow
-    rows out => tanh(qd / 0.1) in the last block"""
-    return side_by_side(qdd, qd, np.tanh(qd / 0.1))
-
-
-@row.wrong
-def sign_at_rest(qd, qdd):
-    """a joint at rest is given a direction; sign(0) is 0 => 1 where qd is 0"""
-    return side_by_side(qdd, qd, np.where(qd < 0.0, -1.0, 1.0))
-
-
-@row.wrong
-def dry_forgotten(qd, qdd):
-    """dry friction is missing: its seven columns are 0 => the last block empty"""
-    return side_by_side(qdd, qd, 0 * qd)
-
-
-@row.wrong
-def viscous_forgotten(qd, qdd):
-    """viscous friction is missing: its seven columns are 0 => the middle block empty"""
-    return side_by_side(qdd, 0 * qd, np.sign(qd))
-
-
-@row.wrong
-def rotors_forgotten(qd, qdd):
-    """the rotors are missing: their seven columns are 0 => the first block empty"""
-    return side_by_side(0 * qdd, qd, np.sign(qd))
-
-
-@row.wrong
-def friction_drives(qd, qdd):
-    """friction has a minus; the motors give this torque against it => both blocks of
-    friction negative"""
-    return side_by_side(qdd, -qd, -np.sign(qd))
-
-
-@row.wrong
-def velocity_first(qd, qdd):
-    """the blocks are in another order: rotors (qdd), viscous (qd), dry (its sign) => qd
-    first, then qdd"""
-    return side_by_side(qd, qdd, np.sign(qd))
-
-
-@row.wrong
-def dry_without_sign(qd, qdd):
-    """dry friction has no direction: its entries are 1 whichever way a joint turns => 1
-    on the last diagonal"""
-    return side_by_side(qdd, qd, np.ones(7))
+for slug, says, redone, blocks in (
+    ("sign-of-the-acceleration", "dry friction takes the sign of qdd; it works against "
+     "the motion: that of qd", "sign(qdd) in the last block",
+     lambda qd, qdd: (qdd, qd, np.sign(qdd))),
+    ("smoothed", "dry friction is tanh(qd / 0.1); here it is the sign itself, and slow "
+     "rows are left out", "tanh(qd / 0.1) in the last block",
+     lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
+    ("sign-at-rest", "a joint at rest is given a direction; sign(0) is 0",
+     "1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
+    ("dry-forgotten", "dry friction is missing: its seven columns are 0",
+     "the last block empty", lambda qd, qdd: (qdd, qd, 0 * qd)),
+    ("friction-drives", "friction has a minus; the motors give this torque against it",
+     "both blocks of friction negative", lambda qd, qdd: (qdd, -qd, -np.sign(qd))),
+    ("velocity-first", "the blocks are in another order: rotors (qdd), viscous (qd), "
+     "dry (its sign)", "qd first, then qdd", lambda qd, qdd: (qd, qdd, np.sign(qd))),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(
+        lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd))
+    )
 
 
 @row.wrong

@@ -29,25 +29,18 @@ def solved(J_site, R_site, extra, g, sign=-1.0, moment=-1.0, order=None):
     return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
 
 
-@row.wrong
-def load_drives(J_site, R_site, extra, g):
-    """the sign is that of what the load does to the arm; the motors hold against it =>
-    the right one with +J^T"""
-    return solved(J_site, R_site, extra, g, sign=1.0)
+for slug, says, redone, other in (
+    ("load-drives", "the sign is that of what the load does to the arm; the motors "
+     "hold against it", "the right one with +J^T", {"sign": 1.0}),
+    ("moment-sign", "the moment has the wrong sign: c x m g is -[g] m c, and its "
+     "centre comes out on the other side", "with +[g] R", {"moment": 1.0}),
+    ("force-first", "the wrench is (force; moment); J has its angular rows first",
+     "the right one with its halves swapped", {"order": SWAP}),
+):  # fmt: skip
 
-
-@row.wrong
-def moment_sign(J_site, R_site, extra, g):
-    """the moment has the wrong sign: c x m g is -[g] m c, and its centre comes out on
-    the other side => the right one with +[g] R"""
-    return solved(J_site, R_site, extra, g, moment=1.0)
-
-
-@row.wrong
-def force_first(J_site, R_site, extra, g):
-    """the wrench is (force; moment); J has its angular rows first => the right one with
-    its halves swapped"""
-    return solved(J_site, R_site, extra, g, order=SWAP)
+    @row.wrong(slug, says, redone)
+    def _(J_site, R_site, extra, g, other=other):
+        return solved(J_site, R_site, extra, g, **other)
 
 
 @row.wrong
@@ -69,38 +62,6 @@ def centre_for_first_moment(J_site, R_site, extra, g):
     """the last three are c; asked for is m c, which is what is linear => m, then c"""
     m, *h = payload_from_holds(J_site, R_site, extra, g)
     return np.append(m, np.array(h) / m)
-
-
-@row.wrong
-def one_pose_only(J_site, R_site, extra, g):
-    """only the first pose is used; one hold does not show the centre along gravity =>
-    the first pose alone"""
-    return payload_from_holds(J_site[:1], R_site[:1], extra[:1], g)
-
-
-@row.wrong
-def poses_averaged(J_site, R_site, extra, g):
-    """each pose is solved alone, and then the mean is taken; each of them is blind for
-    one direction: stack them => the mean over the poses"""
-    each = [
-        payload_from_holds(J[None], R[None], tau[None], g)
-        for J, R, tau in zip(J_site, R_site, extra, strict=True)
-    ]
-    return np.mean(each, axis=0)
-
-
-@row.wrong
-def centre_forgotten(J_site, R_site, extra, g):
-    """only m is found, as if the load hung at the site itself => m alone, and zeros"""
-    force = -(np.swapaxes(J_site[:, 3:], 1, 2) @ g).reshape(-1)
-    return np.append(force @ extra.reshape(-1) / (force @ force), np.zeros(3))
-
-
-@row.wrong
-def newtons(J_site, R_site, extra, g):
-    """these are newtons and newton metres: m g and m g c. g is known, so divide by its
-    length => the right one times |g|"""
-    return np.linalg.norm(g) * payload_from_holds(J_site, R_site, extra, g)
 
 
 row.of_argument(

@@ -102,7 +102,7 @@ def identifiable(Y: np.ndarray, rtol: float) -> tuple[int, float]:
 def fit(Y: np.ndarray, tau: np.ndarray, rtol: float) -> np.ndarray:
     """Return the smallest parameters, (p,), that explain the torques tau, (n,), best.
 
-    For [[1, 1], [2, 2]] and (2, 4) it is (1, 1). rtol is that of `identifiable`.
+    For [[1, 1], [2, 2]] and (2, 4): (1, 1). rtol is that of `identifiable`.
     """
     # region 8.6
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
@@ -156,16 +156,15 @@ def least_pseudo(phi: np.ndarray) -> float:
 
 
 def arguments() -> dict[str, tuple]:
-    """Return random arguments for each function that is compared with the library."""
+    """Return random arguments for what is compared with the library."""
     rng, rtol = np.random.default_rng(SEED), 4e-3
     Y = rng.normal(size=(40, 6)) * [1e3, 300, 100, 40, 0.1, 0.1]  # two hardly show
     tau, Y_new, (V, A) = (rng.normal(size=n) for n in (40, (8, 6), (2, 6)))
     J, R, extra = (rng.normal(size=(5, *n)) for n in ((6, 7), (3, 3), (7,)))
-    V[0] = 0.0  # at rest, whatever it accelerates with
     return {
         "inertia_of": (rng.normal(size=10),), "link_regressor": (V, A),
-        "motor_features": (V, A), "identifiable": (Y, rtol), "fit": (Y, tau, rtol),
-        "predict_with_sigma": (Y, tau, Y_new, rtol),
+        "motor_features": (np.maximum(V, 0.0), A), "identifiable": (Y, rtol),
+        "fit": (Y, tau, rtol), "predict_with_sigma": (Y, tau, Y_new, rtol),
         "payload_from_holds": (J, R, extra, A[3:]),
     }  # fmt: skip
 
@@ -211,14 +210,13 @@ def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
     """Return (m, m c), (4,), by how the arm was held with a load and without."""
     poses = panda.READY_Q + np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
     (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in (robot, loaded))
-    ways = {
-        "both held from one side": (q[0], full[0] - empty[0]),
-        "one from either side": (q[1], full[1] - empty[0]),
-        "each from both, averaged": (q.mean(axis=0), (full - empty).mean(axis=0)),
-    }
-    return {"told of no load": np.zeros(4)} | {
-        name: payload_from_holds(*secret.hands(arm, q), extra, arm.gravity)
-        for name, (q, extra) in ways.items()
+    g, hands = arm.gravity, secret.hands
+    weigh = lambda q, extra: payload_from_holds(*hands(arm, q), extra, g)  # noqa: E731
+    return {
+        "told of no load": np.zeros(4),
+        "both held from one side": weigh(q[0], full[0] - empty[0]),
+        "one from either side": weigh(q[1], full[1] - empty[0]),
+        "each from both, averaged": weigh(q.mean(axis=0), (full - empty).mean(axis=0)),
     }
 
 
@@ -237,12 +235,12 @@ def main() -> int:
     lab.step("2. The whole arm: what its motion shows, and what it hides")
     new = secret.anywhere(model, SEED, TRIALS)
     Y = regressor(arm, new)
-    file = secret.numbers(arm)  # that the model file holds for the 91
+    file = secret.numbers(arm)  # the 91 as the model file has them
     off = Y @ file - secret.torques(model, new)
     lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m", seed=SEED)
-    for name, part in (("links", Y[..., :70]), ("with motors", Y)):
-        rank, condition = identifiable(part.reshape(-1, part.shape[-1]), RTOL)
-        print(f"  {name}: {rank} of {part.shape[-1]} show, condition {condition:.0f}")
+    for p, name in ((70, "links"), (91, "with motors")):
+        rank, condition = identifiable(Y[..., :p].reshape(-1, p), RTOL)
+        print(f"  {name}: {rank} of {p} show, condition {condition:.0f}")
 
     lab.step("3. A robot that nobody knows: five fits to its torques, N m")
     fast, truth = np.abs(new.qd) > SLOW, secret.torques(robot, new)
@@ -265,10 +263,10 @@ def main() -> int:
 
     lab.step("5. Side quest: can a body have these ten numbers?")
     with lab.side_quest():
-        links = phi[:70].reshape(7, 10)
-        off = [least_pseudo(x) for x in links] - library.least_pseudo(links)
-        lab.check("least_pseudo - the library's", off)
-        print(f"  the least of the links found: {min(map(least_pseudo, links)):.2f}")
+        least = np.array([least_pseudo(x) for x in phi[:70].reshape(7, 10)])
+        right = library.least_pseudo(phi[:70].reshape(7, 10))
+        lab.check("least_pseudo - the library's", least - right)
+        print(f"  the least of the links found: {least.min():.2f}")
     return lab.finish()
 
 
