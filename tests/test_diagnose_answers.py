@@ -63,6 +63,14 @@ def test_an_error_of_the_second_time_alone_is_state_too():
     assert judged_replies(MAKE_T, replies).mistake == "kept-between-calls"
 
 
+def test_an_error_of_both_times_at_a_fresh_input_is_no_state():
+    asked = round_of(MAKE_T)
+    answered(asked.main, replies_of(right(MAKE_T)[0] + 1.0))
+    stops = Reply(kind="ZeroDivisionError", error="division by zero")
+    answered(asked.fresh, [stops] * len(asked.fresh))
+    assert judge(asked).mistake != "kept-between-calls"
+
+
 @pytest.mark.parametrize(
     ("shares", "slug"),
     [("another answer", "one-array-for-all"), ("R", "shares-its-argument")],

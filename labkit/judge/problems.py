@@ -256,8 +256,8 @@ def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Findi
 
 
 def _differs(reply: Reply) -> bool:
-    if reply.kind or reply.again_error:
-        return bool(reply.kind) != bool(reply.again_error)
+    if reply.kind or reply.again_error:  # stopped once, and not the other time
+        return bool(reply.again_error) or reply.again is not None
     first, second = _flat(reply.value), _flat(reply.again)
     if first is None or second is None or first.shape != second.shape:
         return not (first is None and second is None)
