@@ -10,11 +10,10 @@ origin. Twists (omega; v), wrenches (moment; force). Metres, radians, kilograms,
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 
-from robo47 import cli, panda, secret
+from robo47 import cli, panda, se3, secret
 from robo47 import identification as library
 from robo47.lesson.lab import Lab
 from robo47.screws import ad, adjoint, skew
-from robo47.se3 import inverse
 
 SEED = 47  # of the secret robot and of all that is random; another one is another robot
 TRIALS = 100  # random states that a fit is judged on
@@ -22,7 +21,6 @@ NOISE = 0.1  # N m, of each measured torque; 1 of them moves the fit tenfold
 SLOW = 0.1  # rad/s: below it a joint's dry friction is not yet that of its sign
 RTOL = 1e-9  # of the largest singular value: smaller ones count as nothing
 LOAD, AT = 0.5, np.array([0.02, -0.03, 0.06])  # kg and m: what the arm is to find
-
 rms = lambda x: np.sqrt(np.mean(np.square(x)))  # noqa: E731
 
 
@@ -70,7 +68,7 @@ def arm_regressor(
     for i, (S, T) in enumerate(zip(J_space.T, T_links, strict=True)):
         V = V + S * qd[i]
         A = A + S * qdd[i] + ad(V) @ S * qd[i]
-        X = adjoint(inverse(T))
+        X = adjoint(se3.inverse(T))
         costs = X.T @ link_regressor(X @ V, X @ A)  # of link i, at the world's origin
         Y[: i + 1, 10 * i : 10 * i + 10] = J_space[:, : i + 1].T @ costs
     return Y
@@ -200,8 +198,7 @@ def fits(robot, arm, new: tuple) -> tuple:
     judged("Day 5's swing", Y[fast], tau[fast], new)
     judged("the same, rtol 1e-3", Y[fast], tau[fast], new, 1e-3)
     Y, tau, fast = found[3:]
-    few = fast & (np.arange(len(Y)) % 20 == 0)[:, None]
-    judged("ten samples, excited", Y[few], tau[few], new)
+    judged("ten samples, excited", Y[::20][fast[::20]], tau[::20][fast[::20]], new)
     judged("excited, slow rows", Y.reshape(-1, 91), tau.ravel(), new)
     return judged("excited", Y[fast], tau[fast], new)
 
@@ -210,8 +207,8 @@ def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
     """Return (m, m c), (4,), by how the arm was held with a load and without."""
     poses = panda.READY_Q + np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
     (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in (robot, loaded))
-    g, hands = arm.gravity, secret.hands
-    weigh = lambda q, extra: payload_from_holds(*hands(arm, q), extra, g)  # noqa: E731
+    see, g = secret.hands, arm.gravity
+    weigh = lambda q, extra: payload_from_holds(*see(arm, q), extra, g)  # noqa: E731
     return {
         "told of no load": np.zeros(4),
         "both held from one side": weigh(q[0], full[0] - empty[0]),
@@ -222,8 +219,7 @@ def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
 
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
-    lab = Lab(__file__, __doc__)
-    model = panda.load("panda_nohand", drive="torque")
+    lab, model = Lab(__file__, __doc__), panda.load("panda_nohand", drive="torque")
     print(panda.describe("panda_nohand"))
     arm, robot = panda.arm(model), secret.changed(model, SEED)
 
@@ -263,10 +259,10 @@ def main() -> int:
 
     lab.step("5. Side quest: can a body have these ten numbers?")
     with lab.side_quest():
-        least = np.array([least_pseudo(x) for x in phi[:70].reshape(7, 10)])
-        right = library.least_pseudo(phi[:70].reshape(7, 10))
-        lab.check("least_pseudo - the library's", least - right)
-        print(f"  the least of the links found: {least.min():.2f}")
+        found = np.array([least_pseudo(x) for x in phi[:70].reshape(7, 10)])
+        off = found - library.least_pseudo(phi[:70].reshape(7, 10))
+        lab.check("least_pseudo - the library's", off)
+        print(f"  the least of the links found: {found.min():.2f}")
     return lab.finish()
 
 
