@@ -20,7 +20,7 @@ def floating() -> Recording:
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
     film = Recording(panda.load("panda_nohand", meshes=True), back=1.4)
-    arrow = film.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.012)
+    arrow = film.draw.arrows(np.full((1, 2, 3), 1e-3), "red", 0.012)
     for says, share, seconds, force in PARTS:
 
         def hold(t: float, q, qd, share=share):

@@ -22,7 +22,7 @@ def press() -> Recording:
     depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
     height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
     film = Recording(scenes.press_table(meshes=True), back=1.1)
-    arrow = film.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.012)
+    arrow = film.draw.arrows(np.full((1, 2, 3), 1e-3), "red", 0.012)
     for drive, rate in (("torque", RATE), ("servo", simulate.RATE)):
         model = scenes.press_table(drive=drive)
         q, arm = contact.above_table(model, 0.01), panda.arm(model)
