@@ -15,6 +15,7 @@ from conftest import ROOT
 from labkit.base.git import History
 from labkit.grade.roster import Student
 from labkit.lesson.day import days_of, find_day
+from labkit.lesson.week import find_week
 from labkit.proof import facts, page
 from labkit.proof.class_pages import write_pages
 from labkit.proof.pick import Picked, pick
@@ -73,7 +74,7 @@ class Seen(HTMLParser):
 
 def half_done(tmp_path, sandbox):
     """Return the proof of somebody who wrote Day 1 alone."""
-    clone, days, folders = a_clone(tmp_path / "of"), days_of(1), []
+    clone, days, folders = a_clone(tmp_path / "of"), days_of(find_week(1)), []
     for day in days:
         folders.append(tmp_path / str(day.number))
         folders[-1].mkdir()
@@ -184,7 +185,7 @@ def test_the_pick_plays_on_the_page_and_the_evil_does_not(tmp_path, chromium):
 
 def test_an_arm_that_stops_is_told_and_not_filmed():
     class Failing:
-        def session(self, *_):
+        def session(self, *_, **__):
             return SimpleNamespace(
                 ask=lambda questions: [SimpleNamespace(kind="stopped", value=None)]
             )

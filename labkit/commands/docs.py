@@ -3,7 +3,7 @@
     make docs                                run the commands, rewrite outputs
     python3 scripts/build_docs.py            the same
     python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
-    make docs DAY=8                          its own, and the tables that list it
+    make docs DAY=8                          its own, and what lists it
 
 A document asks for an output between two comments:
 
