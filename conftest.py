@@ -56,7 +56,7 @@ def need(available: bool, what: str) -> None:
 
 
 class Answers:
-    """A student's file for a tab of the inspector: functions in place of a sandbox."""
+    """A student's file for a tab of the inspector: functions instead of a sandbox."""
 
     there, version, problem = True, 1, ""
 

@@ -186,7 +186,7 @@ def judge(rival: Rival, T: Array) -> dict[str, float]:
     """Return what a rival's answers are worth, by MuJoCo's poses."""
     model = panda.load("panda_nohand")
     q, steps = rival.solve(T)
-    metres, radians = se3.pose_error(verify.mujoco_poses(model, q)[FRAME], T)
+    metres, radians = se3.pose_distance(verify.mujoco_poses(model, q)[FRAME], T)
     there = np.hypot(metres, radians) < ik.REACHED
     inside = ((q >= model.jnt_range[:, 0]) & (q <= model.jnt_range[:, 1])).all(axis=1)
     return {

@@ -1,6 +1,6 @@
 """What the published handout's Day 1 script does, fixed so that it runs.
 
-Only what it takes to run is fixed: `panda_nohand.xml`, which has the site, in place of
+Only what it takes to run is fixed: `panda_nohand.xml`, which has the site, instead of
 `scene.xml`. It loads the robot with its meshes, checks T @ inv(T) = I, multiplies in
 both orders, and looks at link4. It never composes a pose by hand.
 """

@@ -37,19 +37,22 @@ def _panels(figure: Figure, results: dict[str, Any]) -> None:
 
 
 def _rivals(axes: Axes, rows: dict[str, Any]) -> None:
-    """Draw dots: on a log axis, the length of a bar would mean nothing."""
+    """Draw dots with their range: on a log axis, a bar's length would mean nothing."""
     ordered = sorted(rows.items(), key=lambda item: -item[1]["us"])
     for i, (name, row) in enumerate(ordered):
         ours, us = name.startswith("robo47"), row["us"]
-        axes.plot(us, i, "o" if ours else "D", color=OURS if ours else OTHERS)
+        colour = OURS if ours else OTHERS
+        axes.plot([row["low"], row["high"]], [i, i], color=colour, alpha=0.5)
+        axes.plot(us, i, "o" if ours else "D", color=colour)
         words = f"{us:.2f}" if us < 10 else f"{us:.0f}"
         place = {"xytext": (10, 0), "textcoords": "offset points"}
-        axes.annotate(words, (us, i), va="center", fontsize=chart.SMALL, **place)
+        at = (row["high"], i)
+        axes.annotate(words, at, va="center", fontsize=chart.SMALL, **place)
     axes.set_yticks(range(len(ordered)), [name for name, _ in ordered])
     axes.grid(axis="y")
     axes.set(xscale="log", xlabel="µs per configuration")
     axes.set_title("forward kinematics of the Panda", loc="left")
-    axes.set_xlim(right=5 * ordered[0][1]["us"])
+    axes.set_xlim(right=12 * ordered[0][1]["us"])
 
 
 def _curve(axes: Axes, points: dict[str, float], label: str) -> None:

@@ -52,7 +52,7 @@ def circle(
     return T, V, A
 
 
-def pose_error(T: Array, T_goal: Array) -> Array:
+def small_pose_error(T: Array, T_goal: Array) -> Array:
     """Return `jacobian.pose_error` for a loop: unchecked, and 20 times as fast.
 
     For rotations by less than 90 degrees, whose sine tells the angle.

@@ -12,7 +12,7 @@ with every joint's own axis. A link's factor is fixed; a joint's factor is
     hinge   move to the anchor, turn by q - ref about the axis, move back
     slide   move by q - ref along the axis
     ball    move to the anchor, turn by the quaternion q, move back
-    free    the pose (position, quaternion) in q, in place of the body's own offset
+    free    the pose (position, quaternion) in q, instead of the body's own offset
 
 (MuJoCo documentation, Computation chapter, "Kinematics").
 

@@ -40,7 +40,7 @@ def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
     """Return how to move from T to the goal: a rotation vector and a translation.
 
     (log(R_goal R^T); p_goal - p), in world axes, so it goes with J_site.
-    `se3.pose_error` gives the two lengths.
+    `se3.pose_distance` gives the two lengths.
 
     Args:
         T: pose, (..., 4, 4).

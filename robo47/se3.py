@@ -218,7 +218,7 @@ def is_pose(T: ArrayLike, tol: float = RIGID_TOL) -> bool:
     )
 
 
-def pose_error(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
+def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
     """Return how far apart two poses are, as a distance and an angle.
 
     The angle comes from the relative rotation's quaternion by atan2, which is exact

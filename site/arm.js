@@ -61,15 +61,27 @@ const scene = new THREE.Scene();
 const camera = new THREE.PerspectiveCamera(40, 4 / 3, 0.01, 20);
 camera.up.set(0, 0, 1);
 camera.position.set(1.7, -1.5, 1.2);
-const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
-by("stage").append(renderer.domElement);
-const orbit = new OrbitControls(camera, renderer.domElement);
+const renderer = started();
+const orbit = new OrbitControls(camera, renderer?.domElement ?? by("stage"));
 orbit.target.set(0.2, 0, 0.4);
 orbit.update();
 scene.add(new THREE.HemisphereLight(0xffffff, 0x888888, 2.4));
 const sun = new THREE.DirectionalLight(0xffffff, 2);
 sun.position.set(2, -2, 4);
 scene.add(sun, new THREE.GridHelper(2, 20, 0x999999, 0x999999).rotateX(Math.PI / 2));
+
+/** What draws; without WebGL nothing does, and the numbers stand alone. */
+function started() {
+  try {
+    const made = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    by("stage").append(made.domElement);
+    return made;
+  } catch {
+    by("stage").className = "none";
+    by("stage").textContent = "This browser draws no 3D (WebGL). The numbers are right.";
+    return null;
+  }
+}
 
 function shape(type, [a, b, c]) {
   const kind = mujoco.mjtGeom;
@@ -135,10 +147,11 @@ function draw(poses) {
     frame.visible = by("frames").checked;
     put(frame, matrix(pose(LINKS[i])));
   });
-  renderer.render(scene, camera);
+  renderer?.render(scene, camera);
 }
 
 function fit() {
+  if (!renderer) return;
   const { clientWidth, clientHeight } = by("stage");
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   renderer.setSize(clientWidth, clientHeight, false);
@@ -230,7 +243,7 @@ by("mistake").addEventListener("change", show);
 by("frames").addEventListener("change", show);
 by("ready").addEventListener("click", () => go(ghosts.ready));
 by("zero").addEventListener("click", () => go(Array(JOINTS).fill(0)));
-orbit.addEventListener("change", () => renderer.render(scene, camera));
+orbit.addEventListener("change", () => renderer?.render(scene, camera));
 addEventListener("hashchange", followAddress);
 followAddress();
 new ResizeObserver(fit).observe(by("stage"));

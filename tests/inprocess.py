@@ -20,7 +20,7 @@ class InProcess:
     """Runs a file as `Sandbox.run` does; robo47 and MuJoCo are the real ones."""
 
     def __init__(self, instead=None):
-        """Take functions that stand in the file in place of its own, by name."""
+        """Take functions that stand in the file instead of its own, by name."""
         self.instead = instead or {}
         self.added = ""
 

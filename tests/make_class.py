@@ -42,13 +42,13 @@ def script(text: str | bytes) -> Files:
 
 
 def wrong(name: str) -> Files:
-    """Return the solved lab with a file of the catalogue in place of its functions."""
+    """Return the solved lab with a file of the catalogue instead of its functions."""
     mistaken = (CATALOGUE / f"{name}.py").read_text("utf-8")
     return script(own_way(mistaken))
 
 
 def own_way(functions: str) -> str:
-    """Return the solved lab with other functions in place of its own."""
+    """Return the solved lab with other functions instead of its own."""
     return SOLVED.replace(LOADED, f"{functions}\n\n{LOADED}")
 
 

@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from make_class import DAY, DEADLINE, WEEK, commit
 
+from conftest import need
 from labkit.base.git import before
+from labkit.commands import grade as command
 from labkit.grade import sheet
 from labkit.grade.in_time import read_in_time
 from labkit.grade.journal import Journal
@@ -19,6 +21,8 @@ from labkit.grade.result import Mark, Result, counted
 from labkit.grade.roster import Student
 from labkit.grade.sheet import Graded
 from labkit.handin import item_names
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 SCRIPT = f"{WEEK}/work/{DAY.script}"
@@ -221,3 +225,22 @@ def test_a_table_for_handing_on_says_nothing_of_who_it_is():
     assert "abc123" not in row
     assert row.split(",")[head.split(",").index("percent")] == "25.0"
     assert sheet.nameless([mia], 4711)[0].student != sheet.nameless([mia], 1)[0].student
+
+
+def test_a_day_can_be_graded_with_the_kit_as_it_was_at_a_tag():
+    need((ROOT / ".git").exists(), "the kit as a git repository")
+    folder = command.kit_at("HEAD")
+    (folder / "README.md").write_text("half written")  # by a run that was killed
+    assert command.kit_at("HEAD") == folder
+    assert (folder / "README.md").read_text("utf-8") != "half written"
+    assert (folder / "scripts" / "grade_class.py").is_file()
+    with pytest.raises(Robo47Error, match="the kit has no tag day99"):
+        command.kit_at("day99")
+
+
+def test_a_lab_that_has_another_name_now_is_graded_under_its_old_one(clone):
+    save(clone, "x = 1", DEADLINE)
+    renamed = replace(DAY, script="day1_poses.py", was=(DAY.script,))
+    package = collect(Student("Mia", "mia", clone), renamed)
+    assert package.handin.files[SCRIPT] == b"x = 1"
+    assert "day1_poses" not in package.commit_item.message

@@ -82,6 +82,9 @@ def test_one_table_holds_everybody_and_every_day(graded):
     assert [ada[f"day{n}_percent"] for n in (1, 46)] == ["100.0", "100.0"]
     assert [bob[f"day{n}_percent"] for n in (1, 46)] == ["100.0", "0.0"]
     assert ada["percent"] == "100.0"
+    assert ada["kit"]
+    assert ada["day1_late_days"] == ""  # no deadline
+    assert ada["seed"].isdecimal()
     assert bob["percent"] == "53.3"  # 8 of 15: the toy day's side quest counts nowhere
     assert eve["percent"] == "0.0"
     assert (nobody["percent"], nobody["day1_percent"]) == ("", "")

@@ -786,3 +786,11 @@ def test_a_long_label_has_a_short_one_for_a_phone():
 )
 def test_a_cell_is_one_line_of_plain_text(text, shown):
     assert plain(text) == shown
+
+
+def test_the_kits_own_solution_is_known_on_every_day():
+    from labkit.grade import classroom
+    from labkit.lesson.day import all_days
+
+    for day in all_days():
+        assert len(classroom._runs_of_kit(day)) > 20, day.number

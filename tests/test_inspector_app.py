@@ -14,7 +14,7 @@ from conftest import need
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost, Seen
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
-from labkit.lesson.day import find_day
+from labkit.lesson.day import day_numbers, find_day
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
@@ -387,3 +387,67 @@ def test_an_image_of_depths_goes_from_black_to_white():
     assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
     colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
     assert as_bytes(colours) is colours
+
+
+@pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])
+@pytest.mark.parametrize("start", [[0, 0, 1], [1e308] * 3, [np.nan] * 3])
+def test_a_click_that_no_browser_makes_meets_nothing(page, start, way):
+    page.pointed.watch(page.arm.model)
+    assert page.pointed.find(start, way) == 0
+    assert page.pointed.find([2.0, 0.0, 0.3], [-1.0, 0.0, 0.0]) >= 0
+
+
+def test_a_text_that_is_far_too_long_is_answered_at_once(page, say):
+    before = page.arm.q.copy()
+    started = time.monotonic()
+    say(
+        (page.opened.tab.box, "9, " * 1_000_000), (page.opened.tab.box, "(" * 1_000_000)
+    )
+    assert time.monotonic() - started < SECONDS
+    np.testing.assert_array_equal(page.arm.q, before)
+
+
+def test_a_target_is_dragged_to_no_other_planet(page, say):
+    from viser import _messages
+
+    say(tab("Noisy"))
+    handle = next(
+        node
+        for name, node in page.server.scene._handle_from_node_name.items()
+        if type(node).__name__ == "TransformControlsHandle"
+    )
+    (moved,) = page.server.scene._websock_interface._incoming_handlers[
+        _messages.TransformControlsUpdateMessage
+    ]
+
+    def drag(position):
+        name, upright = handle._impl.name, (1.0, 0.0, 0.0, 0.0)
+        message = _messages.TransformControlsUpdateMessage(name, upright, position)
+        loop = page.server.get_event_loop()
+        asyncio.run_coroutine_threadsafe(moved(BROWSER, message), loop).result(SECONDS)
+        settle(page)
+
+    for far in ((1e300, 0.0, 0.0), (float("nan"), 0.0, 0.0), (0.0, -50.0, 0.0)):
+        drag(far)
+    assert Noisy.last.heard == []
+    drag((0.3, 0.2, 0.1))
+    assert Noisy.last.heard[0][0, 3] == 0.3
+
+
+@pytest.mark.parametrize("number", day_numbers())
+def test_every_tab_of_every_day_opens_moves_and_closes(server, number):
+    from labkit.inspector.app import Inspector
+    from labkit.inspector.serve import on_loop
+
+    server.scene.reset()
+    server.gui.reset()
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+    day = day_tabs(find_day(number))
+    page = on_loop(server, lambda: Inspector(server, arm, "", day, simple=True))
+    for title in page.opened.kinds:
+        on_loop(server, lambda title=title: page.open_tab(title))
+        on_loop(server, lambda: page.move(page.arm.q + 0.01))
+        settle(page)
+        assert page.opened.kind.title == title
+        assert "stopped with" not in contents(page)
+    on_loop(server, page.opened.leave)

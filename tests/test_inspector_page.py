@@ -297,9 +297,10 @@ def test_the_page_asks_nobody_else_for_anything(page, served):
 def test_the_matrices_stand_in_the_page_before_viser_draws_anything(served, page):
     with urllib.request.urlopen(served.url, timeout=60) as answer:
         text = answer.read().decode()
-    first = text.partition('<div id="r47-first">')[2].partition("<script")[0]
-    shown = re.sub("<[^>]*>", "", first.partition('data-matrix="mujoco">')[2])
-    numbers = np.array(shown.split()[:16], dtype=float).reshape(4, 4)
+    first = text.partition('<div id="r47-first">')[2]
+    entries = first.partition('data-matrix="mujoco">')[2].partition("</pre>")[0]
+    shown = re.sub("<[^>]*>", "", entries)
+    numbers = np.array(shown.split(), dtype=float).reshape(4, 4)
     np.testing.assert_allclose(numbers, page.matrix("mujoco"), atol=SHOWN)
 
 
@@ -568,6 +569,37 @@ def test_ones_own_code_is_drawn_judged_and_reloaded_on_save(browser, tmp_path):
         work.write_text(of_day_1(), "utf-8")
         page.until(lambda: "✓ YOUR compose_fk agrees" in page.said("yours"))
         page.until(lambda: "tasks pass" in page.said("standing"))
+        assert "Traceback" not in server.said
+        page.tab.close()
+    finally:
+        server.close()
+
+
+def test_a_tab_runs_ones_own_functions_and_says_what_they_did(browser, tmp_path):
+    work = tmp_path / "day4_dynamics.py"
+    source = ROOT / "w1-foundations/src/day4_dynamics.py"
+    (tmp_path / "kit.py").write_bytes(source.with_name("kit.py").read_bytes())
+    right = source.read_text("utf-8")
+    wrong = right.replace("tau[: i + 1] -= m * g", "tau[: i + 1] += m * g")
+    work.write_text(wrong, "utf-8")
+    server = Served("4", "--port", "0", "--simple", work=work)
+    try:
+        page = Page(browser, server.url, "?tab=Forces")
+        page.until(lambda: "library's: gravity_torque by 37" in page.said("whose"))
+        page.press("float")
+        page.until(lambda: "fastest joint turns at" in page.said("clock"))
+        page.until(lambda: "at 0.00 rad/s" not in page.said("clock"))  # it falls
+        work.write_text(right, "utf-8")
+        page.until(lambda: "✓ YOUR gravity_torque" in page.said("whose"))
+        page.press("float")
+        page.until(lambda: "t = 0.5 s" in page.said("clock"))
+        assert "at 0.00 rad/s" in page.said("clock")
+        work.write_text(
+            right.replace("    tau = np.zeros", "    while 1: pass\n    t =")
+        )
+        page.until(lambda: "gravity_torque did not return" in page.said("whose"))
+        page.open("Joints")  # the page goes on
+        page.until(lambda: page.selected("Joints"))
         assert "Traceback" not in server.said
         page.tab.close()
     finally:

@@ -241,7 +241,7 @@ def test_the_pose_error_leads_to_the_goal(T, T_goal):
         Rotation.from_rotvec(e[:3]).as_matrix() @ T[:3, :3], T_goal[:3, :3], 1e-13
     )
     assert_same(T[:3, 3] + e[3:], T_goal[:3, 3], 1e-14)
-    metres, radians = se3.pose_error(T, T_goal)
+    metres, radians = se3.pose_distance(T, T_goal)
     assert_same(np.linalg.norm(e[3:]), metres, 1e-14)
     assert_same(np.linalg.norm(e[:3]), radians, 1e-13)
 

@@ -103,20 +103,20 @@ def test_quaternions_of_rotations_agree_with_scipy_up_to_the_sign(R):
 
 
 @given(poses(), metres, directions, angles)
-def test_pose_error_gives_back_the_distance_and_the_angle(T, d, axis, theta):
+def test_pose_distance_gives_back_the_distance_and_the_angle(T, d, axis, theta):
     moved = T @ se3.make_T(se3.axis_angle(axis, theta), d)
-    distance, angle = se3.pose_error(T, moved)
+    distance, angle = se3.pose_distance(T, moved)
     assert_same(distance, np.linalg.norm(d), 1e-13)
     wrapped = abs((theta + np.pi) % (2 * np.pi) - np.pi)
     assert_same(angle, wrapped, 5e-15)
 
 
-def test_pose_error_is_exact_where_the_arccosine_loses_half_its_digits():
+def test_pose_distance_is_exact_where_the_arccosine_loses_half_its_digits():
     for theta in (1e-9, 1e-12, np.pi - 1e-9):
         turned = se3.make_T(se3.Rx(theta), np.zeros(3))
-        assert_same(se3.pose_error(np.eye(4), turned)[1], theta, 1e-15)
+        assert_same(se3.pose_distance(np.eye(4), turned)[1], theta, 1e-15)
     eps = np.eye(4) + np.diag([4e-16, 4e-16, 4e-16, 0.0])  # trace > 3: arccos is NaN
-    assert se3.pose_error(eps, np.eye(4))[1] == 0.0
+    assert se3.pose_distance(eps, np.eye(4))[1] == 0.0
 
 
 def test_textbook_example_of_a_rotation_about_a_skew_axis():
@@ -142,7 +142,7 @@ def test_leading_dimensions_broadcast():
     assert_same(se3.R_to_quat(T[..., :3, :3])[4, 6], se3.R_to_quat(T[4, 6, :3, :3]), 0)
     assert_same(se3.axis_angle(t, 0.3)[2], se3.axis_angle(t[2], 0.3), 0.0)
     assert se3.Rz(np.zeros((2, 3))).shape == (2, 3, 3, 3)
-    distance, angle = se3.pose_error(T, np.eye(4))
+    distance, angle = se3.pose_distance(T, np.eye(4))
     assert distance.shape == angle.shape == (5, 7)
 
 
@@ -175,7 +175,7 @@ LAST_ROW[3, :3] = [1, 2, 3]
         (lambda: se3.axis_angle(np.zeros(3), 1.0), "axis has length 0"),
         (lambda: se3.Rx(np.inf), "theta holds .* not finite"),
         (lambda: se3.R_to_quat(NOT_RIGID), "R is not a rotation"),
-        (lambda: se3.pose_error(np.eye(4), np.eye(3)), r"T_b has shape \(3, 3\)"),
+        (lambda: se3.pose_distance(np.eye(4), np.eye(3)), r"T_b has shape \(3, 3\)"),
     ],
 )
 def test_bad_input_is_refused_and_named(call, words):

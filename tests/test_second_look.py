@@ -1,14 +1,17 @@
 """Second looks: whose fault it is, when it is right, what a lab finds, borrowing."""
 
+from dataclasses import replace
+
 import inprocess
 import numpy as np
 import pytest
 
 from labkit.check.lab_run import failing_step
+from labkit.check.second_look import old_names
 from labkit.check.tasks import check_tasks
 from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.starter import make_starter
+from labkit.lesson.starter import make_starter, read_script
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 
@@ -174,3 +177,16 @@ def test_a_starter_loads_behind_the_wall(sandbox, tmp_path, day):
     script.write_text(text, "utf-8")
     first = check_tasks(day, script, sandbox, day.tasks[0].id)
     assert [result.verdict.status for result in first] == ["todo"]
+
+
+def test_a_function_is_judged_under_the_name_that_it_had():
+    day = find_day(1)
+    tasks = [
+        replace(t, functions=("undone",), was=("inverse",)) if t.id == "1.3" else t
+        for t in day.tasks
+    ]
+    newer = replace(day, tasks=tuple(tasks))
+    text = read_script(day.source)
+    assert old_names(newer, text).strip() == "undone = inverse"
+    assert old_names(newer, text.replace("def inverse(", "def undone(")) == ""
+    assert old_names(day, text) == ""

@@ -3,6 +3,7 @@
 import functools
 import http.server
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -110,6 +111,18 @@ def test_every_guide_worksheet_and_taught_module_has_a_page(site):
             assert found, f"day {day.number}: {name}"
 
 
+def test_every_formula_of_the_documents_can_be_set():
+    pytest.importorskip("sphinx")
+    from labkit.site.extension import mathml
+
+    assert mathml(r"\dot q_i").count("<msub><mover") == 1  # the index beside, not below
+    fences, code = re.compile(r"```.*?```", re.DOTALL), re.compile(r"`[^`\n]*`")
+    for path in sorted((ROOT / "w1-foundations" / "docs").glob("*.md")):
+        text = code.sub("", fences.sub("", path.read_text("utf-8")))
+        for formula in re.findall(r"\$\$(.+?)\$\$|\$([^$]+?)\$", text, re.DOTALL):
+            assert mathml("".join(formula).strip()), path.name
+
+
 def test_formulas_are_those_of_the_mistakes():
     from labkit.site import formulas
 
@@ -179,10 +192,54 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     assert page.problems == []
 
 
+def test_films_are_small_and_linked_where_their_picture_stands(site):
+    from labkit.site import films
+
+    names = sorted(films.films())
+    assert len(names) == 7
+    pages = {path: path.read_text("utf-8") for path in site.glob("w*/docs/*-lab.html")}
+    for name in names:
+        film = site / "_static" / "films" / f"{name}.html"
+        assert film.stat().st_size < films.LARGEST
+        link = f'href="../../_static/films/{name}.html"'
+        (page,) = [text for text in pages.values() if link in text]
+        assert page.index(f"{name}.png") < page.index(link)
+
+
+@pytest.mark.browser
+def test_a_click_puts_the_film_in_its_pictures_place(browse):
+    page = browse("w1-foundations/docs/day1-lab.html")
+    assert page.locator("img[src*=day1_order]").count() == 1
+    page.click("p.film a")
+    assert page.locator("img[src*=day1_order]").count() == 0
+    clock = page.frame_locator("iframe.film").locator("input").first
+    clock.wait_for(timeout=60_000)
+    assert page.problems == []
+
+
+@pytest.mark.browser
+def test_without_webgl_pictures_and_numbers_stay(chromium, served):
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as play:
+        browser = play.chromium.launch(
+            executable_path=chromium, args=["--disable-3d-apis", "--no-sandbox"]
+        )
+        page = browser.new_page()
+        page.goto(f"{served}/w1-foundations/docs/day1-lab.html")
+        assert page.locator("img[src*=day1_order]").count() == 1
+        assert page.locator("p.film").count() == 0
+        page.goto(f"{served}/arm.html#mistake=turns-backwards")
+        page.wait_for_function("window.arm", timeout=60_000)
+        assert "no 3D" in page.inner_text("#stage")
+        assert "off by" in page.inner_text("#off")
+        browser.close()
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_page_is_wider_than_the_screen(browse, site, width):
-    for path in sorted(site.rglob("*.html")):
+    pages = [p for p in site.rglob("*.html") if "films" not in p.parts]
+    for path in sorted(pages):
         page = browse(path.relative_to(site).as_posix(), width, wait_until="load")
         wide = page.evaluate("document.documentElement.scrollWidth")
         assert wide <= width, path.relative_to(site)

@@ -36,7 +36,7 @@ def test_the_error_of_a_loop_is_that_of_the_jacobians_module(angle):
         R = se3.axis_angle(axis / np.linalg.norm(axis), angle)
         T_goal = se3.make_T(R @ T[:3, :3], rng.normal(size=3))
         truth = jacobian.pose_error(T, T_goal)
-        assert_same(contact.pose_error(T, T_goal), truth, 1e-13)
+        assert_same(contact.small_pose_error(T, T_goal), truth, 1e-13)
 
 
 def test_the_site_bias_from_differences_is_the_arms_own(motors):

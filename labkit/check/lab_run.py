@@ -19,6 +19,7 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
+from labkit.check.second_look import old_names
 from labkit.handin.item import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
@@ -149,7 +150,8 @@ def behind_wall(
         lab: the complete one, whose functions have the same arguments.
         budget: of calls and seconds.
     """
-    session = sandbox.session(script, ROBOTS, library_of(day), limits=day.limits)
+    added = old_names(day, script.read_text("utf-8", "replace"))
+    session = sandbox.session(script, ROBOTS, library_of(day), added, limits=day.limits)
     return {
         name: _asked(session, task.id, getattr(lab, name), budget)
         for task in day.tasks

@@ -1,5 +1,6 @@
 """Second looks at a wrong function: whose fault it is, and when it is right."""
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -37,6 +38,21 @@ def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
     lines = [f"_kits = {{'__name__': 'kits_lab'}}; exec({text!r}, _kits)"]
     lines += [f"{name} = _kits[{name!r}]" for name in names]
     return "\n\n" + "\n".join(lines) + "\n"
+
+
+def old_names(day: Day, text: str) -> str:
+    """Return code that gives functions the names that the manifest has for them now.
+
+    Args:
+        day: from its manifest.
+        text: a student's file, begun with an older one.
+    """
+    there = set(re.findall(r"^def (\w+)\(", text, re.MULTILINE))
+    names = [pair for task in day.tasks for pair in task.renamed]
+    lines = [
+        f"{now} = {was}" for was, now in names if was in there and now not in there
+    ]
+    return "\n\n" + "\n".join(lines) + "\n" if lines else ""
 
 
 def right_when(

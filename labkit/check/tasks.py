@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply, replies
-from labkit.check.second_look import kits_functions, right_when
+from labkit.check.second_look import kits_functions, old_names, right_when
 from labkit.check.source_hints import arguments, renamed, unfinished
 from labkit.judge.ask import Asked, make_round
 from labkit.judge.judge import judge
@@ -99,7 +99,7 @@ class _Check:
     def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
         """Take what `check_tasks` takes."""
         self.day, self.script, self.sandbox, self.seed = day, script, sandbox, seed
-        self.source = self.added = ""
+        self.source = self.added = self.renamed = ""
 
     def first_look(self, tasks: Sequence[Task]) -> dict[str, TaskResult]:
         """Return a result per task, by id.
@@ -108,7 +108,8 @@ class _Check:
             LoadError: the file does not load.
         """
         borrowed = borrowed_tasks(self.day, self._text())
-        self.added = kits_functions(self.day, borrowed)
+        self.renamed = old_names(self.day, self._text())
+        self.added = self.renamed + kits_functions(self.day, borrowed)
         rounds = self._ask(tasks, self.added)
         self.source = self._text()
         results: dict[str, TaskResult] = {}
@@ -130,7 +131,8 @@ class _Check:
         if result.verdict.follows:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]
-            if added := kits_functions(self.day, broken):
+            if kits := kits_functions(self.day, broken):
+                added = self.renamed + kits
                 again = self._result(task, self._ask([task], added)[task.id])
                 if again.passed:
                     roots = [

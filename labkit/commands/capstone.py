@@ -58,7 +58,7 @@ def chosen(week: Week, kit_only: bool) -> Any:
     for (day, why), count in Counter((d, w) for d, _, w in own.replaced).items():
         names = [name for d, name, w in own.replaced if (d, w) == (day, why)]
         listed = ", ".join(names) if count < 5 else f"{count} functions"
-        print(cli.wrapped(f"  day {day}, the library's in place of {listed}: {why}"))
+        print(cli.wrapped(f"  day {day}, the library's instead of {listed}: {why}"))
     return own.functions
 
 

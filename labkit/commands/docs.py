@@ -3,7 +3,7 @@
     make docs                                run the commands, rewrite outputs
     python3 scripts/build_docs.py            the same
     python3 scripts/build_docs.py --check    change nothing, exit 1 at a drift
-    make docs DAY=8                          that day's, and the tables that list it
+    make docs DAY=8                          its own, and the tables that list it
 
 A document asks for an output between two comments:
 
@@ -11,7 +11,7 @@ A document asks for an output between two comments:
     <!-- end -->
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the table of a week's days, from their manifests (`w*`: of every week):
+the list of a week's days, from their manifests (`w*`: of every week):
 
     <!-- days: w1-foundations -->
     <!-- end -->
@@ -34,6 +34,7 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+SMALL = "figures/small/day{}.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -100,24 +101,28 @@ def same(old: str, new: str) -> bool:
     )
 
 
-def days_table(wanted: str, folder: Path) -> str:
-    """Return the table of a week's days, with links from a folder.
+def days_list(wanted: str, folder: Path) -> str:
+    """Return a week's days: their pictures in a row, then a line each, with links.
 
     Args:
         wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
-    lines = ["| day | command | what you will see | minutes |", "|---|---|---|---|"]
+    row, lines, soon = [], [], []
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
-        rows = {s.number: f"| {s.number}: {s.title} | | not written yet | |"
-                for s in week.soon}  # fmt: skip
+        unwritten = {one.number: one.title for one in week.soon}
         for day in days_of(week):
-            guide = os.path.relpath(day.folder / day.guide, folder).replace(os.sep, "/")
-            title = f"[{day.number}: {day.title}]({guide})"
-            row = f"| {title} | `make day{day.number}` | {day.see} | {day.minutes} |"
-            rows[day.number] = row
-        lines += [row for _, row in sorted(rows.items())]
-    return "\n".join(lines) + "\n"
+            unwritten.pop(day.number, None)
+            paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
+            guide, small = (
+                os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
+            )
+            if paths[1].is_file():
+                row.append(f"[![A picture of day {day.number}]({small})]({guide})")
+            lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
+        soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
+    lines += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
+    return "\n".join([*row, "", *lines] if row else lines) + "\n"
 
 
 def rebuilt(
@@ -143,7 +148,7 @@ def rebuilt(
         return renewed(request, old, body)
 
     def days(request: str, old: str) -> str:
-        return renewed(request, old, days_table(request, folder))
+        return renewed(request, old, days_list(request, folder))
 
     makers: dict[str, blocks.Maker] = {"days": days}
     return blocks.refill(document, makers if tables else makers | {"run": run}), drifted

@@ -2,7 +2,7 @@
 
     python3 scripts/grade_class.py CLONES              (make grade ROOT=CLONES)
     python3 scripts/grade_class.py CLONES --day 1 --out grades-day1/grades.csv
-    python3 scripts/grade_class.py CLONES --day 1-7      or --week 1, or --day all
+    python3 scripts/grade_class.py CLONES --day 1-7    or --week 1, or --day all
     python3 scripts/grade_class.py CLONES --pull         update the clones first
     python3 scripts/grade_class.py CLONES --deadline 2026-09-04T18:00
     python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each

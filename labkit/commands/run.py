@@ -33,7 +33,7 @@ def main() -> int:
 
 
 def go_on(script: Path, arguments: list[str]) -> int:
-    """Run a script in place of this one, as if it had been started itself."""
+    """Run a script instead of this one, as if it had been started itself."""
     command = [sys.executable, str(script), *arguments]
     sys.stdout.flush()
     if os.name == "nt":  # execv there returns to the shell before the script has ended

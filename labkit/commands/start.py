@@ -52,6 +52,11 @@ def require_begun(day: Day) -> None:
     """
     start = f"make start DAY={day.number}"
     if not day.work.is_file():
+        clone = day.folder.parent
+        old = day.named_as(lambda name: (clone / name).is_file()).work
+        if old != day.work:
+            says = f"the lab {old.name} is called {day.script} now"
+            raise Robo47Error(f"{says}; to bring yours over: make update")
         raise Robo47Error(f"{shown(day.work)} is not there; first: {start}")
     if not day.work.read_bytes().strip():
         raise Robo47Error(f"{shown(day.work)} is empty. Delete it, then: {start}")

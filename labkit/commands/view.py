@@ -151,7 +151,7 @@ def parse() -> argparse.Namespace:
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
-    add("--file", type=Path, help="with --clip: whose code, in place of your own")
+    add("--file", type=Path, help="with --clip: whose code, instead of your own")
     add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
     add("--port", type=port, default=8080, help="8080; 0 for any")
     says = "ready (the labs' home_q), home (the model's own key) or zero; else where"

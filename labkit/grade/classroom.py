@@ -20,7 +20,7 @@ from labkit.grade.roster import Student, file_names
 from labkit.grade.sheet import Graded, as_csv, nameless, write, write_feedback
 from labkit.lesson.day import Day
 from labkit.lesson.starter import make_starter, read_script
-from labkit.sandbox.library import KIT
+from labkit.sandbox.library import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
 
@@ -173,7 +173,7 @@ def _starter(day: Day) -> str:
 
 def _runs_of_kit(day: Day) -> "array[int]":
     """Return the runs of a day's solution and of the library's modules that hold it."""
-    files = [day.source, *(KIT / f"{name}.py" for name in day.library)]
+    files = [day.source, *map(file_of, day.library)]
     texts = "\n".join(map(read_script, files))
     return similar.runs_of(texts.encode(), _starter(day))
 

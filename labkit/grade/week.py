@@ -30,6 +30,9 @@ class Standing:
         items: of how many.
         state: one of STATES.
         error: why something could not be graded.
+        late_by: minutes and begun days after the deadline, "" without one.
+        kit: version of the kit that graded it.
+        seed: of its fresh inputs, "" where nothing was graded.
     """
 
     passed: int
@@ -38,6 +41,9 @@ class Standing:
     items: int
     state: str
     error: str
+    late_by: tuple[int, int] | tuple[str, str] = ("", "")
+    kit: str = ""
+    seed: int | str = ""
 
     @property
     def percent(self) -> float | None:
@@ -76,6 +82,9 @@ class Week:
                 len(result.items),
                 overview.state(graded),
                 graded.error,
+                graded.late_by,
+                result.kit,
+                result.seed if result.kit else "",
             )
         found = overview.diagnoses(day, course.class_)[:MISTAKES]
         self.mistakes[day.number] = [(d.task, d.mistake, len(d.who)) for d in found]
@@ -104,7 +113,9 @@ def columns(days: Sequence[Day]) -> list[str]:
     numbers = [day.number for day in days]
     percent = [f"day{n}_percent" for n in numbers]
     handed_in = [f"day{n}_deliverables" for n in numbers]
-    return ["id", "name", "folder", "percent", *percent, *handed_in, "error"]
+    late = [f"day{n}_late_{unit}" for n in numbers for unit in ("minutes", "days")]
+    every = [*percent, *handed_in, *late]
+    return ["id", "name", "folder", "percent", *every, "kit", "seed", "error"]
 
 
 def as_csv(week: Week) -> bytes:
@@ -131,5 +142,8 @@ def _cells(week: Week, student: Student) -> list[str | int]:
         percent_of(week.percent(student)),
         *(percent_of(one.percent) for one in days),
         *(one.handed_in for one in days),
+        *(late for one in days for late in one.late_by),
+        plain(", ".join(sorted({one.kit for one in days} - {""}))),
+        plain(", ".join(sorted({str(one.seed) for one in days} - {""}))),
         plain("; ".join(errors)),
     ]

@@ -24,7 +24,7 @@ from labkit.inspector.history import History
 from labkit.inspector.joints import Joints
 from labkit.inspector.page import Page
 from labkit.inspector.pointed import Pointed
-from labkit.inspector.scene import GHOST_COLOUR, GREY, ArmScene
+from labkit.inspector.scene import GHOST_COLOUR, ArmScene
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Opened
@@ -33,6 +33,10 @@ from robo47.checks import Array, array
 
 T = TypeVar("T")
 PERIOD = 1 / 60
+COLOURS = {
+    "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
+    "YOURS, where not": GHOST_COLOUR,
+}  # fmt: skip
 
 
 class Meshes(NamedTuple):
@@ -197,8 +201,7 @@ class Inspector:
             with self.server.atomic():
                 self.opened.leave()
                 self.panel.open(list(self.opened.kinds), title, kind.wide)
-                self.panel.explain({"MuJoCo": _rgb(GREY), "YOURS": GHOST_COLOUR}
-                                   if self.day.ghost else {})  # fmt: skip
+                self.panel.explain(COLOURS if self.day.ghost else {})
                 self.scene.hide(False)
                 self.scene.light(self.panel.frame.value, None)
                 self.scene.trace(np.zeros((0, 3)))
@@ -234,8 +237,3 @@ class Inspector:
         if isinstance(self.opened.tab, Tasks):
             self.opened.tab.show(standing)
         self.schedule()
-
-
-def _rgb(shares: tuple[float, float, float]) -> tuple[int, int, int]:
-    r, g, b = (round(255 * share) for share in shares)
-    return r, g, b

@@ -20,6 +20,7 @@ from robo47 import se3
 from robo47.checks import Array
 
 ROOT = "/tab"
+FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
 # The browser remembers the pose of a node that is gone: a name is never given again.
 _NUMBERS = count()
@@ -240,7 +241,8 @@ class Target:
         @handle.on_update
         async def _(event: viser.TransformControlsEvent) -> None:
             position, wxyz = np.array(handle.position), np.array(handle.wxyz)
-            if np.isfinite([*position, *wxyz]).all() and np.linalg.norm(wxyz) > 0.5:
+            near = np.abs([*position, *wxyz]).max() < FARTHEST  # not NaN either
+            if near and np.linalg.norm(wxyz) > 0.5:
                 on_drag(self.T)
 
     @property

@@ -34,8 +34,8 @@ class Page(Widgets):
         super().__init__(host)
         self.draw, self.scene, self.arm = sketch, host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
-        self.animations: list[Animation] = []
-        self.jobs = Jobs(self._ended)
+        self.running: list[Animation | Jobs] = []  # what ends with the tab
+        self.jobs = self.jobs_apart()
         self._own: Own | None = None
 
     @property
@@ -111,6 +111,12 @@ class Page(Widgets):
         self._own = Own(lambda: self.host.student, library, free)
         return self._own
 
+    def jobs_apart(self) -> Jobs:
+        """Return a queue of its own, for what shall not wait behind `job`."""
+        made = Jobs(self._ended)
+        self.running.append(made)
+        return made
+
     def job(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do something that waits; of several that wait the newest is done.
 
@@ -140,7 +146,7 @@ class Page(Widgets):
             return more
 
         made = Animation(told if work else step, hz, self._ended, work)
-        self.animations.append(made)
+        self.running.append(made)
         return made
 
     def _ended(self, error: Exception | None) -> None:
@@ -161,8 +167,7 @@ class Page(Widgets):
 
     def close(self) -> None:
         """Stop the loops, remove the drawings."""
-        self.jobs.stop()
-        for animation in self.animations:
-            animation.stop()
+        for each in self.running:
+            each.stop()
         self._own = None
         self.draw.clear()

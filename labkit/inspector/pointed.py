@@ -10,6 +10,7 @@ from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS
 
 AXIS = 0.3  # metres, to both sides
 COLOUR = (150, 70, 150)
+SHORT, FAR = 1e-6, 1e6  # metres of a ray
 
 
 class Pointed:
@@ -70,8 +71,9 @@ class Pointed:
             direction: (3,).
         """
         start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)
-        if self.model is None or not (np.isfinite([start, ray]).all() and ray.any()):
-            return 0
+        near = np.abs([start, ray]).max() < FAR  # not NaN either
+        if self.model is None or not near or np.linalg.norm(ray) < SHORT:
+            return 0  # no browser says that: MuJoCo would stop over it
         self._pose()
         simple = np.isin(self.model.geom_group, COLLISION_GROUPS).any()
         groups = COLLISION_GROUPS if simple else VISIBLE_GROUPS

@@ -29,6 +29,9 @@ ALLOWED = (
     "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
     "; img-src data: blob:; connect-src data: blob:"
 )
+OVER = (0.0, 0.0, 1.05)  # m: where words stand
+# Out of sight. What is hidden instead would stay so when the film begins again.
+AWAY = se3.make_T(np.eye(3), [0.0, 0.0, -50.0])
 CAMERA, LOOK_AT = (1.35, -1.05, 0.85), (0.25, 0.0, 0.42)
 
 
@@ -53,7 +56,15 @@ class Recording:
         self.skin.put_on(seen)
         self.draw = Sketch(self.server, seen)
         self._recorded: viser.infra.StateSerializer | None = None
+        self._label: viser.LabelHandle | None = None
         self.seconds = 0.0
+
+    def say(self, text: str, at: tuple[float, float, float] = OVER) -> None:
+        """Write over the arm, from now on; call it when all is drawn."""
+        if self._label is None:
+            self._label = self.draw.label("", at)
+            self.wait(0.0)  # what is set from here on is set again in the next round
+        self._label.text = text
 
     def pose(self, qpos: ArrayLike) -> None:
         """Move the model to a configuration; see `poses`."""

@@ -3,9 +3,8 @@
 What the bare model has is there at once; the meshes follow when they are loaded.
 """
 
-import asyncio
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 import mujoco
 from numpy.typing import ArrayLike
@@ -23,7 +22,7 @@ class Robot:
     """The bodies of a model."""
 
     def __init__(self, page: Page, model: mujoco.MjModel, dressed: Load) -> None:
-        """Draw it in place of the page's arm.
+        """Draw it instead of the page's arm.
 
         Args:
             page: of the tab.
@@ -34,13 +33,11 @@ class Robot:
         self.skin = Skin(page.host.server, page.draw.path())
         self.skin.put_on(shapes(model))
         page.hide_arm()
-        page.host.server.get_event_loop().create_task(self._dress(dressed))
+        page.jobs_apart().want(partial(_looks, dressed, page.host.simple), self._dress)
 
-    async def _dress(self, dressed: Load) -> None:
-        made = await asyncio.to_thread(_looks, dressed, self.page.host.simple)
-        if self.page.host.opened.page is self.page:
-            with self.page.host.server.atomic():
-                self.skin.put_on(made)
+    def _dress(self, made: list[Shape]) -> None:
+        with self.page.host.server.atomic():
+            self.skin.put_on(made)
 
     def show(self, qpos: ArrayLike) -> None:
         """Put everything where a configuration has it, (nq,)."""

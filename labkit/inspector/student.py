@@ -75,7 +75,7 @@ class Student(threading.Thread):
         self._problem = ""
 
     def want(self, q: Array) -> None:
-        """Ask for a configuration, in place of any that waits.
+        """Ask for a configuration, instead of any that waits.
 
         Args:
             q: (nq,).

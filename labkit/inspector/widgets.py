@@ -37,7 +37,7 @@ class Widgets:
         return self.gui.add_html(text)
 
     def say(self, text: str, kind: str = "") -> None:
-        """Show a line at the tab's end, in place of the one before.
+        """Show a line at the tab's end, instead of the one before.
 
         Args:
             text: plain text; "" for none.

@@ -79,7 +79,7 @@ class HeldOut:
         says: what to say then, a sentence or two.
         inputs: as those of `Ask`.
         truth: the right answers; None is the function's own truth.
-        mistaken: in place of `truth`: what is found are these very answers.
+        mistaken: instead of `truth`: what is found are these very answers.
         status: "wrong", "close", or "passed" for a remark only.
     """
 
@@ -152,7 +152,7 @@ class Ask:
         kind: of the answer; a tuple of kinds where the function returns a tuple.
         truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
             takes them; an oracle, never the lab script.
-        accept: in place of `truth` where many answers are right: takes one call's
+        accept: instead of `truth` where many answers are right: takes one call's
             arguments and the answer, and returns what is wrong with it, or None.
         mistakes: the named ones, the more general first; a function that returns them
             where making them costs something.

@@ -77,7 +77,7 @@ class Jacobian(Matrix):
         if found := one_factor(self, S, T):
             return found
         if len(bad) == 1:
-            says = f"All columns are right but that of joint {bad[0] + 1}"
+            says = f"Every column is right except joint {bad[0] + 1}'s"
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
             says = (
                 f"The columns are right up to joint {bad[0]}, and wrong from there on"

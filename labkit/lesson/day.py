@@ -41,6 +41,12 @@ class Task:
     memory: float = 1.0  # GB
     numbers: int = NUMBERS  # in one answer
 
+    @property
+    def renamed(self) -> list[tuple[str, str]]:
+        """Functions that had another name: that, and the one they have."""
+        names = [name for name in self.was if name.isidentifier()]
+        return list(zip(names, self.functions, strict=False))
+
 
 @dataclass(frozen=True)
 class Metric:

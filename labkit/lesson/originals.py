@@ -53,6 +53,6 @@ def require_kits(day: Day) -> None:
             raise Robo47Error(f"{fault}. {author}. Else: make doctor")
         raise Robo47Error(
             f"{shown(day.source)} is not the kit's: the marks of its tasks are gone. "
-            f"Yours belongs into {shown(day.work.parent)}/; to get the kit's back: "
+            f"Yours belongs in {shown(day.work.parent)}/; to get the kit's back: "
             f"git checkout -- {shown(day.source)}"
         )

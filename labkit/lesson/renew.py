@@ -46,8 +46,7 @@ def _starters(day: Day, before: Iterable[str]) -> list[str]:
 def _called_as_now(day: Day, text: str) -> str:
     """Return a text with functions that have another name now."""
     for task in day.tasks:
-        names = [name for name in task.was if name.isidentifier()]
-        for old, new in zip(names, task.functions, strict=False):
+        for old, new in task.renamed:
             text = re.sub(rf"(?<![.\w]){old}(?=\s*[(,)])", new, text)
     return text
 

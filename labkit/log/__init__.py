@@ -126,7 +126,6 @@ def _filled(fields: Mapping[str, object]) -> dict[str, object]:
     return filled
 
 
-@lru_cache(1)
 def _own() -> Path:
     """Return where the log is; an installed package makes its folder."""
     if HOME != ROOT and METRICS_CSV.is_relative_to(HOME):
@@ -134,6 +133,7 @@ def _own() -> Path:
     return METRICS_CSV
 
 
+@lru_cache(1)
 def _sha(_second: int) -> str:
     """Return HEAD's commit: asking git takes milliseconds, a row a tenth of one."""
     return short_sha(ROOT)

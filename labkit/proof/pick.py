@@ -1,7 +1,6 @@
 """The capstone with a student's functions, in the sandbox; as a film."""
 
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,7 +16,6 @@ from robo47 import capstone, scenes
 from robo47.capstone.phases import Result
 
 CALLS, SECONDS = 200_000, 240.0  # of a pick; with all functions right it needs 30,000
-TITLE_AT = (0.0, 0.0, 1.15)  # m, where the film says which phase it is
 
 
 class Picked(NamedTuple):
@@ -74,11 +72,9 @@ def film(result: Result) -> Recording:
     model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, meshes=True)
     recording = Recording(model, back=1.2)
     begins = [begin for _, begin in result.phases]
-    label = recording.draw.label("", TITLE_AT)
     for t in np.arange(0.0, result.seconds, 1 / FRAMES):
-        with suppress(IndexError):
-            label.text = result.phases[int(np.searchsorted(begins, t, "right")) - 1][0]
         row = min(int(np.searchsorted(result.t, t)), len(result.t) - 1)
         recording.pose(result.qpos[row])
+        recording.say(result.phases[int(np.searchsorted(begins, t, "right")) - 1][0])
         recording.wait()
     return recording

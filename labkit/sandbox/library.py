@@ -37,7 +37,7 @@ def library_of(day: Day) -> dict[str, str]:
             continue
         if name in day.library:
             raise Robo47Error(
-                f"{shown(_file(name))} is an answer of day {day.number}, and the "
+                f"{shown(file_of(name))} is an answer of day {day.number}, and the "
                 "library of an earlier day imports it"
             )
         source, inner = _read(name)
@@ -49,7 +49,7 @@ def library_of(day: Day) -> dict[str, str]:
 @cache
 def _read(name: str) -> tuple[str, tuple[str, ...]]:
     """Return a module's source, and which modules of the kit it imports."""
-    path = _file(name)
+    path = file_of(name)
     try:
         source = path.read_text("utf-8")
     except OSError:
@@ -60,13 +60,13 @@ def _read(name: str) -> tuple[str, tuple[str, ...]]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom) and node.module:
             names = [f"{node.module}.{alias.name}" for alias in node.names]
-            inner += [n if _file(_inner(n)).is_file() else node.module for n in names]
+            inner += [n if file_of(_inner(n)).is_file() else node.module for n in names]
         elif isinstance(node, ast.Import):
             inner += [alias.name for alias in node.names]
     return source, tuple(filter(None, map(_inner, inner)))
 
 
-def _file(name: str) -> Path:
+def file_of(name: str) -> Path:
     """Return where a module is: "fast.ik" in robo47/fast/ik.py."""
     path = KIT.joinpath(*name.split("."))
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")

@@ -3,22 +3,35 @@
 MathML needs no script, font or network to be read.
 """
 
+import re
 from typing import Any
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
 
+# docutils puts the index of an accented letter below it: q with a dot and an i.
+_BELOW = re.compile(
+    r"<munderover>\s*(<mi>[^<]*</mi>)(.*?)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>",
+    re.DOTALL,
+)
+_BESIDE = r'<msub><mover accent="true">\1\3</mover>\2</msub>'
+
+
+def mathml(formula: str, as_block: bool = False) -> str:
+    """Return a formula of LaTeX as MathML."""
+    return _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+
 
 def inline(page: Any, node: Any) -> None:
     """Write a formula that stands in a line."""
-    page.body.append(tex2mathml(node.astext()))
+    page.body.append(mathml(node.astext()))
     raise nodes.SkipNode
 
 
 def block(page: Any, node: Any) -> None:
     """Write a formula that stands alone."""
-    page.body.append(tex2mathml(node.astext(), as_block=True))
+    page.body.append(mathml(node.astext(), as_block=True))
     raise nodes.SkipNode
 
 

@@ -136,6 +136,7 @@ def _contents(pages: set[Path]) -> Iterator[str]:
     for name, week in found.items():
         named = [page for day in days_of(week) for page in (day.guide, day.worksheet)]
         own = [f"{name}/{page.removesuffix('.md')}" for page in filter(None, named)]
+        own = [page for page in own if Path(f"{page}.md") in pages]  # not written yet
         rest = [p for p in pages if p.parts[0] == name and _bare(p) not in own]
         readme = f"{name}/README"
         more = sorted({_bare(p) for p in rest} - {readme})

@@ -110,7 +110,7 @@ def pick(
         cube_xy: where the cube stands, metres, (2,).
         goal_xy: where it is to stand, metres, (2,).
         yaw: its turn about z at the start, radians.
-        model: a scene of `robo47.scenes.table_top` in place of the plain one; it
+        model: a scene of `robo47.scenes.table_top` instead of the plain one; it
             must have been made with the same cube_xy and yaw.
         speed: of joint moves, as a fraction of the limits.
         rate: of the controller, Hz.

@@ -37,7 +37,7 @@ from robo47.fast.moves import (
 from robo47.fast.one import Single, single_of
 
 CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
-ROUNDING = 2e-15  # what products of unit quaternions leave in place of 0 and 1
+ROUNDING = 2e-15  # what products of unit quaternions leave instead of 0 and 1
 
 
 class Frame(NamedTuple):

@@ -43,7 +43,7 @@ def compare(check: Check, own: Mapping[str, Any], n: int, seed: int) -> None:
         tau.append(own["computed_torque"](*known, *springs))
     truth = mujoco_inverse_dynamics(model, q, qd, qdd + kp * e + kd * ed)
     check("computed_torque - MuJoCo's mj_inverse, N m", np.array(tau) - truth)
-    print("  the library robo47.control in place of MuJoCo:")
+    print("  the library robo47.control instead of MuJoCo:")
     for name, columns in _columns(rng, q, qd, e, ed).items():
         check(name, each(own[name], *columns) - each(getattr(control, name), *columns))
 

@@ -3,10 +3,9 @@
 import numpy as np
 from day1_transforms import READY_Q, Rz, compose_fk, inverse, make_T
 
-from labkit.inspector.recording import FRAMES, Recording
+from labkit.inspector.recording import AWAY, FRAMES, Recording
 from robo47 import panda
 
-LABEL = (0.0, 0.0, 0.95)  # m
 HAND = ("hand", "left_finger", "right_finger")
 
 
@@ -16,7 +15,6 @@ def order() -> Recording:
     film.pose(READY_Q)
     there = film.poses(READY_Q)
     T_ee = compose_fk(panda.load("panda_nohand"), READY_Q)
-    words = film.draw.label("", LABEL)
     film.draw.frame("T_world_ee", T_ee)
     film.draw.frame("world", np.eye(4))
     ghost, end = film.draw.ghost("blue"), film.draw.frame("", T_ee)
@@ -25,10 +23,12 @@ def order() -> Recording:
             T_extra = make_T(Rz(s * np.pi / 4), np.array([s * 0.1, 0.0, 0.0]))
             # Seen from the world, a step in the tool's own axes is this motion.
             moved = T_extra if left else T_ee @ T_extra @ inverse(T_ee)
-            bodies = there if left else HAND
-            ghost.pose({name: moved @ there[name] for name in bodies})
+            ghost.pose({
+                name: moved @ T if left or name in HAND else AWAY
+                for name, T in there.items()
+            })  # fmt: skip
             end.place(moved @ T_ee)
-            words.text = "T_extra @ T_world_ee" if left else "T_world_ee @ T_extra"
+            film.say("T_extra @ T_world_ee" if left else "T_world_ee @ T_extra")
             film.wait()
     return film
 

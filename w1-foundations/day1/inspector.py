@@ -50,6 +50,7 @@ class Order(Tab):
         self.left = page.draw.frame("T_extra @ T_world_ee")
         self.lines = page.draw.lines(np.zeros((2, 2, 3)), "orange")
         page.light(END, {END})
+        page.legend({"T_extra on the left moves the whole arm": "purple"})
 
     def choose(self, side: str) -> None:
         """Show one product, or both."""

@@ -80,7 +80,7 @@ def test_a_wrong_pose_passes_the_identity_check(either_panda):
 
 
 def test_the_wrong_pose_fails_the_comparison_with_mujoco(either_panda):
-    distance, angle = se3.pose_error(wrong_pose(), pose_at(panda.READY_Q))
+    distance, angle = se3.pose_distance(wrong_pose(), pose_at(panda.READY_Q))
     assert distance > 0.05, "the lab guide says: in centimetres"
     assert angle > 0.1
 

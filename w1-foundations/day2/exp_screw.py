@@ -79,7 +79,7 @@ def twist_order(S, theta):
 @row.wrong
 def identity_for_theta(S, theta):
     """R is right, but the translation starts with I v, not with theta: at theta = 0 it
-    moves already => the right one with I in place of theta I"""
+    moves already => the right one with I instead of theta I"""
     K, c, s = terms(S, theta)
     return moved(S, theta, (I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
 

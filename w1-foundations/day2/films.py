@@ -7,7 +7,7 @@ from labkit.inspector.recording import FRAMES, Recording
 from robo47 import kinematics, panda
 
 HALF, SECONDS = 0.22, 1.2  # m of an axis to either side; a screw's time
-LABEL = (0.0, 0.0, 1.3)  # m
+OVER = (0.0, 0.0, 1.3)  # m
 
 
 def screws() -> Recording:
@@ -21,14 +21,14 @@ def screws() -> Recording:
     axes = links[:, None, :3, 3] + reach  # (7, 2, 3)
     film.draw.arrows(axes, "grey")
     lit = film.draw.arrows(axes[6:], "orange", 0.012)
-    words, end = film.draw.label("", LABEL), film.draw.frame("", M_home)
+    end = film.draw.frame("", M_home)
     for done in np.arange(-0.4, 7.8, 1 / (SECONDS * FRAMES)):
         i = int(np.clip(6 - np.floor(done), 0, 6))
         q = np.clip(done - np.arange(7)[::-1], 0.0, 1.0) * READY_Q
         film.pose(q)
         end.place(fk_space(S, M_home, q))
         lit.points = axes[i : i + 1].astype(np.float32)
-        words.text = f"screw {i + 1}: e^[S{i + 1}] q{i + 1} moves all outside its line"
+        film.say(f"screw {i + 1}: e^[S{i + 1}] q{i + 1} moves all outside it", OVER)
         film.wait()
     return film
 

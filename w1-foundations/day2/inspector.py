@@ -54,6 +54,7 @@ class Screws(Tab):
 
     title = "Screws"
     wide = True  # a matrix of its own, and the roulette
+    camera = ((2.5, -2.1, 1.2), (0.6, 0.33, 0.6))
 
     def __init__(self, page: Page) -> None:
         """Draw the seven lines; start with no exponential applied."""
@@ -74,6 +75,10 @@ class Screws(Tab):
         self.arms = [page.draw.curve(points, colour, 6.0) for colour in COLOURS]
         self.spin(False)
         page.light(END, {END})
+        page.legend({
+            "the arm, as far as it is applied": "purple", "the screw at work": "orange",
+            "the others": "grey",
+        })  # fmt: skip
 
     def _ends(self, i: int) -> Array:
         """Return a joint's line, from its link outwards along omega, (1, 2, 3)."""

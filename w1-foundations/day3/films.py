@@ -6,7 +6,7 @@ from day3_jacobian_ik import DAMPING, DT, RADIUS, draw_circle, fk_space
 from labkit.inspector.recording import Recording
 from robo47 import panda, verify
 
-LABEL = (0.0, 0.0, 1.25)  # m
+COLOURS = ("blue", "red")
 WILD = 12.0  # rad/s, of any joint: faster than the eye
 
 
@@ -18,19 +18,21 @@ def singularity() -> Recording:
     path, q = verify.circle(arm, limits, RADIUS, np.arange(0.0, verify.LAP, DT))
     film = Recording(panda.load("panda", meshes=True), back=1.5)
     film.draw.curve(path[:, :3, 3], "grey", 2.0)
-    words = film.draw.label("", LABEL)
-    for damping, colour in ((DAMPING, "blue"), (0.0, "red")):
+    pens = [film.draw.curve(path[:2, :3, 3], colour, 5.0) for colour in COLOURS]
+    film.say("")
+    for pen in pens:  # also when the film begins again
+        pen.points = path[None, :2, :3, 3].astype(np.float32)
+    for damping, line in zip((DAMPING, 0.0), pens, strict=True):
         off, speeds, angles = draw_circle(arm, path, q, damping)
         wild = np.flatnonzero(speeds.max(axis=1) > WILD)
         end = min(len(angles), wild[0] + 15) if len(wild) else len(angles)
         drawn = np.array([fk_space(*arm, one)[:3, 3] for one in angles[:end]])
-        line = film.draw.curve(drawn[:2], colour, 5.0)
         for k in range(2, end, 2):
             film.pose(angles[k])
             line.points = np.stack([drawn[:k], drawn[1 : k + 1]], 1).astype(np.float32)
             fastest = speeds[k].max()
             how = f"damping {damping:g}" if damping else "no damping"
-            words.text = f"{how}: {off[k]:.0f} mm off, {fastest:.1f} rad/s"
+            film.say(f"{how}: {off[k]:.0f} mm off, {fastest:.1f} rad/s")
             film.wait(2 * DT)
         film.wait(1.0)
     return film

@@ -97,6 +97,13 @@ def limits_forgotten(screws, M, T_goal, q_start, limits):
     return walk(screws, M, T_goal, q_start, None)
 
 
+@row.wrong(hidden="few of its targets are at a limit")
+def limits_at_the_end(screws, M, T_goal, q_start, limits):
+    """the joint limits are kept at the end only; a loop that has left them goes another
+    way, so keep them after each step => what the loop leads to, clipped at its end"""
+    return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
+
+
 @row.wrong
 def jacobian_never_updated(screws, M, T_goal, q_start, limits):
     """the Jacobian is that of the start; it changes with every step => what the first
@@ -158,9 +165,17 @@ def _(screws, M, T_goal, q_start, limits):
     return stopped(passed(screws, M, T_goal, q_start, limits), slice(6), 1e-3)
 
 
-@row.wrong("not-reached", hidden="few of its targets are at a limit")
-def _(screws, M, T_goal, q_start, limits):  # The limits are kept at the end only.
-    return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
+@row.wrong("not-reached")  # Half of each step is taken.
+def _(screws, M, T_goal, q_start, limits):
+    def gap(T, T_goal):
+        return pose_error(T, T_goal) / 2
+
+    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+
+
+@row.wrong("not-reached")  # The damping is the same far away and near.
+def _(screws, M, T_goal, q_start, limits):
+    return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: 0.3 + 0 * ee)
 
 
 @row.wrong("start-not-kept")  # It starts beside q_start.

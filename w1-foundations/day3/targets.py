@@ -109,7 +109,11 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return None
     if _reached(T_goal, q_start, limits):
         says = f"The hand is not at its target, which is near: {after:.2g} off"
-        return Finding("not-reached", f"{says} (radians and metres).")
+        return Finding(
+            "not-reached",
+            f"{says} (radians and metres). Does it stop before the error is under "
+            "1e-8, or are its steps too short: is the damping that of the docstring?",
+        )
     return _as_the_docstring(T_goal, q_start, limits, after)
 
 

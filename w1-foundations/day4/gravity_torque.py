@@ -78,7 +78,7 @@ for slug, says, holds in (
 @row.wrong
 def velocity_of_the_origin(J, masses, coms_world, g):
     """the lower half of J is the velocity of the point at the world's origin; the
-    weight acts at the centre of mass => the torque with v in place of v + omega x c"""
+    weight acts at the centre of mass => the torque with v instead of v + omega x c"""
     return torque(J, masses, coms_world, g, velocity=lambda J, c: J[3:])
 
 

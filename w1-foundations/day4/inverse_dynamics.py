@@ -99,13 +99,13 @@ for slug, says, other in (
     ),
     (
         "bracket-not-transposed",
-        "the force has ad in place of its transpose: a wrench changes the other way "
+        "the force has ad instead of its transpose: a wrench changes the other way "
         "from a twist",
         {"swing": lambda V, A, G, own: -ad(V) @ G @ V},
     ),
     (
         "bracket-not-transposed",
-        "the force has ad in place of minus its transpose: a wrench changes the other "
+        "the force has ad instead of minus its transpose: a wrench changes the other "
         "way from a twist",
         {"swing": lambda V, A, G, own: ad(V) @ G @ V},
     ),

@@ -38,7 +38,7 @@ for slug, says, redone, top in (
     ),
     (
         "outer-product-for-skew",
-        "the top left block has c c^T in place of [c] [c]^T: a mass is hard to turn "
+        "the top left block has c c^T instead of [c] [c]^T: a mass is hard to turn "
         "about the axes that it is far from",
         "the matrix with I + m c c^T",
         lambda m, c, C, I: I + m * np.outer(c, c),

@@ -166,7 +166,7 @@ def second_solution_sign(t, omega, zeta):
 
 @row.wrong
 def second_solution_without_omega(t, omega, zeta):
-    """for zeta = 1 it is 1 + t in place of 1 + omega t: seconds are added to 1"""
+    """for zeta = 1 it is 1 + t instead of 1 + omega t: seconds are added to 1"""
     if zeta != 1.0:
         return error_response(t, omega, zeta)
     return (1.0 + t) * np.exp(-omega * t)

@@ -6,7 +6,6 @@ from day5_control import E0, OMEGA, RATE, READY_Q, equal_springs, run
 from labkit.inspector.recording import FRAMES, Recording
 from robo47 import panda, references
 
-LABEL = (0.0, 0.0, 1.05)  # m
 BROKEN = 240.0  # rad/s: RATE is too slow for it
 
 
@@ -15,7 +14,6 @@ def chatter() -> Recording:
     model = panda.load("panda_nohand", drive="torque")
     arm, hold = panda.arm(model), references.hold(READY_Q)
     film = Recording(panda.load("panda_nohand", meshes=True))
-    words = film.draw.label("", LABEL)
     film.draw.ghost("blue").pose(film.poses(READY_Q))
     for omega, start in ((OMEGA, READY_Q - E0), (BROKEN, READY_Q - 0.1 * E0)):
         log = run(model, arm, equal_springs(omega), hold, 2.5, start=start)
@@ -23,7 +21,7 @@ def chatter() -> Recording:
             k = int(t * RATE)
             film.pose(log.q[k])
             off = 1e3 * np.abs(log.q[k] - READY_Q).max()
-            words.text = f"omega {omega:.0f} rad/s, {RATE:.0f} Hz: {off:.1f} mrad off"
+            film.say(f"omega {omega:.0f} rad/s, {RATE:.0f} Hz: {off:.1f} mrad off")
             film.wait()
     return film
 

@@ -91,7 +91,7 @@ def half_the_step(e, ed, integral, kp, kd, ki, dt, clamp):
 
 @row.wrong
 def velocity_error_summed(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ed is summed in place of e: that gives the error again, not its integral"""
+    """ed is summed instead of e: that gives the error again, not its integral"""
     integral = np.clip(integral + ed * dt, -clamp, clamp)
     return kp * e + kd * ed + ki * integral, integral
 

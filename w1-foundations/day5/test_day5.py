@@ -9,9 +9,10 @@ import pytest
 from compare import assert_same
 from scipy.integrate import solve_ivp
 
-from conftest import ROOT, load_script, need, paper
+from conftest import ROOT, kits_worksheet, load_script, need, paper
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from labkit.lesson.predictions import predictions
 from labkit.log import read_rows
 from robo47 import control, panda, references, scenes, simulate
 from robo47.verify import loops
@@ -98,6 +99,18 @@ def test_the_lab_fits_80_columns_and_logs_its_three_rows(run, tmp_path):
     assert 0.01 < rows["error_dynamics"]["value"] < 0.02
     assert 0.2 < rows["tracking"]["value"] < 0.3
     assert {row["day"] for row in rows.values()} == {5}
+
+
+def test_each_prediction_of_the_worksheet_is_printed_beside_its_measurement(
+    monkeypatch, capsys
+):
+    rows = predictions(kits_worksheet(find_day(5)).replace("*(your prediction)*", "9"))
+    monkeypatch.setattr("labkit.lesson.lab.predictions", lambda text: rows)
+    monkeypatch.setattr("sys.argv", ["day5", "--no-log"])
+    assert lab.main() == 0
+    said = " ".join(capsys.readouterr().out.split())
+    for number, measured in zip(list(rows)[1:], ("190.4", "0.1953", "225.1")):
+        assert f"you predicted 9, measured {measured}: {number}" in said
 
 
 def test_without_the_side_quest_the_rows_are_logged_all_the_same(

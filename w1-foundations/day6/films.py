@@ -14,7 +14,7 @@ from day6_task_space import (
 from labkit.inspector.recording import FRAMES, Recording
 from robo47 import contact, panda, scenes, simulate
 
-LABEL, SECONDS = (0.0, 0.0, 1.05), 3.0  # m, s
+SECONDS = 3.0
 
 
 def press() -> Recording:
@@ -22,8 +22,7 @@ def press() -> Recording:
     depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
     height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
     film = Recording(scenes.press_table(meshes=True), back=1.1)
-    words = film.draw.label("", LABEL)
-    arrow = film.draw.arrow(np.zeros(3), np.full(3, 1e-3), "red", 0.012)
+    arrow = film.draw.arrows([[np.zeros(3), np.full(3, 1e-3)]], "red", 0.012)
     for drive, rate in (("torque", RATE), ("servo", simulate.RATE)):
         model = scenes.press_table(drive=drive)
         q, arm = contact.above_table(model, 0.01), panda.arm(model)
@@ -43,7 +42,7 @@ def press() -> Recording:
             up = [0.0, 0.0, 0.002 * felt[k] + 1e-3]
             arrow.points = np.array([[tip, tip + up]], dtype=np.float32)
             name = "a spring of 400 N/m" if drive == "torque" else "the file's servos"
-            words.text = f"{name}: the table feels {felt[k]:.0f} N"
+            film.say(f"{name}: the table feels {felt[k]:.0f} N")
             film.wait()
     return film
 

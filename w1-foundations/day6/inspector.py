@@ -129,7 +129,7 @@ class Touch(Tab):
             now = self.arm.at(q)
             J, M = now.J_site, now.M
             Lambda = own.task_inertia(J, M)
-            e = contact.pose_error(now.T_world_ee, T_goal)
+            e = contact.small_pose_error(now.T_world_ee, T_goal)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             D, idle = own.many(
                 ("critical_damping", K, Lambda), ("null_torque", J, M, Lambda, back)

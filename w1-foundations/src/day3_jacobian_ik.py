@@ -104,8 +104,8 @@ def solve_ik(
 ) -> np.ndarray:
     """Return joint angles, (7,), within limits, (7, 2), that bring the hand to T_goal.
 
-    At most 60 steps (60 updates of q) from q_start, with damping^2 = e.e / 2 + 1e-6. A
-    start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
+    From q_start on, with damping^2 = e.e / 2 + 1e-6; 60 steps (updates of q) will do.
+    A start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
     whose error was the shortest.
     """
     # region 3.6

@@ -141,11 +141,6 @@ def servo_ctrl(
     # endregion 5.9
 
 
-def raised_cosine(t: float) -> tuple:
-    """Return q, qd and qdd of a swing by REACH in a second, and back in the next."""
-    return references.raised_cosine(READY_Q, REACH)(t)
-
-
 def springs(arm, q, qd, ref):
     """Give the torque of plain springs: no model at all."""
     return pd_torque(ref[0] - q, ref[1] - qd, KP, KD)

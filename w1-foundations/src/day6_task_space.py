@@ -156,7 +156,7 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
         J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
         if height:
             T_goal[2, 3] = height(t)
-        e = contact.pose_error(now.T_world_ee, T_goal)
+        e = contact.small_pose_error(now.T_world_ee, T_goal)
         D = critical_damping(stiffness, Lambda)
         wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
@@ -196,7 +196,7 @@ def circling(arm, project):
         now, (T, V, A) = arm.at(q), contact.circle(t, T_start, RADIUS, TURN)
         J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
         drift = site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
-        e = contact.pose_error(now.T_world_ee, T)
+        e = contact.small_pose_error(now.T_world_ee, T)
         acc = A + 2 * OMEGA * (V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
         back = control.pd_torque(READY_Q - q, -qd, *ELBOW)

@@ -1,5 +1,5 @@
 # task 2.1: shape
-# A cross product in place of a matrix.
+# A cross product instead of a matrix.
 import numpy as np
 
 

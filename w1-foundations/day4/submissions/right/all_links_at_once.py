@@ -1,5 +1,5 @@
 # tasks 4.1 4.2 4.3 4.4 4.5 4.6: passed
-# einsum and cumsum in place of every loop.
+# einsum and cumsum instead of every loop.
 import numpy as np
 
 
