@@ -52,7 +52,8 @@ class InProcess:
     def _load(self, script):
         module = types.ModuleType(script.stem)
         module.__file__ = str(script)
-        sys.modules[script.stem] = module
+        before = sys.modules.get(script.stem)
+        sys.modules[script.stem] = module  # a dataclass of the file looks for it
         try:
             code = _compiled(script.read_bytes(), str(script))
             with contextlib.redirect_stdout(io.StringIO()):
@@ -61,6 +62,10 @@ class InProcess:
                 exec(self.added, vars(module))
         except BaseException as error:
             raise LoadError(_describe(error, script)) from None
+        finally:
+            sys.modules.pop(script.stem)
+            if before:
+                sys.modules[script.stem] = before
         self.script = script
         return module
 
