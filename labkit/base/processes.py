@@ -17,6 +17,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+if sys.platform != "win32":
+    import resource
+
 END_SECONDS = 5.0  # for a killed process to be gone
 # How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
 # bubblewrap, as that tells it.
@@ -137,8 +140,6 @@ def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
         largest: bytes; who writes more is ended by the kernel.
     """
     if sys.platform.startswith("linux"):
-        import resource
-
         with contextlib.suppress(OSError, ValueError):  # gone, or bounded already
             limits = (largest, largest)
             resource.prlimit(process.pid, resource.RLIMIT_FSIZE, limits)
