@@ -151,7 +151,7 @@ def _pose_wrong(S: Array, T: Array) -> Finding:
             f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
         )
     t_off = say_mm(float(millimetres(t, t_true).max()))
-    if difference(R, R_true).max() <= NEAR:
+    if difference(R, R_true).max() <= NEAR and t_off != "0":
         return Finding(
             "translation-off",
             f"R is right everywhere; the translation is not: up to {t_off} off.",

@@ -13,12 +13,13 @@ row = Row(Rotation(), near=NEAR)
 
 
 def quaternions(rng):
-    """Return some as in model files, unit ones, and others; some with w < 0, (n, 4)."""
+    """Return some as in model files, unit ones, short ones; some with w < 0, (n, 4)."""
     written = [[1, 0, 0, 0], [1, 1, 0, 0], [1, -1, 0, 0], FLANGE_QUAT]
     q = rng.normal(size=(6, 4))
     q[:3] /= np.linalg.norm(q[:3], axis=1, keepdims=True)
     q[[1, 4], 0] = -np.abs(q[[1, 4], 0])
-    return draw.rounded(np.vstack([np.array(written, dtype=np.float64), q]))
+    short = [0.01, 0.02, 0.0, -0.02], [0.2, -0.1, 0.1, 0.2]
+    return draw.rounded(np.vstack([np.array([*written, *short], dtype=np.float64), q]))
 
 
 @row.inputs

@@ -36,6 +36,13 @@ def _(rng):
     return [first, *zip(near_singular(rng), e, damping, strict=True)]
 
 
+@row.wrong
+def relative_damping(J, e, damping):
+    """the damping is multiplied by J's largest singular value; it is a number of its
+    own, in the units of J => the right one with damping ||J||"""
+    return dls_step(J, e, damping * np.linalg.norm(J, 2))
+
+
 def weighted(J, e, weight):
     """Return the step with a weight for each singular value."""
     U, s, Vt = np.linalg.svd(J, full_matrices=False)

@@ -24,7 +24,8 @@ def _(rng):
     drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
     light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
-    return [(np.full(6, 4.0), np.eye(6)), light, stiff, *drawn]
+    slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring
+    return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
 
 def _sum(root_L, root_k):

@@ -112,6 +112,20 @@ def half_a_depth(force, k, surface):
     return surface - 0.5 * force / k
 
 
+@row.wrong
+def never_below_zero(force, k, surface):
+    """a height below 0 is not returned; a soft spring has to be pulled there, and only
+    the hand presses, not the target => the right one, 0 at least"""
+    return max(surface - force / k, 0.0)
+
+
+@row.wrong
+def newtons_as_weight(force, k, surface):
+    """force is divided by 9.81, as if it were to be a mass; k takes newtons => surface
+    - force / (9.81 k)"""
+    return surface - force / 9.81 / k
+
+
 @row.right  # With NumPy, as an array of no axes.
 def _(force, k, surface):
     return np.subtract(surface, np.divide(force, k))

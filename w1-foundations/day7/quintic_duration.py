@@ -75,6 +75,15 @@ def peak_of_the_cubic(dq, v_max, a_max):
 
 
 @row.wrong
+def limits_of_different_joints(dq, v_max, a_max):
+    """the longest way is divided by the smallest limit of all; way and limit have to be
+    those of one joint => max(dq) over min(a_max) for the acceleration"""
+    longest = np.abs(dq).max()
+    by_acceleration = np.sqrt(PEAK_ACCELERATION * longest / a_max.min())
+    return max(seconds(dq, v_max, a_max)[0].max(), by_acceleration)
+
+
+@row.wrong
 def both_added(dq, v_max, a_max):
     """the time for the speed and the time for the acceleration are added; one way keeps
     both limits if it takes the longer of the two => their sum"""

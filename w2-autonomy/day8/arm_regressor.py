@@ -74,6 +74,12 @@ for slug, says, other in (
      "axes, about its own origin", {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-X", "the wrench comes back with X; power is the same from both "
      "sides, so it takes X^T", {"back": lambda X: X}),
+    ("wrench-left-in-the-link", "the wrench is left in the link's axes, about its "
+     "origin; J_space's screws are in the world's, so it takes X^T first",
+     {"back": lambda X: np.eye(6)}),
+    ("wrench-back-with-the-inverse", "the wrench comes back with X^-1, as a twist "
+     "does; power is the same from both sides, so a wrench takes X^T",
+     {"back": np.linalg.inv}),
     ("wrench-not-carried-back", "the wrench is turned back, but not carried to the "
      "world's origin: its force has a moment there",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),

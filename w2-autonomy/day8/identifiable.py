@@ -3,11 +3,22 @@
 import numpy as np
 
 from labkit.judge import Count, Scalar
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 
 from .states import CUT, regressors
 
-row = Row((Count(called="the rank"), Scalar(called="the condition")))
+
+def of_dust(case: Case) -> Finding | None:
+    """Say that a condition ends at a value that does not count: those are rounding."""
+    if (case.S[1] <= 1.0 / case.arguments[1]).all():
+        return None
+    says = "The condition is over 1 / rtol: it is that of all values, and those that do"
+    return Finding("condition-of-all", f"{says} not count are only rounding.")
+
+
+row = Row((Count(called="the rank"), Scalar(called="the condition")), unnamed=of_dust)
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]])
 
 

@@ -58,6 +58,33 @@ def R_transposed(J_site, R_site, extra, g):
 
 
 @row.wrong
+def holds_averaged(J_site, R_site, extra, g):
+    """the holds are averaged before they are solved: seven rows are left of all, and
+    what the poses tell apart is gone; stack them => the right one from the mean"""
+    W = np.zeros((len(R_site), 6, 4))
+    W[:, 3:, 0], W[:, :3, 1:] = g, -skew(g) @ R_site
+    rows = (-np.swapaxes(J_site, 1, 2) @ W).mean(axis=0)
+    return np.linalg.lstsq(rows, extra.mean(axis=0), rcond=None)[0]
+
+
+@row.wrong
+def first_hold_only(J_site, R_site, extra, g):
+    """only the first hold is used; one pose does not show all four => the right one
+    from the first"""
+    return solved(J_site[:1], R_site[:1], extra[:1], g)
+
+
+@row.wrong
+def g_turned_after_the_cross(J_site, R_site, extra, g):
+    """R stands on the left of [g]: m c is turned into the world first, so [g] R => with
+    R [g]"""
+    W = np.zeros((len(R_site), 6, 4))
+    W[:, 3:, 0], W[:, :3, 1:] = g, -R_site @ skew(g)
+    rows = -np.swapaxes(J_site, 1, 2) @ W
+    return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
+
+
+@row.wrong
 def centre_for_first_moment(J_site, R_site, extra, g):
     """the last three are c; asked for is m c, which is what is linear => m, then c"""
     m, *h = payload_from_holds(J_site, R_site, extra, g)
