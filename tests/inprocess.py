@@ -12,7 +12,7 @@ from pathlib import Path as File
 
 import numpy as np
 
-from labkit.base.exchange import LoadError, Path, Reply
+from labkit.base.exchange import LoadError, Path, Reply, twice
 from labkit.judge import Robot
 
 
@@ -34,7 +34,7 @@ class InProcess:
         second = self._load(script)
         for exchange in reversed(exchanges):
             again = self._ask(second, exchange.question, [])
-            exchange.reply = _with(exchange.reply, again)
+            exchange.reply = twice(exchange.reply, again)
 
     def session(self, script, robots, library, added="", limits=None):
         """Return something to ask, as `Sandbox.session` does."""
@@ -112,13 +112,6 @@ def _copied(value):
     if isinstance(value, tuple) and all(isinstance(v, np.ndarray) for v in value):
         return tuple(np.array(v) for v in value)
     return None if value is None else np.array(value)
-
-
-def _with(reply, other):
-    from dataclasses import replace
-
-    error = f"{other.kind}: {other.error}" if other.kind else ""
-    return replace(reply, again=other.value, again_error=error)
 
 
 def _shares(value, kept, args, names):

@@ -58,7 +58,8 @@ def test_a_new_day_is_all_as_it_must_be(kit):
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("PASS") == 7
     assert (
-        "| [46: Trial](w9-trial/docs/day46-lab.md) |" in (kit / "README.md").read_text()
+        "**[Day 46: Trial](w9-trial/docs/day46-lab.md)**"
+        in (kit / "README.md").read_text()
     )
 
 
@@ -84,11 +85,11 @@ def test_a_second_day_of_a_week_is_listed_and_no_longer_announced(kit):
     manifest.write_text(manifest.read_text() + soon)
     done = run_in(kit, "scripts/build_docs.py", "--day", "46")
     readme = kit / WEEK / "README.md"
-    assert "| 47: The end | | not written yet | |" in readme.read_text(), done.stderr
+    assert "- Not written yet: Day 47, The end" in readme.read_text(), done.stderr
     assert run_in(kit, NEW, "47", "9", "end").returncode == 0
     assert "days = [46, 47]" in manifest.read_text()
     assert "The end" not in manifest.read_text()
-    assert "[47: End](docs/day47-lab.md)" in readme.read_text()
+    assert "[Day 47: End](docs/day47-lab.md)" in readme.read_text()
 
 
 FUNCTION, LAB = f"{WEEK}/day46/reach.py", f"{WEEK}/src/day46_trial.py"
@@ -110,7 +111,7 @@ FUNCTION, LAB = f"{WEEK}/day46/reach.py", f"{WEEK}/src/day46_trial.py"
             f"{WEEK}/docs/day46-lab.md",
             "(0.913 m",
             "(0.9 m",
-            "test_day46.py:18: in test_the_guides",
+            "w9-trial/day46/test_day46.py:18)",
         ),
         (f"{WEEK}/docs/day46.md", "### planar arm", "### arm", "section 'planar arm'"),
         (f"{WEEK}/day46/day.toml", 'id = "46.1"', 'id = "45.1"', "id 45.1 is not one"),

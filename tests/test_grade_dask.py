@@ -19,6 +19,7 @@ from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
+SEED = ("--seed", "4711")
 
 
 @pytest.fixture
@@ -85,7 +86,7 @@ def wait_for(condition):
 
 def grade_and_kill_one(clones, out, address, worker, number):
     """Grade on the cluster and kill a worker once so many are graded."""
-    fixed = (*DEADLINE, "--i-know-them")  # CI may be root
+    fixed = (*DEADLINE, *SEED, "--i-know-them")  # CI may be root
     command = [sys.executable, str(ROOT / SCRIPT), str(clones), *fixed]
     process = subprocess.Popen(
         [*command, "--dask", address, "--out", str(out / "grades.csv")],
@@ -113,7 +114,7 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     address, (first, second) = cluster
     clones, here, there = (tmp_path / name for name in ("clones", "here", "there"))
     make_class(clones, students)
-    grade(run, clones, here, *DEADLINE, timeout=600)
+    grade(run, clones, here, *DEADLINE, *SEED, timeout=600)
     said = grade_and_kill_one(clones, there, address, first, killed_at)
     assert f"graded now: {students};" in said
     assert second.poll() is None

@@ -102,12 +102,15 @@ def _wrong(
 
 def _refused(asked: Asked, names: Sequence[str]) -> Failing:
     """Return the first call that a function with many right answers got wrong."""
-    accept = asked.ask.accept
+    ask = asked.ask
+    accept = ask.accept
     for one in [*asked.main, *asked.fresh] if accept else []:
         args = [
             np.copy(a) if isinstance(a, np.ndarray) else a for a in one.question.args
         ]
-        if one.reply and accept and accept(*args, one.reply.value):
+        if not one.reply or isinstance(problems.read([one.reply], ask, ""), Finding):
+            continue
+        if accept and accept(*args, one.reply.value):
             yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
             says = f"{typed(one.question, names)} is such a call."
             return Failing(says, _given(one.question, names) + yours)

@@ -1,4 +1,4 @@
-# task 1.2: kept-between-calls
+# task 1.2: draws-itself
 # Random noise on the angle.
 import numpy as np
 
