@@ -106,7 +106,11 @@ def grade_and_kill_one(clones, out, address, worker, number):
 
 @pytest.mark.parametrize(
     ("students", "killed_at"),
-    [(40, 3), pytest.param(200, 60, marks=pytest.mark.soak)],
+    [
+        (14, 2),
+        pytest.param(40, 3, marks=pytest.mark.soak),
+        pytest.param(200, 60, marks=pytest.mark.soak),
+    ],
 )
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     tmp_path, run, cluster, students, killed_at

@@ -41,7 +41,7 @@ def test_all_that_is_said_to_work_resolves(python):
     assert "mujoco==" in done.stdout
 
 
-@pytest.mark.kit
+@pytest.mark.soak  # a wheel that appears is good news, and no fault of a commit
 @pytest.mark.network
 @pytest.mark.parametrize(
     ("version", "extra"), [(v, e) for v, some in WITHOUT_WHEELS.items() for e in some]

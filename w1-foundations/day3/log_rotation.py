@@ -39,10 +39,12 @@ row = Row(
 @row.inputs
 def _(rng):
     """From 0 to nearly pi; the docstring's first, drawn ones last."""
-    small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.01, 0.05, 0.1, 0.3]
+    small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.3]
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
-    turns = np.array([*small, *by_pi, 2.0, *rng.uniform(0.2, 3.0, 5)])
+    drawn, first = rng.uniform(0.2, 3.0, 5), [0.01, 0.05, 0.1]
+    turns = np.array([*small, *by_pi, 2.0, *drawn, *first])
     R = exp_rotation(draw.units(rng, len(turns)), turns)
+    R = [*R[-3:], *R[:-3]]
     rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
     return [(se3.Rz(np.pi / 2),), (np.eye(3),), (rounded,), *((one,) for one in R)]
 
