@@ -1,7 +1,5 @@
 """The judge on every day's questions: each mistake is found, none is claimed unduly."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -39,7 +37,6 @@ def one_thing(number, name, slug, other):
     return slug == other or any({slug, other} <= names for names in ALIKE[number, name])
 
 
-@cache
 def redone(ask):
     """Return (mistake, its answers) for each that differs from the right answer."""
     arguments, T = stacked(round_of(ask).main), right(ask)
