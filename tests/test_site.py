@@ -17,7 +17,6 @@ from robo47 import panda, verify
 
 pytestmark = pytest.mark.kit
 
-WIDTHS = (390, 1280)
 LOCK = ROOT / "site" / "package-lock.json"
 
 
@@ -236,7 +235,7 @@ def test_without_webgl_pictures_and_numbers_stay(chromium, served):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("width", [390, pytest.param(1280, marks=pytest.mark.soak)])
 def test_no_page_is_wider_than_the_screen(browse, site, width):
     pages = [p for p in site.rglob("*.html") if "films" not in p.parts]
     for path in sorted(pages):
