@@ -179,7 +179,8 @@ class Page:
         return float(self.slider(joint).get_attribute("aria-valuenow"))
 
     def angles(self) -> Array:
-        return np.array(typed.configuration(self.box().input_value(), 7))
+        words = self.box().input_value()  # empty while the page draws it anew
+        return np.array(typed.configuration(words, 7)) if words else np.full(7, np.nan)
 
     def drag(self, joint: int, pixels: int) -> None:
         thumb = self.slider(joint).bounding_box()

@@ -8,15 +8,14 @@ is an entry of the file, and is read by its type (`table.py`).
 
 import math
 import re
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from labkit.base.exchange import NUMBERS, Limits
-from labkit.lesson.table import entry, fill
+from labkit.lesson.table import entry, load
 from labkit.lesson.week import Week, find_week, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -354,20 +353,9 @@ def load_day(manifest: Path) -> Day:
         Robo47Error: it cannot be read, or an entry is missing, empty, of a wrong type
             or unknown; says which.
     """
-    stat = manifest.stat() if manifest.is_file() else None
-    return _load(manifest, stat and (stat.st_mtime_ns, stat.st_size))
-
-
-@lru_cache(64)  # one command asks for the same manifests many times
-def _load(manifest: Path, _state: tuple[int, int] | None) -> Day:
-    where = shown(manifest)
-    try:
-        table = tomllib.loads(manifest.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise Robo47Error(f"{where} cannot be read: {error}") from None
-    day: Day = fill(Day, table, where, folder=manifest.parent.parent)
+    day: Day = load(Day, manifest, folder=manifest.parent.parent)
     for fault in _faults(day, manifest.parent.name):
-        raise Robo47Error(where + fault)
+        raise Robo47Error(shown(manifest) + fault)
     return day
 
 

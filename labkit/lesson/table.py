@@ -1,10 +1,14 @@
 """A dataclass filled from a TOML table: what is missing, empty or misspelt is named."""
 
 import dataclasses
+import tomllib
 import typing
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 _EXPECTED = {
     str: "a text",
@@ -25,6 +29,26 @@ def entry(default: Any = dataclasses.MISSING, **how: Any) -> Any:
             there if its table is; least=2, how many a list holds.
     """
     return dataclasses.field(default=default, metadata=how)
+
+
+def load(kind: Any, manifest: Path, **given: Any) -> Any:
+    """Return a dataclass with the entries of a TOML file, read again once it changes.
+
+    Raises:
+        Robo47Error: the file cannot be read, or `fill` refuses an entry; says which.
+    """
+    stat = manifest.stat() if manifest.is_file() else None
+    return _load(kind, manifest, stat and (stat.st_mtime_ns, stat.st_size), **given)
+
+
+@lru_cache(128)  # one command asks for the same manifests many times
+def _load(kind: Any, manifest: Path, _state: Any, **given: Any) -> Any:
+    where = shown(manifest)
+    try:
+        table = tomllib.loads(manifest.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise Robo47Error(f"{where} cannot be read: {error}") from None
+    return fill(kind, table, where, **given)
 
 
 def fill(kind: Any, table: dict[str, Any], where: str, **given: Any) -> Any:

@@ -6,13 +6,11 @@ everywhere, and nobody would say so.
 """
 
 import re
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
 
-from labkit.lesson.table import fill
+from labkit.lesson.table import load
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -98,21 +96,9 @@ def load_week(folder: Path) -> Week:
             wrong type, unknown, or not that of the folder; says which.
     """
     manifest = folder / "week.toml"
-    stat = manifest.stat() if manifest.is_file() else None
-    week = _load(manifest, stat and (stat.st_mtime_ns, stat.st_size))
+    week: Week = load(Week, manifest, folder=folder)
     for fault in _faults(week):
         raise Robo47Error(shown(manifest) + fault)
-    return week
-
-
-@lru_cache(64)
-def _load(manifest: Path, _state: tuple[int, int] | None) -> Week:
-    where = shown(manifest)
-    try:
-        table = tomllib.loads(manifest.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise Robo47Error(f"{where} cannot be read: {error}") from None
-    week: Week = fill(Week, table, where, folder=manifest.parent)
     return week
 
 
