@@ -11,7 +11,7 @@ import textwrap
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from unittest.mock import MagicMock
 
 import hypothesis
@@ -168,6 +168,19 @@ def environment_of(clone: Path) -> dict[str, str]:
     return {**os.environ, **own}
 
 
+def run_copy(copy: Path, *command: object, **environment: str) -> Any:
+    """Run Python in a copy of the kit as its owner would; return the process, ended."""
+    return subprocess.run(
+        [sys.executable, *map(str, command)],
+        cwd=copy,
+        env={**environment_of(copy), **environment},
+        capture_output=True,
+        encoding="utf-8",
+        timeout=300,
+        check=False,
+    )
+
+
 def kits_worksheet(day) -> str:
     """Return a day's worksheet as the kit brings it, or skip: a student's own."""
     text = (day.folder / day.worksheet).read_text("utf-8")
@@ -229,20 +242,7 @@ def one_day(clone):
 @pytest.fixture
 def run_in(clone):
     """Run a script of that copy as a student would, in a process of its own."""
-
-    def run_script(script, *arguments, **environment):
-        return subprocess.run(
-            [sys.executable, str(clone / script), *map(str, arguments)],
-            cwd=clone,
-            env={**environment_of(clone), **environment},
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            timeout=120,
-            check=False,
-        )
-
-    return run_script
+    return partial(run_copy, clone)
 
 
 @pytest.fixture

@@ -1,12 +1,10 @@
 """A new day's skeleton passes; what is wrong with a day is told with its line."""
 
 import shutil
-import subprocess
-import sys
 
 import pytest
 
-from conftest import ROOT, environment_of
+from conftest import ROOT, run_copy
 from labkit.author.sheet import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.lesson.day import all_days, find_day
@@ -16,26 +14,13 @@ NEW, AUTHOR = "scripts/new_day.py", "scripts/author_day.py"
 WEEK = "w9-trial"
 
 
-def run_in(kit, *command):
-    return subprocess.run(
-        [sys.executable, *command],
-        cwd=kit,
-        env=environment_of(kit),
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=300,
-        check=False,
-    )
-
-
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """Return a copy of the kit with a new day 46, in a week of its own."""
     kit = tmp_path_factory.mktemp("author") / "kit"
     skipped = shutil.ignore_patterns(".*", "_site", "*node_modules", "work")
     shutil.copytree(ROOT, kit, ignore=skipped)
-    done = run_in(kit, NEW, "46", WEEK, "trial")
+    done = run_copy(kit, NEW, "46", WEEK, "trial")
     assert done.returncode == 0, done.stderr
     return kit
 
@@ -53,8 +38,8 @@ def kit(made):
 
 
 def test_a_new_day_is_all_as_it_must_be(kit):
-    assert run_in(kit, "scripts/make_notebook.py", "--day", "46").returncode == 0
-    done = run_in(kit, AUTHOR, "46")
+    assert run_copy(kit, "scripts/make_notebook.py", "--day", "46").returncode == 0
+    done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("PASS") == 7
     assert (
@@ -64,18 +49,20 @@ def test_a_new_day_is_all_as_it_must_be(kit):
 
 
 def test_its_starter_is_to_do_and_its_lab_passes(kit):
-    assert run_in(kit, "scripts/run_day.py", "46", "--kit", "--no-log").returncode == 0
-    assert run_in(kit, "scripts/start_day.py", "46").returncode == 0
-    told = run_in(kit, "scripts/check_day.py", "46").stdout
+    assert (
+        run_copy(kit, "scripts/run_day.py", "46", "--kit", "--no-log").returncode == 0
+    )
+    assert run_copy(kit, "scripts/start_day.py", "46").returncode == 0
+    told = run_copy(kit, "scripts/check_day.py", "46").stdout
     assert "46.1  reach               to do" in told
 
 
 def test_nothing_is_written_over(kit):
-    done = run_in(kit, NEW, "46", WEEK, "trial")
+    done = run_copy(kit, NEW, "46", WEEK, "trial")
     assert (done.returncode, "day 46 is there already" in done.stderr) == (2, True)
-    done = run_in(kit, NEW, "45", "w1-other", "trial")
+    done = run_copy(kit, NEW, "45", "w1-other", "trial")
     assert "week 1 is there already, in another folder" in done.stderr
-    done = run_in(kit, NEW, "45", "perception", "trial")
+    done = run_copy(kit, NEW, "45", "perception", "trial")
     assert "expected one like w2-autonomy" in done.stderr
 
 
@@ -83,10 +70,10 @@ def test_a_second_day_of_a_week_is_listed_and_no_longer_announced(kit):
     manifest = kit / WEEK / "week.toml"
     soon = 'soon = [\n    { number = 47, title = "The end" },\n]\n'
     manifest.write_text(manifest.read_text() + soon)
-    done = run_in(kit, "scripts/build_docs.py", "--day", "46")
+    done = run_copy(kit, "scripts/build_docs.py", "--day", "46")
     readme = kit / WEEK / "README.md"
     assert "- Not written yet: Day 47, The end" in readme.read_text(), done.stderr
-    assert run_in(kit, NEW, "47", "9", "end").returncode == 0
+    assert run_copy(kit, NEW, "47", "9", "end").returncode == 0
     assert "days = [46, 47]" in manifest.read_text()
     assert "The end" not in manifest.read_text()
     assert "[Day 47: End](docs/day47-lab.md)" in readme.read_text()
@@ -125,7 +112,7 @@ def test_what_is_wrong_is_told_with_its_file_and_no_traceback(
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new))
-    done = run_in(kit, AUTHOR, "46")
+    done = run_copy(kit, AUTHOR, "46")
     told = " ".join((done.stdout + done.stderr).split())
     assert done.returncode in (1, 2)
     assert says in told

@@ -1,11 +1,10 @@
 """The kit for students: it runs, it checks, and it shows no answers."""
 
 import subprocess
-import sys
 
 import pytest
 
-from conftest import ROOT, environment_of, need
+from conftest import ROOT, need, run_copy
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.sealed import is_sealed, opened, seal
 from labkit.lesson.starter import find_regions, make_starter, read_script
@@ -14,22 +13,11 @@ DAY = find_day(1)
 WEEK = DAY.folder.name
 
 
-def run(folder, *command):
-    return subprocess.run(
-        [sys.executable, *map(str, command)],
-        cwd=folder,
-        env=environment_of(folder),
-        capture_output=True,
-        encoding="utf-8",
-        timeout=300,
-    )
-
-
 @pytest.fixture(scope="module")
 def edition(tmp_path_factory):
     need((ROOT / ".git").exists(), "the kit as a git repository")
     out = tmp_path_factory.mktemp("edition") / "students"
-    done = run(ROOT, "scripts/edition.py", out)
+    done = run_copy(ROOT, "scripts/edition.py", out)
     assert done.returncode == 0, done.stderr
     return out
 
@@ -61,22 +49,24 @@ class TestTheEdition:
         assert "hold" in (edition / "EDITION.md").read_text("utf-8")
 
     def test_runs_the_kits_lab_and_every_check_passes(self, edition):
-        done = run(edition, f"{WEEK}/src/{DAY.script}", "--no-log")
+        done = run_copy(edition, f"{WEEK}/src/{DAY.script}", "--no-log")
         assert done.returncode == 0, done.stderr
         assert "All checks PASSED." in done.stdout
 
     def test_gives_the_same_starter_and_tells_mistakes_and_passing_work(self, edition):
         text = read_script(DAY.source)
-        assert run(edition, "scripts/start_day.py", 1).returncode == 0
+        assert run_copy(edition, "scripts/start_day.py", 1).returncode == 0
         work = edition / WEEK / "work" / DAY.script
         begun = work.read_text("utf-8")
         assert begun.splitlines()[2:] == make_starter(text, "x", 1).splitlines()[2:]
         work.write_text(text.replace("-s, 0.0], [s, c", "s, 0.0], [-s, c"), "utf-8")
-        done = run(edition, "scripts/check_day.py", 1)
+        done = run_copy(edition, "scripts/check_day.py", 1)
         assert "it turns the wrong way" in " ".join(done.stdout.lower().split())
         work.write_text(text, "utf-8")
-        assert run(edition, "scripts/check_day.py", "--task", "1.2").returncode == 0
-        hint = run(edition, "scripts/hint.py", "1.2").stdout
+        assert (
+            run_copy(edition, "scripts/check_day.py", "--task", "1.2").returncode == 0
+        )
+        hint = run_copy(edition, "scripts/hint.py", "1.2").stdout
         assert "does not show the kit's own" in hint
         assert "NotImplementedError" not in hint
         work.unlink()
@@ -89,7 +79,7 @@ class TestTheEdition:
 
     def test_is_written_over_an_older_one_alone(self, edition, tmp_path):
         (tmp_path / "thesis.txt").write_text("mine")
-        done = run(ROOT, "scripts/edition.py", tmp_path)
+        done = run_copy(ROOT, "scripts/edition.py", tmp_path)
         assert (done.returncode, "is no edition" in done.stderr) == (2, True)
-        assert run(ROOT, "scripts/edition.py", ROOT / "x").returncode == 2
-        assert run(ROOT, "scripts/edition.py", edition).returncode == 0
+        assert run_copy(ROOT, "scripts/edition.py", ROOT / "x").returncode == 2
+        assert run_copy(ROOT, "scripts/edition.py", edition).returncode == 0

@@ -4,12 +4,10 @@ import csv
 import io
 import re
 import shutil
-import subprocess
-import sys
 
 import pytest
 
-from conftest import ROOT, environment_of, write_week
+from conftest import ROOT, run_copy, write_week
 
 pytestmark = pytest.mark.kit
 SCRIPT = "scripts/grade_class.py"
@@ -36,16 +34,7 @@ def kit(tmp_path_factory):
 @pytest.fixture(scope="module")
 def run(kit):
     def run_script(*arguments):
-        return subprocess.run(
-            [sys.executable, str(kit / SCRIPT), *map(str, arguments), "--i-know-them"],
-            cwd=kit,
-            env=environment_of(kit),
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            timeout=300,
-            check=False,
-        )
+        return run_copy(kit, SCRIPT, *arguments, "--i-know-them")
 
     return run_script
 

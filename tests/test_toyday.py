@@ -7,12 +7,11 @@ an optional task, the library of day 1, and a robot with a hand.
 
 import json
 import shutil
-import subprocess
-import sys
+from functools import partial
 
 import pytest
 
-from conftest import ROOT, environment_of, kit_folders
+from conftest import ROOT, kit_folders, run_copy
 
 pytestmark = pytest.mark.kit
 TOY = ROOT / "tests" / "toyday" / "w9-toy"
@@ -31,19 +30,7 @@ def kit(tmp_path_factory):
 
 @pytest.fixture
 def run(kit):
-    def run_script(script, *arguments):
-        return subprocess.run(
-            [sys.executable, str(kit / script), *map(str, arguments)],
-            cwd=kit,
-            env=environment_of(kit),
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            timeout=120,
-            check=False,
-        )
-
-    return run_script
+    return partial(run_copy, kit)
 
 
 @pytest.fixture

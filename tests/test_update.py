@@ -1,11 +1,10 @@
 """`make update`: a mid-term kit on a student's clone, and nothing of theirs is lost."""
 
 import subprocess
-import sys
 
 import pytest
 
-from conftest import environment_of
+from conftest import run_copy
 from labkit.lesson.day import find_day
 from labkit.lesson.merge import conflicts, keep_both, keep_ours, merged
 from labkit.lesson.renew import renewed
@@ -37,15 +36,7 @@ def edit(path, *pairs):
 
 def update(student, *arguments, **environment):
     """Run `make update` in a clone, as a student would."""
-    return subprocess.run(
-        [sys.executable, "scripts/update.py", *arguments],
-        cwd=student,
-        env={**environment_of(student), **environment},
-        capture_output=True,
-        encoding="utf-8",
-        timeout=120,
-        check=False,
-    )
+    return run_copy(student, "scripts/update.py", *arguments, **environment)
 
 
 def state(student):
@@ -78,13 +69,7 @@ def student(kit, tmp_path):
     """Return the clone of a student half through Day 1."""
     clone = tmp_path / "student"
     git(tmp_path, "clone", "-q", str(kit), str(clone))
-    done = subprocess.run(
-        [sys.executable, "scripts/start_day.py", "1"],
-        cwd=clone,
-        env=environment_of(clone),
-        check=True,
-        capture_output=True,
-    )
+    done = run_copy(clone, "scripts/start_day.py", 1)
     assert done.returncode == 0
     edit(
         clone / WORK,
@@ -208,9 +193,7 @@ def test_a_run_that_is_killed_leaves_the_clone_for_the_next_one(kit, student, at
         f"def die(*_): os._exit(9)\n{'update.' + at} = die\n"
         "update.main()\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=student, env=environment_of(student)
-    )
+    done = run_copy(student, "-c", code)
     assert done.returncode == 9
     changed = set(state(student)[0]) - set(before[0])
     assert all(".before-update-" in name for name in changed)
