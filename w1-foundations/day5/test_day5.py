@@ -1,6 +1,5 @@
 """Day 5's lab: functions against oracles, predictions that come true, the guide."""
 
-import importlib.util
 import re
 
 import mujoco
@@ -9,8 +8,7 @@ import pytest
 from compare import assert_same
 from scipy.integrate import solve_ivp
 
-from conftest import ROOT, kits_worksheet, load_script, need, paper
-from labkit.lesson import folder
+from conftest import ROOT, kits_worksheet, load_script
 from labkit.lesson.day import find_day
 from labkit.lesson.predictions import predictions
 from labkit.log import read_rows
@@ -404,67 +402,3 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
 def test_the_motors_limits_are_those_of_the_guide(bench):
     assert_same(simulate.limits(bench[0])[1], [87, 87, 87, 87, 12, 12, 12], 0.0)
     assert "87 N m for joints 1 to 4 and 12 N m for 5 to 7" in GUIDE
-
-
-# --- the inspector's tab, without a browser ---
-
-
-@pytest.fixture
-def tab():
-    """Return the tab on a page that only listens; the lab is the student's file."""
-    return tab_of(vars(lab))
-
-
-def tab_of(functions):
-    need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-    return folder.load(find_day(5), "inspector").Control(page)
-
-
-def frames(tab, seconds):
-    for k in range(round(25 * seconds)):
-        tab.work(k / 25)
-        tab.step(k / 25)
-    return tab.plot.add.call_args.args
-
-
-def test_the_tab_shows_the_measured_error_on_the_predicted_one(tab):
-    tab.press("0.1 rad off")
-    t, (measured, predicted) = frames(tab, 0.16)
-    assert t == pytest.approx(0.16)
-    assert predicted == pytest.approx(1e2 * lab.error_response(np.array([t]), 20, 1)[0])
-    assert measured == pytest.approx(predicted, abs=4.0)
-    assert tab.own.says()[1] == "good"
-    tab.choose("springs")
-    assert frames(tab, 0.4)[1][0] > 50
-
-
-def test_the_tab_swings_hangs_and_integrates(tab):
-    tab.press("swing")
-    assert frames(tab, 0.4)[1][0] < 1.5
-    assert np.isnan(tab.predicted)  # nobody predicts it
-    tab.hang(True)
-    assert frames(tab, 0.4)[1][0] > 2.0
-    tab.press("0.1 rad off")
-    tab.choose("with an integral (PID)")
-    assert frames(tab, 2.0)[1][0] < 0.2
-
-
-def test_the_tab_says_where_the_loop_breaks_and_that_it_chatters(tab):
-    assert tab.stiffest == pytest.approx(224, abs=1)
-    tab.tune(200)
-    assert tab.page.say.call_args.args[0] == ""
-    tab.tune(290)
-    assert "every 4 ms breaks at 224 rad/s" in tab.page.say.call_args.args[0]
-    tab.press("0.1 rad off")
-    frames(tab, 1.0)
-    assert "It CHATTERS: joint" in tab.clock.content
-
-
-def test_the_tab_pushes_away_with_a_wrong_sign():
-    negative = {"pd_torque": lambda *args: -lab.pd_torque(*args)}
-    tab = tab_of({**vars(lab), **negative})
-    tab.choose("springs")
-    tab.press("0.1 rad off")
-    assert frames(tab, 0.4)[1][0] > 300
-    assert "pd_torque by" in tab.own.says()[0]
