@@ -1,7 +1,7 @@
 """A student's own functions of a week, each replaced by the library's where it fails.
 
     mine = load()               of the last week that has a capstone and is begun
-    mine.functions.solve_ik     the student's, if `make check` passes it
+    mine.functions.NAME         the student's, if `make check` passes it
     mine.yours, mine.total      how many are theirs: "yours: 61 of 66"
 
 The files run in this process, as `make run` runs them: they are the student's own, on

@@ -7,7 +7,7 @@
 
 A document asks for an output between two comments:
 
-    <!-- run: python src/day1_transforms.py --no-log | step 2 -->
+    <!-- run: python src/LAB.py --no-log | step 2 -->
     <!-- end -->
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for

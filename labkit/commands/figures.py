@@ -3,7 +3,7 @@
     make figures DAY=6                              yours, that the day hands in
     make figures DAY=6 ARGS=--kit                   all of the lesson
     python3 scripts/make_figures.py --day 6         the same as the first
-    python3 scripts/make_figures.py day1_order      one of them
+    python3 scripts/make_figures.py NAME            one of them
     python3 scripts/make_figures.py --out elsewhere into another folder
 
 Works without a display. MuJoCo draws the robot; the frames over it are composed
