@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from labkit.figures.sheet import thumbnail
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
@@ -30,9 +31,14 @@ def lesson_figures(number: int, own: bool = False) -> dict[str, Callable[[], Any
     source = str((day.work if own else day.source).parent)
     if source not in sys.path:  # where figures.py finds the lab that it imports from
         sys.path.insert(0, source)
-    found = getattr(folder.load(day, "figures"), "FIGURES", None)
+    lesson = folder.load(day, "figures")
+    found = getattr(lesson, "FIGURES", None)
     if not isinstance(found, dict):
         raise Robo47Error(
             f"{shown(day.own)}/figures.py has no FIGURES: {{name: function}}"
         )
-    return {f"day{number}_{name}": draw for name, draw in found.items()}
+    figures = {f"day{number}_{name}": draw for name, draw in found.items()}
+    if hasattr(lesson, "SMALL"):  # a picture, and the part of it that a table shows
+        name, *part = lesson.SMALL
+        figures[f"day{number}_small"] = lambda: thumbnail(found[name](), *part)
+    return figures
