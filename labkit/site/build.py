@@ -21,6 +21,7 @@ SETTINGS: dict[str, Any] = {
     "html_theme": "furo",
     "html_css_files": ["style.css"],
     "html_js_files": [("film.js", {"defer": "defer"})],
+    "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
     "html_show_copyright": False,
