@@ -73,31 +73,23 @@ def one_formula_for_all(t, omega, zeta):
     return (1.0 + omega * t) * np.exp(-omega * t)
 
 
-@row.wrong
-def one_formula_for_all(t, omega, zeta):
-    """zeta only stretches time: this is the formula of zeta = 1 for every zeta, and
-    under 1 it does not swing"""
-    return (1.0 + zeta * omega * t) * np.exp(-zeta * omega * t)
-
-
-@row.wrong
-def envelope_alone(t, omega, zeta):
-    """this is the envelope, e^(-zeta omega t); the error starts at rest, and this curve
-    starts with a slope"""
-    return np.exp(-zeta * omega * t)
-
-
-@row.wrong
-def envelope_of_omega(t, omega, zeta):
-    """this is e^(-omega t), whatever zeta is; the error starts at rest, and this curve
-    starts with a slope"""
-    return np.exp(-omega * t)
-
-
-@row.wrong
-def half_the_damping(t, omega, zeta):
-    """this is the curve of half the zeta: the equation has 2 zeta omega before ed"""
-    return error_response(t, omega, zeta / 2.0)
+@row.wrongs
+def _(t, omega, zeta):
+    """one-formula-for-all: zeta only stretches time: this is the formula of zeta = 1
+      for every zeta, and under 1 it does not swing
+    envelope-alone: this is the envelope, e^(-zeta omega t); the error starts at rest,
+      and this curve starts with a slope
+    envelope-of-omega: this is e^(-omega t), whatever zeta is; the error starts at rest,
+      and this curve starts with a slope
+    half-the-damping: this is the curve of half the zeta: the equation has 2 zeta omega
+      before ed
+    """
+    return {
+        "one-formula-for-all": (1.0 + zeta * omega * t) * np.exp(-zeta * omega * t),
+        "envelope-alone": np.exp(-zeta * omega * t),
+        "envelope-of-omega": np.exp(-omega * t),
+        "half-the-damping": error_response(t, omega, zeta / 2.0),
+    }
 
 
 @row.wrong(hidden="no zeta there is so near to 1")
@@ -138,16 +130,17 @@ def _(t, omega, zeta):
     return e
 
 
-@row.wrong
-def output_in_place_of_error(t, omega, zeta):
-    """this rises from 0 to 1: it is what the joint does, and the error is the rest"""
-    return 1.0 - error_response(t, omega, zeta)
-
-
-@row.wrong
-def omega_in_turns(t, omega, zeta):
-    """omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s"""
-    return error_response(t, 2.0 * np.pi * omega, zeta)
+@row.wrongs
+def _(t, omega, zeta):
+    """output-in-place-of-error: this rises from 0 to 1: it is what the joint does, and
+      the error is the rest
+    omega-in-turns: omega is taken for turns per second and multiplied by 2 pi; it comes
+      in rad/s
+    """
+    return {
+        "output-in-place-of-error": 1.0 - error_response(t, omega, zeta),
+        "omega-in-turns": error_response(t, 2.0 * np.pi * omega, zeta),
+    }
 
 
 @row.wrong

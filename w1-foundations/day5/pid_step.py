@@ -248,47 +248,26 @@ def term_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
     return kp * e + kd * ed + ki * integral, integral
 
 
-@row.wrong
-def old_integral_used(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the acceleration uses the integral from before this step"""
+@row.wrongs
+def _(e, ed, integral, kp, kd, ki, dt, clamp):
+    """old-integral-used: the acceleration uses the integral from before this step
+    old-integral-kept: the integral that was given comes back unchanged
+    ki-forgotten: the integral is added without its gain
+    no-integral-term: the integral is not in the acceleration
+    this-step-alone-used: ki multiplies this step's e dt alone; the acceleration needs
+      the whole sum
+    dt-twice: the integral is multiplied by dt once more in the acceleration; dt is in
+      it already
+    """
     new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, new
-
-
-@row.wrong
-def old_integral_kept(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral that was given comes back unchanged"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, integral.copy()
-
-
-@row.wrong
-def ki_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is added without its gain"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + new, new
-
-
-@row.wrong
-def no_integral_term(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is not in the acceleration"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed, new
-
-
-@row.wrong
-def this_step_alone_used(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ki multiplies this step's e dt alone; the acceleration needs the whole sum"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * e * dt, new
-
-
-@row.wrong
-def dt_twice(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is multiplied by dt once more in the acceleration; dt is in it
-    already"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new * dt, new
+    return {
+        "old-integral-used": (kp * e + kd * ed + ki * integral, new),
+        "old-integral-kept": (kp * e + kd * ed + ki * new, integral.copy()),
+        "ki-forgotten": (kp * e + kd * ed + new, new),
+        "no-integral-term": (kp * e + kd * ed, new),
+        "this-step-alone-used": (kp * e + kd * ed + ki * e * dt, new),
+        "dt-twice": (kp * e + kd * ed + ki * new * dt, new),
+    }
 
 
 @row.wrong
@@ -298,53 +277,27 @@ def ki_in_the_integral(e, ed, integral, kp, kd, ki, dt, clamp):
     return kp * e + kd * ed + integral, integral
 
 
-@row.wrong
-def term_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
-    """what comes back is ki times the integral; hand the integral itself back"""
+@row.wrongs
+def _(e, ed, integral, kp, kd, ki, dt, clamp):
+    """term-handed-back: what comes back is ki times the integral; hand the integral
+      itself back
+    springs-forgotten: only the integral's part is there: kp e and kd ed are missing
+    spring-forgotten: kp e is missing
+    damper-forgotten: kd ed is missing
+    gains-swapped: kp and kd are swapped: kp belongs to e and kd to ed
+    error-sign: kp e has the wrong sign
+    velocity-error-sign: kd ed has the wrong sign
+    """
     new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, ki * new
-
-
-@row.wrong
-def springs_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """only the integral's part is there: kp e and kd ed are missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return ki * new, new
-
-
-@row.wrong
-def spring_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp e is missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * ed + ki * new, new
-
-
-@row.wrong
-def damper_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kd ed is missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + ki * new, new
-
-
-@row.wrong
-def gains_swapped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp and kd are swapped: kp belongs to e and kd to ed"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * e + kp * ed + ki * new, new
-
-
-@row.wrong
-def error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp e has the wrong sign"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * ed - kp * e + ki * new, new
-
-
-@row.wrong
-def velocity_error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kd ed has the wrong sign"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e - kd * ed + ki * new, new
+    return {
+        "term-handed-back": (kp * e + kd * ed + ki * new, ki * new),
+        "springs-forgotten": (ki * new, new),
+        "spring-forgotten": (kd * ed + ki * new, new),
+        "damper-forgotten": (kp * e + ki * new, new),
+        "gains-swapped": (kd * e + kp * ed + ki * new, new),
+        "error-sign": (kd * ed - kp * e + ki * new, new),
+        "velocity-error-sign": (kp * e - kd * ed + ki * new, new),
+    }
 
 
 @row.wrong

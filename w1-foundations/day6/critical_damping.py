@@ -46,26 +46,22 @@ def _turned(L):
     return V.T @ np.diag(np.sqrt(values)) @ V
 
 
-@row.wrong
-def Lambda_ignored(K, Lambda):
-    """Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring => diag(2
-    sqrt(K))"""
-    return np.diag(2.0 * np.sqrt(K))
-
-
-@row.wrong
-def another_design(K, Lambda):
-    """this does not ring either: you take Lambda and K to axes in which both are
-    diagonal. Here the damping is the sum of two products of the roots of Lambda and K
-    => that other design"""
-    return _by_modes(K, Lambda)
-
-
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """np.sqrt takes the root of every entry of Lambda; the root of a matrix is the one
-    that, times itself, is the matrix => the right one with np.sqrt(Lambda)"""
-    return _sum(np.sqrt(Lambda), np.sqrt(K))
+@row.wrongs
+def _(K, Lambda):
+    """Lambda-ignored: Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each
+      spring => diag(2 sqrt(K))
+    another-design: this does not ring either: you take Lambda and K to axes in which
+      both are diagonal. Here the damping is the sum of two products of the roots of
+      Lambda and K => that other design
+    entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
+      a matrix is the one that, times itself, is the matrix => the right one with
+      np.sqrt(Lambda)
+    """
+    return {
+        "Lambda-ignored": np.diag(2.0 * np.sqrt(K)),
+        "another-design": _by_modes(K, Lambda),
+        "entries-square-rooted": _sum(np.sqrt(Lambda), np.sqrt(K)),
+    }
 
 
 @row.wrong
@@ -76,115 +72,77 @@ def entries_square_rooted(K, Lambda):
     return np.sqrt(Lambda) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(Lambda)
 
 
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """the root is taken of the size of every entry of Lambda; the root of a matrix is
-    the one that, times itself, is the matrix => the right one with
-    np.sqrt(abs(Lambda))"""
-    return _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K))
+@row.wrongs
+def _(K, Lambda):
+    """entries-square-rooted: the root is taken of the size of every entry of Lambda;
+      the root of a matrix is the one that, times itself, is the matrix => the right
+      one with np.sqrt(abs(Lambda))
+    diagonal-only: this is 2 sqrt(k m) for each axis alone; Lambda couples the axes =>
+      the right one with Lambda's diagonal
+    one-order-only: the product of the two roots is taken in one order, twice; with both
+      orders, once each, it is symmetric => 2 sqrt(Lambda) sqrt(K)
+    """
+    return {
+        "entries-square-rooted": _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K)),
+        "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
+        "one-order-only": 2.0 * root(Lambda) @ np.diag(np.sqrt(K)),
+    }
 
 
-@row.wrong
-def diagonal_only(K, Lambda):
-    """this is 2 sqrt(k m) for each axis alone; Lambda couples the axes => the right one
-    with Lambda's diagonal"""
-    return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
+@row.wrongs
+def _(K, Lambda):
+    """one-order-only: the product of the two roots is taken in one order, twice; with
+      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
+    half-of-it: the product of the two roots is there in one order only => sqrt(Lambda)
+      sqrt(K)
+    factor-two: there is a 2 too many: the two orders are the 2 already => twice the
+      right one
+    factor-two-missing: half of it is missing: the two orders are added, not averaged =>
+      half of the right one
+    K-not-rooted: K is used as it is; its square root belongs there => the right one
+      with K for its root
+    Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
+      right one with Lambda for its root
+    eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
+      columns, so the root is V diag V^T => the right one with V^T diag V
+    eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
+      diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
+    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
+      => the right one with the Cholesky factor
+    """
+    return {
+        "one-order-only": 2.0 * np.diag(np.sqrt(K)) @ root(Lambda),
+        "half-of-it": root(Lambda) @ np.diag(np.sqrt(K)),
+        "factor-two": 2.0 * _sum(root(Lambda), np.sqrt(K)),
+        "factor-two-missing": 0.5 * _sum(root(Lambda), np.sqrt(K)),
+        "K-not-rooted": _sum(root(Lambda), K),
+        "Lambda-not-rooted": _sum(Lambda, np.sqrt(K)),
+        "eigenvectors-transposed": _sum(_turned(Lambda), np.sqrt(K)),
+        "eigenvalues-not-rooted-back": _sum(
+            np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K)
+        ),
+        "cholesky": _sum(np.linalg.cholesky(Lambda), np.sqrt(K)),
+    }
 
 
-@row.wrong
-def one_order_only(K, Lambda):
-    """the product of the two roots is taken in one order, twice; with both orders, once
-    each, it is symmetric => 2 sqrt(Lambda) sqrt(K)"""
-    return 2.0 * root(Lambda) @ np.diag(np.sqrt(K))
-
-
-@row.wrong
-def one_order_only(K, Lambda):
-    """the product of the two roots is taken in one order, twice; with both orders, once
-    each, it is symmetric => 2 sqrt(K) sqrt(Lambda)"""
-    return 2.0 * np.diag(np.sqrt(K)) @ root(Lambda)
-
-
-@row.wrong
-def half_of_it(K, Lambda):
-    """the product of the two roots is there in one order only => sqrt(Lambda)
-    sqrt(K)"""
-    return root(Lambda) @ np.diag(np.sqrt(K))
-
-
-@row.wrong
-def factor_two(K, Lambda):
-    """there is a 2 too many: the two orders are the 2 already => twice the right one"""
-    return 2.0 * _sum(root(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def factor_two_missing(K, Lambda):
-    """half of it is missing: the two orders are added, not averaged => half of the
-    right one"""
-    return 0.5 * _sum(root(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def K_not_rooted(K, Lambda):
-    """K is used as it is; its square root belongs there => the right one with K for its
-    root"""
-    return _sum(root(Lambda), K)
-
-
-@row.wrong
-def Lambda_not_rooted(K, Lambda):
-    """Lambda is used as it is; its square root belongs there => the right one with
-    Lambda for its root"""
-    return _sum(Lambda, np.sqrt(K))
-
-
-@row.wrong
-def eigenvectors_transposed(K, Lambda):
-    """the eigenvectors are transposed: those of eigh are the columns, so the root is V
-    diag V^T => the right one with V^T diag V"""
-    return _sum(_turned(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def eigenvalues_not_rooted_back(K, Lambda):
-    """the root is left in the eigenvectors' axes: diag(sqrt(values)) has to be turned
-    back => the right one with diag(sqrt(values))"""
-    return _sum(np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K))
-
-
-@row.wrong
-def cholesky(K, Lambda):
-    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => the
-    right one with the Cholesky factor"""
-    return _sum(np.linalg.cholesky(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def cholesky(K, Lambda):
-    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => L
-    sqrt(K) + sqrt(K) L^T"""
+@row.wrongs
+def _(K, Lambda):
+    """cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
+      Lambda => L sqrt(K) + sqrt(K) L^T
+    root-of-inverse: the root is that of Lambda's inverse => the right one with the
+      inverse root
+    root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
+      Lambda))
+    no-roots: the square roots are missing: this grows with K, where a damping grows
+      with its root => Lambda K + K Lambda
+    """
     half = np.linalg.cholesky(Lambda) * np.sqrt(K)
-    return half + half.T
-
-
-@row.wrong
-def root_of_inverse(K, Lambda):
-    """the root is that of Lambda's inverse => the right one with the inverse root"""
-    return _sum(np.linalg.inv(root(Lambda)), np.sqrt(K))
-
-
-@row.wrong
-def root_of_the_product(K, Lambda):
-    """this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K Lambda))"""
-    return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))
-
-
-@row.wrong
-def no_roots(K, Lambda):
-    """the square roots are missing: this grows with K, where a damping grows with its
-    root => Lambda K + K Lambda"""
-    return Lambda @ np.diag(K) + np.diag(K) @ Lambda
+    return {
+        "cholesky": half + half.T,
+        "root-of-inverse": _sum(np.linalg.inv(root(Lambda)), np.sqrt(K)),
+        "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
+        "no-roots": Lambda @ np.diag(K) + np.diag(K) @ Lambda,
+    }
 
 
 @row.right  # The root by Newton's iteration (Denman and Beavers).

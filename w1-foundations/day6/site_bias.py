@@ -94,77 +94,44 @@ row.wrong(
 )(_rate_only)
 
 
-@row.wrong
-def no_centripetal(J_space, qd, p):
-    """the part omega x (velocity of p) is missing: a point on a circle accelerates
-    towards its centre though the speed is steady => the right one without it"""
-    return _rate_only(J_space, qd, p) + np.append(
-        np.zeros(3), np.cross(_rate_only(J_space, qd, p)[:3], p)
-    )
-
-
-@row.wrong
-def no_alpha_cross_p(J_space, qd, p):
-    """the angular acceleration is not converted to the point: alpha x p is missing =>
-    the right one without it"""
-    return bias(J_space, qd, p, turn=0.0)
-
-
-@row.wrong
-def velocity_of_origin(J_space, qd, p):
-    """omega is crossed with v, the velocity of the point at the world's origin; p
-    itself moves at v + omega x p => the right one with v there"""
-    return bias(J_space, qd, p, centre=0.0)
-
-
-@row.wrong
-def v_forgotten(J_space, qd, p):
-    """the velocity of p is taken to be omega x p alone; v belongs to it => the right
-    one without v"""
-    return bias(J_space, qd, p, move=0.0)
-
-
-@row.wrong
-def p_sign(J_space, qd, p):
-    """the cross products with p have their factors swapped: p x omega is minus omega x
-    p => the right one with -p"""
-    return bias(J_space, qd, -p)
-
-
-@row.wrong
-def ad_swapped(J_space, qd, p):
-    """V and S have changed places, or the twists are summed from the tip: ad(S) V is
-    minus ad(V) S, and a joint is carried by those before it => the right one with ad(S)
-    V"""
-    return bias(J_space, qd, p, rate=lambda V, S: ad(S) @ V)
-
-
-@row.wrong
-def ad_transposed(J_space, qd, p):
-    """ad(V) is transposed: that one is for wrenches, screws take it as it is => the
-    right one with ad(V)^T"""
-    return bias(J_space, qd, p, rate=_own_bracket)
-
-
-@row.wrong
-def ad_half(J_space, qd, p):
-    """ad(V) lacks its lower left block [v] => the right one without it"""
-    return bias(J_space, qd, p, rate=_without_lower_block)
-
-
-@row.wrong
-def twist_of_the_hand(J_space, qd, p):
-    """every joint is taken to ride on the hand; joint i rides on link i, which only the
-    joints up to it move; ad(V) V is 0, so nothing is left of the sum => the right one
-    without the sum of ad(V) S qd"""
-    return bias(J_space, qd, p, rate=_nothing)
-
-
-@row.wrong
-def last_joint_left_out(J_space, qd, p):
-    """the last joint is left out: range(6) ends with joint6 => the right one of six
-    joints"""
-    return bias(J_space[:, :6], qd[:6], p)
+@row.wrongs
+def _(J_space, qd, p):
+    """no-centripetal: the part omega x (velocity of p) is missing: a point on a circle
+      accelerates towards its centre though the speed is steady => the right one
+      without it
+    no-alpha-cross-p: the angular acceleration is not converted to the point: alpha x p
+      is missing => the right one without it
+    velocity-of-origin: omega is crossed with v, the velocity of the point at the
+      world's origin; p itself moves at v + omega x p => the right one with v there
+    v-forgotten: the velocity of p is taken to be omega x p alone; v belongs to it =>
+      the right one without v
+    p-sign: the cross products with p have their factors swapped: p x omega is minus
+      omega x p => the right one with -p
+    ad-swapped: V and S have changed places, or the twists are summed from the tip:
+      ad(S) V is minus ad(V) S, and a joint is carried by those before it => the right
+      one with ad(S) V
+    ad-transposed: ad(V) is transposed: that one is for wrenches, screws take it as it
+      is => the right one with ad(V)^T
+    ad-half: ad(V) lacks its lower left block [v] => the right one without it
+    twist-of-the-hand: every joint is taken to ride on the hand; joint i rides on link
+      i, which only the joints up to it move; ad(V) V is 0, so nothing is left of the
+      sum => the right one without the sum of ad(V) S qd
+    last-joint-left-out: the last joint is left out: range(6) ends with joint6 => the
+      right one of six joints
+    """
+    return {
+        "no-centripetal": _rate_only(J_space, qd, p)
+        + np.append(np.zeros(3), np.cross(_rate_only(J_space, qd, p)[:3], p)),
+        "no-alpha-cross-p": bias(J_space, qd, p, turn=0.0),
+        "velocity-of-origin": bias(J_space, qd, p, centre=0.0),
+        "v-forgotten": bias(J_space, qd, p, move=0.0),
+        "p-sign": bias(J_space, qd, -p),
+        "ad-swapped": bias(J_space, qd, p, rate=lambda V, S: ad(S) @ V),
+        "ad-transposed": bias(J_space, qd, p, rate=_own_bracket),
+        "ad-half": bias(J_space, qd, p, rate=_without_lower_block),
+        "twist-of-the-hand": bias(J_space, qd, p, rate=_nothing),
+        "last-joint-left-out": bias(J_space[:, :6], qd[:6], p),
+    }
 
 
 @row.wrong

@@ -67,47 +67,30 @@ def _(rng):
     yield from zip(start, end, T.tolist(), strict=True)
 
 
-@row.wrong
-def descending(start, end, T):
-    """the highest power comes first; the constant has to => the answer with the
-    coefficients in descending order"""
-    return quintic_coefficients(start, end, T)[::-1]
-
-
-@row.wrong
-def ends_swapped(start, end, T):
-    """it goes from the end to the start => the answer with the ends swapped"""
-    return quintic_coefficients(end, start, T)
-
-
-@row.wrong
-def in_powers_of_x(start, end, T):
-    """these are the coefficients of powers of t / T, not of t => the answer with the
-    coefficients of t / T"""
-    return quintic_coefficients(start, end, T) * T**POWERS
-
-
-@row.wrong
-def T_is_1(start, end, T):
-    """T does not count: the end's conditions are those at t = 1 => the answer with the
-    coefficients for T = 1"""
-    return quintic_coefficients(start, end, 1.0)
-
-
-@row.wrong
-def cubic(start, end, T):
-    """this is a cubic: both accelerations are left out => the cubic"""
+@row.wrongs
+def _(start, end, T):
+    """descending: the highest power comes first; the constant has to => the answer with
+      the coefficients in descending order
+    ends-swapped: it goes from the end to the start => the answer with the ends swapped
+    in-powers-of-x: these are the coefficients of powers of t / T, not of t => the
+      answer with the coefficients of t / T
+    T-is-1: T does not count: the end's conditions are those at t = 1 => the answer with
+      the coefficients for T = 1
+    cubic: this is a cubic: both accelerations are left out => the cubic
+    accelerations-zero: the accelerations at the ends are taken as 0; they are given =>
+      the answer without accelerations
+    """
     A = conditions(T)[[0, 1, 3, 4], :4]
     four = np.linalg.solve(A, [*start[:2], *end[:2]])
-    return np.append(four, [0.0, 0.0])
-
-
-@row.wrong
-def accelerations_zero(start, end, T):
-    """the accelerations at the ends are taken as 0; they are given => the answer
-    without accelerations"""
     kept = np.array([1.0, 1.0, 0.0])
-    return quintic_coefficients(start * kept, end * kept, T)
+    return {
+        "descending": quintic_coefficients(start, end, T)[::-1],
+        "ends-swapped": quintic_coefficients(end, start, T),
+        "in-powers-of-x": quintic_coefficients(start, end, T) * T**POWERS,
+        "T-is-1": quintic_coefficients(start, end, 1.0),
+        "cubic": np.append(four, [0.0, 0.0]),
+        "accelerations-zero": quintic_coefficients(start * kept, end * kept, T),
+    }
 
 
 @row.wrong

@@ -50,70 +50,51 @@ def to_top(t, L, a, top):
     return profile(t, L, a, top, L / top + top / a)
 
 
-@row.wrong
-def no_triangle(t, L, v, a):
-    """the top speed is always v; a short way ends before v is reached, so it overshoots
-    => the trapezoid without its triangle"""
-    return to_top(t, L, a, v)
-
-
-@row.wrong
-def always_a_triangle(t, L, v, a):
-    """it never cruises: the top speed is sqrt(L a) even where that is over v => the
-    triangle"""
-    return to_top(t, L, a, np.sqrt(L * a))
-
-
-@row.wrong
-def triangle_too_high(t, L, v, a):
-    """half of the triangle is for braking, so its height is not sqrt(2 L a) => the
-    triangle with sqrt(2 L a)"""
-    return to_top(t, L, a, min(v, np.sqrt(2 * L * a)))
-
-
-@row.wrong
-def triangle_too_low(t, L, v, a):
-    """the triangle's height is not sqrt(L a / 2): its area has to be L => the triangle
-    with sqrt(L a / 2)"""
-    return to_top(t, L, a, min(v, np.sqrt(L * a / 2)))
-
-
-@row.wrong
-def triangle_not_a_root(t, L, v, a):
-    """the triangle's height is the root of L a; L a itself is the square of a speed =>
-    the triangle with L a"""
-    return to_top(t, L, a, min(v, L * a))
-
-
-@row.wrong
-def triangle_too_late(t, L, v, a):
-    """it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; there
-    are two ramps => the triangle below v^2 / (2 a)"""
-    return to_top(t, L, a, np.sqrt(L * a) if v**2 / (2 * a) > L else v)
-
-
-@row.wrong
-def ramps_take_no_time(t, L, v, a):
-    """the duration is L / v, as if it were at v from the first moment; the ramps cost
-    one ramp more => the profile with T = L / v"""
+@row.wrongs
+def _(t, L, v, a):
+    """no-triangle: the top speed is always v; a short way ends before v is reached, so
+      it overshoots => the trapezoid without its triangle
+    always-a-triangle: it never cruises: the top speed is sqrt(L a) even where that is
+      over v => the triangle
+    triangle-too-high: half of the triangle is for braking, so its height is not sqrt(2
+      L a) => the triangle with sqrt(2 L a)
+    triangle-too-low: the triangle's height is not sqrt(L a / 2): its area has to be L
+      => the triangle with sqrt(L a / 2)
+    triangle-not-a-root: the triangle's height is the root of L a; L a itself is the
+      square of a speed => the triangle with L a
+    triangle-too-late: it becomes a triangle only below L = v^2 / (2 a), which is one
+      ramp's way; there are two ramps => the triangle below v^2 / (2 a)
+    ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
+      the ramps cost one ramp more => the profile with T = L / v
+    """
     top, _, _ = timing(L, v, a)
-    return profile(t, L, a, top, L / top)
+    return {
+        "no-triangle": to_top(t, L, a, v),
+        "always-a-triangle": to_top(t, L, a, np.sqrt(L * a)),
+        "triangle-too-high": to_top(t, L, a, min(v, np.sqrt(2 * L * a))),
+        "triangle-too-low": to_top(t, L, a, min(v, np.sqrt(L * a / 2))),
+        "triangle-not-a-root": to_top(t, L, a, min(v, L * a)),
+        "triangle-too-late": to_top(
+            t, L, a, np.sqrt(L * a) if v**2 / (2 * a) > L else v
+        ),
+        "ramps-take-no-time": profile(t, L, a, top, L / top),
+    }
 
 
-@row.wrong
-def both_ramps_added(t, L, v, a):
-    """the duration is one ramp's time, v / a, too long: compared with full speed, each
-    ramp costs only half of its own time => the profile with T = L / v + 2 v / a"""
+@row.wrongs
+def _(t, L, v, a):
+    """both-ramps-added: the duration is one ramp's time, v / a, too long: compared with
+      full speed, each ramp costs only half of its own time => the profile with T = L
+      / v + 2 v / a
+    braking-accelerates: while it slows down the acceleration is negative => the profile
+      with +a at the end
+    """
     top, ramp, _ = timing(L, v, a)
-    return profile(t, L, a, top, L / top + 2 * ramp)
-
-
-@row.wrong
-def braking_accelerates(t, L, v, a):
-    """while it slows down the acceleration is negative => the profile with +a at the
-    end"""
     x, speed, acc = trapezoid(t, L, v, a)
-    return np.array([x, speed, abs(acc)])
+    return {
+        "both-ramps-added": profile(t, L, a, top, L / top + 2 * ramp),
+        "braking-accelerates": np.array([x, speed, abs(acc)]),
+    }
 
 
 @row.wrong
