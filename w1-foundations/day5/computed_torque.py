@@ -55,20 +55,31 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     bias-forgotten: bias is missing: gravity and Coriolis forces are left to the springs
     bias-sign: bias has the wrong sign: it is what the motors must give
     bias-twice: bias is in it twice
+    everything-through-M: bias and friction go through M as well; they are torques
+      already
+    bias-through-M: bias goes through M as well; it is a torque already
+    reference-outside-M: the reference's acceleration stands outside the product with M
+    bias-alone-at-the-goal: where e is 0 only bias comes back, but the arm may be moving
+      there
     """
+    rub, springs = damping * qd, kd * ed + kp * e
+    acc = qdd_ref + springs
+    push = M @ acc
     return {
-        "gains-outside-M": M @ qdd_ref + kp * e + kd * ed + bias + damping * qd,
-        "damping-forgotten": M @ (qdd_ref + kd * ed + kp * e) + bias,
-        "damping-sign": M @ (qdd_ref + kd * ed + kp * e) + bias - damping * qd,
-        "friction-of-the-error": M @ (qdd_ref + kd * ed + kp * e) + bias + damping * ed,
-        "friction-of-the-reference": M @ (qdd_ref + kd * ed + kp * e)
-        + bias
-        + damping * (qd + ed),
-        "friction-without-velocity": M @ (qdd_ref + kd * ed + kp * e) + bias + damping,
-        "friction-twice": M @ (qdd_ref + kd * ed + kp * e) + bias + 2.0 * damping * qd,
-        "bias-forgotten": M @ (qdd_ref + kd * ed + kp * e) + damping * qd,
-        "bias-sign": M @ (qdd_ref + kd * ed + kp * e) - bias + damping * qd,
-        "bias-twice": M @ (qdd_ref + kd * ed + kp * e) + 2.0 * bias + damping * qd,
+        "gains-outside-M": M @ qdd_ref + springs + bias + rub,
+        "damping-forgotten": push + bias,
+        "damping-sign": push + bias - rub,
+        "friction-of-the-error": push + bias + damping * ed,
+        "friction-of-the-reference": push + bias + damping * (qd + ed),
+        "friction-without-velocity": push + bias + damping,
+        "friction-twice": push + bias + 2.0 * rub,
+        "bias-forgotten": push + rub,
+        "bias-sign": push - bias + rub,
+        "bias-twice": push + 2.0 * bias + rub,
+        "everything-through-M": M @ (acc + bias + rub),
+        "bias-through-M": M @ (acc + bias) + rub,
+        "reference-outside-M": M @ springs + qdd_ref + bias + rub,
+        "bias-alone-at-the-goal": push + bias + rub if np.any(e) else bias.copy(),
     }
 
 
@@ -83,79 +94,47 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     velocity-error-sign: the damper drives the motion: ed enters with a plus
     both-signs: kp e and kd ed both have the wrong sign: e and ed are the reference
       minus what is measured
-    """
-    return {
-        "qdd-ref-forgotten": M @ (kd * ed + kp * e) + bias + damping * qd,
-        "qdd-ref-sign": M @ (kd * ed + kp * e - qdd_ref) + bias + damping * qd,
-        "springs-forgotten": M @ qdd_ref + bias + damping * qd,
-        "damper-forgotten": M @ (qdd_ref + kp * e) + bias + damping * qd,
-        "error-sign": M @ (qdd_ref + kd * ed - kp * e) + bias + damping * qd,
-        "velocity-error-sign": M @ (qdd_ref - kd * ed + kp * e) + bias + damping * qd,
-        "both-signs": M @ (qdd_ref - kd * ed - kp * e) + bias + damping * qd,
-    }
-
-
-row.of_argument("e", WRAPPED)
-
-
-@row.wrongs
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-swapped: kp and kd are swapped
+    gains-swapped: kp and kd are swapped
     measured-velocity-damped: the damper works on the measured velocity, minus kd qd, so
       it brakes the reference's own motion too; ed is what it has to work on
-    inverse-of-M: the acceleration is divided by M; a torque is M times an acceleration
-    M-forgotten: M is missing: an acceleration is added to torques
-    diagonal-of-M: only the diagonal of M is used; a joint that speeds up pushes the
-      others too
-    everything-through-M: bias and friction go through M as well; they are torques
-      already
-    bias-through-M: bias goes through M as well; it is a torque already
-    """
-    return {
-        "gains-swapped": M @ (qdd_ref + kp * ed + kd * e) + bias + damping * qd,
-        "measured-velocity-damped": M @ (qdd_ref - kd * qd + kp * e)
-        + bias
-        + damping * qd,
-        "inverse-of-M": np.linalg.solve(M, qdd_ref + kd * ed + kp * e)
-        + bias
-        + damping * qd,
-        "M-forgotten": qdd_ref + kd * ed + kp * e + bias + damping * qd,
-        "diagonal-of-M": np.diag(M) * (qdd_ref + kd * ed + kp * e)
-        + bias
-        + damping * qd,
-        "everything-through-M": M @ (qdd_ref + kd * ed + kp * e + bias + damping * qd),
-        "bias-through-M": M @ (qdd_ref + kd * ed + kp * e + bias) + damping * qd,
-    }
-
-
-@row.wrong
-def armature_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the armature, 0.1 kg m2, is added to M; M has it already"""
-    M = M + ARMATURE * np.eye(7)
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def bias_alone_at_the_goal(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """where e is 0 only bias comes back, but the arm may be moving there"""
-    if np.all(e == 0.0):
-        return bias.copy()
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrongs
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """reference-outside-M: the reference's acceleration stands outside the product with
-      M
     errors-in-degrees: the errors are converted to degrees; everything else is in
       radians
     """
-    return {
-        "reference-outside-M": M @ (kd * ed + kp * e) + qdd_ref + bias + damping * qd,
-        "errors-in-degrees": M @ (qdd_ref + np.rad2deg(kp * e + kd * ed))
-        + bias
-        + damping * qd,
+    acc = {
+        "qdd-ref-forgotten": kd * ed + kp * e,
+        "qdd-ref-sign": kd * ed + kp * e - qdd_ref,
+        "springs-forgotten": qdd_ref,
+        "damper-forgotten": qdd_ref + kp * e,
+        "error-sign": qdd_ref + kd * ed - kp * e,
+        "velocity-error-sign": qdd_ref - kd * ed + kp * e,
+        "both-signs": qdd_ref - kd * ed - kp * e,
+        "gains-swapped": qdd_ref + kp * ed + kd * e,
+        "measured-velocity-damped": qdd_ref - kd * qd + kp * e,
+        "errors-in-degrees": qdd_ref + np.rad2deg(kp * e + kd * ed),
     }
+    return {slug: M @ some + bias + damping * qd for slug, some in acc.items()}
+
+
+@row.wrongs
+def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """inverse-of-M: the acceleration is divided by M; a torque is M times an
+      acceleration
+    M-forgotten: M is missing: an acceleration is added to torques
+    diagonal-of-M: only the diagonal of M is used; a joint that speeds up pushes the
+      others too
+    armature-twice: the armature, 0.1 kg m2, is added to M; M has it already
+    """
+    acc = qdd_ref + kd * ed + kp * e
+    push = {
+        "inverse-of-M": np.linalg.solve(M, acc),
+        "M-forgotten": acc,
+        "diagonal-of-M": np.diag(M) * acc,
+        "armature-twice": M @ acc + ARMATURE * acc,
+    }
+    return {slug: some + bias + damping * qd for slug, some in push.items()}
+
+
+row.of_argument("e", WRAPPED)
 
 
 @row.right  # With einsum, each term through M.

@@ -4,15 +4,7 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .joints import (
-    ONE,
-    TORQUE,
-    one_gain,
-    seven,
-    springs,
-    springs_of_one_gain,
-    stiff,
-)
+from .joints import ONE, TORQUE, one_gain, seven, springs, springs_of_one_gain, stiff
 
 
 def gravity_of_one_gain(rng):
@@ -50,20 +42,17 @@ def _(e, ed, kp, kd, g_at_q):
     nothing-at-the-goal: where e is 0, no torque comes back: the arm has its weight at
       the goal too
     """
+    springs, away = kp * e + kd * ed, np.any(e)
     return {
-        "gravity-forgotten": kp * e + kd * ed,
-        "gravity-sign": kp * e + kd * ed - g_at_q,
-        "gravity-twice": kp * e + kd * ed + 2.0 * g_at_q,
+        "gravity-forgotten": springs,
+        "gravity-sign": springs - g_at_q,
+        "gravity-twice": springs + 2.0 * g_at_q,
         "gravity-through-the-gain": kp * (e + g_at_q) + kd * ed,
         "springs-forgotten": g_at_q.copy(),
-        "gravity-through-both-gains": (kp * e + kd * ed) * g_at_q,
-        "gravity-at-the-goal-only": g_at_q.copy()
-        if np.all(e == 0.0)
-        else kp * e + kd * ed,
-        "gravity-at-rest-only": kp * e + kd * ed + g_at_q * (ed == 0.0),
-        "nothing-at-the-goal": np.zeros(7)
-        if np.all(e == 0.0)
-        else kp * e + kd * ed + g_at_q,
+        "gravity-through-both-gains": springs * g_at_q,
+        "gravity-at-the-goal-only": springs if away else g_at_q.copy(),
+        "gravity-at-rest-only": springs + g_at_q * (ed == 0.0),
+        "nothing-at-the-goal": springs + g_at_q if away else np.zeros(7),
     }
 
 

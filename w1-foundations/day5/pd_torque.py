@@ -4,13 +4,7 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .joints import (
-    TORQUE,
-    WRAPPED,
-    one_gain,
-    springs,
-    springs_of_one_gain,
-)
+from .joints import TORQUE, WRAPPED, one_gain, springs, springs_of_one_gain
 
 row = Row(TORQUE, held_out=[one_gain(springs_of_one_gain)])
 row.inputs(springs)
@@ -27,11 +21,14 @@ def _(e, ed, kp, kd):
     spring-forgotten: there is a damper, but no spring: nothing pulls the joint to its
       goal
     gains-swapped: kp and kd are swapped: the spring has the damper's gain
-    one-gain-for-all: all joints get the first joint's gains; each has its own here
     in-degrees: the errors are converted to degrees; the gains are per radian
     error-in-degrees: e is converted to degrees and ed is not; the gains are per radian
-    summed-over-joints: the joints are summed into one number; every joint has its own
-      spring
+    damper-through-both-gains: kd ed is multiplied by kp as well; kp and kd each have
+      one error of their own
+    velocity-error-forgotten: kd is added as it is: it becomes a torque once it is
+      multiplied by ed
+    mean-gains: all joints get the mean of the gains; each has its own here => the right
+      one with mean(kp) and mean(kd)
     """
     return {
         "error-sign": kd * ed - kp * e,
@@ -40,30 +37,27 @@ def _(e, ed, kp, kd):
         "damper-forgotten": kp * e,
         "spring-forgotten": kd * ed,
         "gains-swapped": kd * e + kp * ed,
-        "one-gain-for-all": kp[0] * e + kd[0] * ed,
         "in-degrees": np.rad2deg(kp * e + kd * ed),
         "error-in-degrees": kp * np.rad2deg(e) + kd * ed,
-        "summed-over-joints": np.full(7, kp @ e + kd @ ed),
-    }
-
-
-row.of_argument("e", WRAPPED)
-
-
-@row.wrongs
-def _(e, ed, kp, kd):
-    """damper-through-both-gains: kd ed is multiplied by kp as well; kp and kd each have
-      one error of their own
-    velocity-error-forgotten: kd is added as it is: it becomes a torque once it is
-      multiplied by ed
-    mean-gains: all joints get the mean of the gains; each has its own here => the right
-      one with mean(kp) and mean(kd)
-    """
-    return {
         "damper-through-both-gains": kp * (e + kd * ed),
         "velocity-error-forgotten": kp * e + kd,
         "mean-gains": np.mean(kp) * e + np.mean(kd) * ed,
     }
+
+
+@row.wrong
+def one_gain_for_all(e, ed, kp, kd):
+    """all joints get the first joint's gains; each has its own here"""
+    return kp[0] * e + kd[0] * ed
+
+
+@row.wrong
+def summed_over_joints(e, ed, kp, kd):
+    """the joints are summed into one number; every joint has its own spring"""
+    return np.full(7, kp @ e + kd @ ed)
+
+
+row.of_argument("e", WRAPPED)
 
 
 @row.right  # Gains as matrices.

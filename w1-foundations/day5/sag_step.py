@@ -40,13 +40,15 @@ def _(q_goal, g_at_q, kp):
     sag-only: this is how far the arm sags; asked is where it then is
     stiffness-forgotten: gravity's torque is taken for an angle; stiffness turns one
       into the other
-    one-gain-for-all: all joints get the first joint's stiffness; each has its own here
     does-not-sag: the goal comes back as it is; a spring gives torque only where there
       is an error
     sag-in-degrees: the sag is in degrees, the goal in radians
     goal-scaled-too: the goal is divided by the stiffness as well
     always-below: gravity's sign is lost: where g is negative, the joint rests above its
       goal
+    stiffness-squared: gravity's torque is divided by kp twice: compare the units
+    answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
+      whole turn is not the same as none, and joint6 goes beyond pi
     """
     return {
         "sags-upwards": q_goal + g_at_q / kp,
@@ -54,24 +56,19 @@ def _(q_goal, g_at_q, kp):
         "goal-forgotten": -g_at_q / kp,
         "sag-only": g_at_q / kp,
         "stiffness-forgotten": q_goal - g_at_q,
-        "one-gain-for-all": q_goal - g_at_q / kp[0],
         "does-not-sag": q_goal.copy(),
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),
         "goal-scaled-too": (q_goal - g_at_q) / kp,
         "always-below": q_goal - np.abs(g_at_q) / kp,
-    }
-
-
-@row.wrongs
-def _(q_goal, g_at_q, kp):
-    """stiffness-squared: gravity's torque is divided by kp twice: compare the units
-    answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
-      whole turn is not the same as none, and joint6 goes beyond pi
-    """
-    return {
         "stiffness-squared": q_goal - g_at_q / kp**2,
         "answer-wrapped": wrapped(q_goal - g_at_q / kp),
     }
+
+
+@row.wrong
+def one_gain_for_all(q_goal, g_at_q, kp):
+    """all joints get the first joint's stiffness; each has its own here"""
+    return q_goal - g_at_q / kp[0]
 
 
 @row.right  # On one fraction bar.

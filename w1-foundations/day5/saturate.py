@@ -39,6 +39,7 @@ def _(tau, limits):
     length-bounded: the length of the whole vector is compared with the limits; each
       motor knows its own torque only
     """
+    length = max(np.linalg.norm(tau), 1e-300)
     return {
         "not-bounded": tau.copy(),
         "above-only": np.minimum(tau, limits),
@@ -49,8 +50,7 @@ def _(tau, limits):
         "one-limit-for-all": np.clip(tau, -limits[0], limits[0]),
         "smallest-limit-for-all": np.clip(tau, -limits.min(), limits.min()),
         "all-scaled-down": tau / max(1.0, np.max(np.abs(tau) / limits)),
-        "length-bounded": tau
-        * np.minimum(1.0, limits / max(np.linalg.norm(tau), 1e-300)),
+        "length-bounded": tau * np.minimum(1.0, limits / length),
     }
 
 
@@ -59,49 +59,26 @@ def _(tau, limits):
     """switched-off: a torque over its limit becomes 0; a motor then gives its limit
     always-full: every motor gives its limit, in one direction or the other; a torque
       within the limits stays as it is
-    """
-    return {
-        "switched-off": np.where(np.abs(tau) > limits, 0.0, tau),
-        "always-full": np.sign(tau) * limits,
-    }
-
-
-@row.wrong
-def one_over_stops_all(tau, limits):
-    """one motor over its limit stops all seven; the others can still give what they are
-    asked for"""
-    if np.any(np.abs(tau) > limits):
-        return np.zeros(7)
-    return tau.copy()
-
-
-@row.wrong
-def nothing_within_the_limits(tau, limits):
-    """where all torques are within their limits, 0 comes back; they should stay as they
-    are"""
-    if np.all(np.abs(tau) <= limits):
-        return np.zeros(7)
-    return np.clip(tau, -limits, limits)
-
-
-@row.wrongs
-def _(tau, limits):
-    """first-limit-typed-in: all joints get 87 Nm, typed in; take each motor's own from
+    one-over-stops-all: one motor over its limit stops all seven; the others can still
+      give what they are asked for
+    nothing-within-the-limits: where all torques are within their limits, 0 comes back;
+      they should stay as they are
+    first-limit-typed-in: all joints get 87 Nm, typed in; take each motor's own from
       limits
     all-positive: every torque has lost its sign; a motor turns both ways
+    first-joint-only: only joint1 is limited; every motor has a limit => the right one
+      with joint1
     """
+    right, over = np.clip(tau, -limits, limits), np.abs(tau) > limits
     return {
+        "switched-off": np.where(over, 0.0, tau),
+        "always-full": np.sign(tau) * limits,
+        "one-over-stops-all": 0.0 * tau if over.any() else tau,
+        "nothing-within-the-limits": right if over.any() else 0.0 * tau,
         "first-limit-typed-in": np.clip(tau, -87.0, 87.0),
         "all-positive": np.minimum(np.abs(tau), limits),
+        "first-joint-only": np.append(right[0], tau[1:]),
     }
-
-
-@row.wrong
-def first_joint_only(tau, limits):
-    """only joint1 is limited; every motor has a limit => the right one with joint1"""
-    out = tau.copy()
-    out[0] = np.clip(tau[0], -limits[0], limits[0])
-    return out
 
 
 @row.right  # The median of three.

@@ -35,6 +35,7 @@ def _(tau, q, qd, kp, kd):
     gains-swapped: kp and kd are swapped
     one-gain-for-all: all joints get the first servo's kp; each has its own
     angle-subtracted: q is subtracted; the command is that far from q, so add it
+    stiffness-forgotten: a torque is added to an angle; kp turns one into the other
     """
     return {
         "damper-forgotten": q + tau / kp,
@@ -47,10 +48,5 @@ def _(tau, q, qd, kp, kd):
         "gains-swapped": q + (tau + kp * qd) / kd,
         "one-gain-for-all": q + (tau + kd * qd) / kp[0],
         "angle-subtracted": (tau + kd * qd) / kp - q,
+        "stiffness-forgotten": q + tau + kd * qd,
     }
-
-
-@row.wrong
-def stiffness_forgotten(tau, q, qd, kp, kd):
-    """a torque is added to an angle; kp turns one into the other"""
-    return q + tau + kd * qd
