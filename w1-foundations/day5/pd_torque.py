@@ -21,6 +21,9 @@ def _(e, ed, kp, kd):
     spring-forgotten: there is a damper, but no spring: nothing pulls the joint to its
       goal
     gains-swapped: kp and kd are swapped: the spring has the damper's gain
+    one-gain-for-all: all joints get the first joint's gains; each has its own here
+    summed-over-joints: the joints are summed into one number; every joint has its own
+      spring
     in-degrees: the errors are converted to degrees; the gains are per radian
     error-in-degrees: e is converted to degrees and ed is not; the gains are per radian
     damper-through-both-gains: kd ed is multiplied by kp as well; kp and kd each have
@@ -37,24 +40,14 @@ def _(e, ed, kp, kd):
         "damper-forgotten": kp * e,
         "spring-forgotten": kd * ed,
         "gains-swapped": kd * e + kp * ed,
+        "one-gain-for-all": lambda: kp[0] * e + kd[0] * ed,
+        "summed-over-joints": lambda: np.full(7, kp @ e + kd @ ed),
         "in-degrees": np.rad2deg(kp * e + kd * ed),
         "error-in-degrees": kp * np.rad2deg(e) + kd * ed,
         "damper-through-both-gains": kp * (e + kd * ed),
         "velocity-error-forgotten": kp * e + kd,
         "mean-gains": np.mean(kp) * e + np.mean(kd) * ed,
     }
-
-
-@row.wrong
-def one_gain_for_all(e, ed, kp, kd):
-    """all joints get the first joint's gains; each has its own here"""
-    return kp[0] * e + kd[0] * ed
-
-
-@row.wrong
-def summed_over_joints(e, ed, kp, kd):
-    """the joints are summed into one number; every joint has its own spring"""
-    return np.full(7, kp @ e + kd @ ed)
 
 
 row.of_argument("e", WRAPPED)

@@ -46,6 +46,7 @@ def _(q_goal, g_at_q, kp):
     goal-scaled-too: the goal is divided by the stiffness as well
     always-below: gravity's sign is lost: where g is negative, the joint rests above its
       goal
+    one-gain-for-all: all joints get the first joint's stiffness; each has its own here
     stiffness-squared: gravity's torque is divided by kp twice: compare the units
     answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
       whole turn is not the same as none, and joint6 goes beyond pi
@@ -60,15 +61,10 @@ def _(q_goal, g_at_q, kp):
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),
         "goal-scaled-too": (q_goal - g_at_q) / kp,
         "always-below": q_goal - np.abs(g_at_q) / kp,
+        "one-gain-for-all": lambda: q_goal - g_at_q / kp[0],
         "stiffness-squared": q_goal - g_at_q / kp**2,
         "answer-wrapped": wrapped(q_goal - g_at_q / kp),
     }
-
-
-@row.wrong
-def one_gain_for_all(q_goal, g_at_q, kp):
-    """all joints get the first joint's stiffness; each has its own here"""
-    return q_goal - g_at_q / kp[0]
 
 
 @row.right  # On one fraction bar.

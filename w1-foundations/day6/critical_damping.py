@@ -5,10 +5,7 @@ import numpy as np
 from labkit.judge import Symmetric, draw
 from labkit.judge.row import Row
 
-from .states import (
-    model,
-    states,
-)
+from .states import model, states
 
 row = Row(Symmetric((6, 6), scale=10.0))
 
@@ -28,22 +25,18 @@ def _(rng):
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
 
-def _sum(root_L, root_k):
+def total(root_L, root_k):
+    """Return the two products of the roots, in both orders."""
     return root_L * root_k + root_k[:, None] * root_L
 
 
-def _by_modes(K, L):
+def by_modes(K, L):
     """Critical in every mode: another D that does not ring."""
     low = np.linalg.cholesky(L)
     back = np.linalg.inv(low)
     k, W = np.linalg.eigh(back @ np.diag(K) @ back.T)
     Q = low @ W
     return 2.0 * Q @ np.diag(np.sqrt(k)) @ Q.T
-
-
-def _turned(L):
-    values, V = np.linalg.eigh(L)
-    return V.T @ np.diag(np.sqrt(values)) @ V
 
 
 @row.wrongs
@@ -53,46 +46,10 @@ def _(K, Lambda):
     another-design: this does not ring either: you take Lambda and K to axes in which
       both are diagonal. Here the damping is the sum of two products of the roots of
       Lambda and K => that other design
-    entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
-      a matrix is the one that, times itself, is the matrix => the right one with
-      np.sqrt(Lambda)
-    """
-    return {
-        "Lambda-ignored": np.diag(2.0 * np.sqrt(K)),
-        "another-design": _by_modes(K, Lambda),
-        "entries-square-rooted": _sum(np.sqrt(Lambda), np.sqrt(K)),
-    }
-
-
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """np.sqrt takes the root of every entry of Lambda, NaN where it is negative; the
-    root of a matrix is the one that, times itself, is the matrix => the right one with
-    np.sqrt(Lambda)"""
-    return np.sqrt(Lambda) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(Lambda)
-
-
-@row.wrongs
-def _(K, Lambda):
-    """entries-square-rooted: the root is taken of the size of every entry of Lambda;
-      the root of a matrix is the one that, times itself, is the matrix => the right
-      one with np.sqrt(abs(Lambda))
     diagonal-only: this is 2 sqrt(k m) for each axis alone; Lambda couples the axes =>
       the right one with Lambda's diagonal
     one-order-only: the product of the two roots is taken in one order, twice; with both
       orders, once each, it is symmetric => 2 sqrt(Lambda) sqrt(K)
-    """
-    return {
-        "entries-square-rooted": _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K)),
-        "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
-        "one-order-only": 2.0 * root(Lambda) @ np.diag(np.sqrt(K)),
-    }
-
-
-@row.wrongs
-def _(K, Lambda):
-    """one-order-only: the product of the two roots is taken in one order, twice; with
-      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
     half-of-it: the product of the two roots is there in one order only => sqrt(Lambda)
       sqrt(K)
     factor-two: there is a 2 too many: the two orders are the 2 already => twice the
@@ -101,48 +58,80 @@ def _(K, Lambda):
       half of the right one
     K-not-rooted: K is used as it is; its square root belongs there => the right one
       with K for its root
-    Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
+    root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
+      Lambda))
+    no-roots: the square roots are missing: this grows with K, where a damping grows
+      with its root => Lambda K + K Lambda
+    """
+    k, half = np.sqrt(K), root(Lambda)
+    return {
+        "Lambda-ignored": np.diag(2.0 * k),
+        "another-design": by_modes(K, Lambda),
+        "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
+        "one-order-only": 2.0 * half * k,
+        "half-of-it": half * k,
+        "factor-two": 2.0 * total(half, k),
+        "factor-two-missing": 0.5 * total(half, k),
+        "K-not-rooted": total(half, K),
+        "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
+        "no-roots": total(Lambda, K),
+    }
+
+
+@row.wrongs
+def _(K, Lambda):
+    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
       right one with Lambda for its root
+    entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
+      a matrix is the one that, times itself, is the matrix => the right one with
+      np.sqrt(Lambda)
     eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
       columns, so the root is V diag V^T => the right one with V^T diag V
     eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
       diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
     cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
       => the right one with the Cholesky factor
+    root-of-inverse: the root is that of Lambda's inverse => the right one with the
+      inverse root
     """
-    return {
-        "one-order-only": 2.0 * np.diag(np.sqrt(K)) @ root(Lambda),
-        "half-of-it": root(Lambda) @ np.diag(np.sqrt(K)),
-        "factor-two": 2.0 * _sum(root(Lambda), np.sqrt(K)),
-        "factor-two-missing": 0.5 * _sum(root(Lambda), np.sqrt(K)),
-        "K-not-rooted": _sum(root(Lambda), K),
-        "Lambda-not-rooted": _sum(Lambda, np.sqrt(K)),
-        "eigenvectors-transposed": _sum(_turned(Lambda), np.sqrt(K)),
-        "eigenvalues-not-rooted-back": _sum(
-            np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K)
-        ),
-        "cholesky": _sum(np.linalg.cholesky(Lambda), np.sqrt(K)),
+    values, V = np.linalg.eigh(Lambda)
+    roots = {
+        "Lambda-not-rooted": Lambda,
+        "entries-square-rooted": np.sqrt(Lambda),
+        "eigenvectors-transposed": V.T @ np.diag(np.sqrt(values)) @ V,
+        "eigenvalues-not-rooted-back": np.diag(np.sqrt(values)),
+        "cholesky": np.linalg.cholesky(Lambda),
+        "root-of-inverse": np.linalg.inv(root(Lambda)),
     }
+    return {slug: total(one, np.sqrt(K)) for slug, one in roots.items()}
 
 
 @row.wrongs
 def _(K, Lambda):
-    """cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
+    """entries-square-rooted: the root is taken of the size of every entry of Lambda;
+      the root of a matrix is the one that, times itself, is the matrix => the right
+      one with np.sqrt(abs(Lambda))
+    one-order-only: the product of the two roots is taken in one order, twice; with
+      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
+    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
       Lambda => L sqrt(K) + sqrt(K) L^T
-    root-of-inverse: the root is that of Lambda's inverse => the right one with the
-      inverse root
-    root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
-      Lambda))
-    no-roots: the square roots are missing: this grows with K, where a damping grows
-      with its root => Lambda K + K Lambda
     """
-    half = np.linalg.cholesky(Lambda) * np.sqrt(K)
+    k = np.sqrt(K)
+    half = np.linalg.cholesky(Lambda) * k
     return {
+        "entries-square-rooted": total(np.sqrt(np.abs(Lambda)), k),
+        "one-order-only": 2.0 * k[:, None] * root(Lambda),
         "cholesky": half + half.T,
-        "root-of-inverse": _sum(np.linalg.inv(root(Lambda)), np.sqrt(K)),
-        "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
-        "no-roots": Lambda @ np.diag(K) + np.diag(K) @ Lambda,
     }
+
+
+@row.wrong
+def entries_square_rooted(K, Lambda):
+    """np.sqrt takes the root of every entry of Lambda, NaN where it is negative; the
+    root of a matrix is the one that, times itself, is the matrix => the right one with
+    np.sqrt(Lambda)"""
+    half = np.sqrt(Lambda)
+    return half @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ half
 
 
 @row.right  # The root by Newton's iteration (Denman and Beavers).

@@ -5,16 +5,7 @@ import numpy as np
 from labkit.judge import draw
 from labkit.judge.row import Row
 
-from .states import (
-    J_CASE,
-    SWAP,
-    TORQUE,
-    model,
-    some,
-    states,
-)
-
-pinv = np.linalg.pinv
+from .states import J_CASE, SWAP, TORQUE, model, some, states
 
 row = Row(TORQUE)
 
@@ -24,16 +15,10 @@ def _(rng):
     rest = np.zeros(7)
     case = (J_CASE, np.zeros(6), np.arange(7.0), np.ones(7), rest, rest)
     drawn = [
-        (
-            model(now)[0],
-            some(rng, 20, 6),
-            some(rng, 20, 7),
-            draw.numbers(rng, 0.5, 2, 7),
-            some(rng, 2, 7),
-            some(rng, 5, 7),
-        )
+        (model(now)[0], some(rng, 20, 6), some(rng, 20, 7),
+         draw.numbers(rng, 0.5, 2, 7), some(rng, 2, 7), some(rng, 5, 7))
         for now in states(rng)
-    ]
+    ]  # fmt: skip
     J, F, bias, damping, qd, idle = drawn[0]
     parts = [
         (J, np.zeros(6), bias, damping, qd, idle),
@@ -41,9 +26,6 @@ def _(rng):
         (J, F, bias, damping, qd, rest),
     ]
     return [case, *parts, *drawn]
-
-
-pinv = np.linalg.pinv
 
 
 @row.wrongs
@@ -67,42 +49,33 @@ def _(J, wrench, bias, damping, qd, tau_null):
       J^T F
     pinv-for-transpose: pinv(J) takes the wrench to the joints; pushes go to torques
       with J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
-    """
-    return {
-        "damping-summed": J.T @ wrench + bias + damping @ qd + tau_null,
-        "bias-twice": J.T @ wrench + 2.0 * bias + damping * qd + tau_null,
-        "bias-forgotten": J.T @ wrench + damping * qd + tau_null,
-        "bias-sign": J.T @ wrench - bias + damping * qd + tau_null,
-        "damping-forgotten": J.T @ wrench + bias + tau_null,
-        "damping-sign": J.T @ wrench + bias - damping * qd + tau_null,
-        "damping-without-qd": J.T @ wrench + bias + damping + tau_null,
-        "wrench-sign": -J.T @ wrench + bias + damping * qd + tau_null,
-        "wrench-forgotten": bias + damping * qd + tau_null,
-        "pinv-for-transpose": pinv(J) @ wrench + bias + damping * qd + tau_null,
-    }
-
-
-@row.wrongs
-def _(J, wrench, bias, damping, qd, tau_null):
-    """null-forgotten: tau_null is missing: nothing holds the elbow back => the right
-      one without tau_null
+    null-forgotten: tau_null is missing: nothing holds the elbow back => the right one
+      without tau_null
     null-sign: tau_null is taken away; it is a torque to add => the right one with
       -tau_null
     halves-swapped: the wrench is read as (force; moment); the moment comes first => the
       right one with its halves swapped
     """
+    push, rub = J.T @ wrench, damping * qd
+    rest = bias + rub + tau_null
     return {
-        "null-forgotten": J.T @ wrench + bias + damping * qd,
-        "null-sign": J.T @ wrench + bias + damping * qd - tau_null,
-        "halves-swapped": J.T @ wrench[SWAP] + bias + damping * qd + tau_null,
+        "damping-summed": push + bias + damping @ qd + tau_null,
+        "bias-twice": push + bias + rest,
+        "bias-forgotten": push + rub + tau_null,
+        "bias-sign": push - bias + rub + tau_null,
+        "damping-forgotten": push + bias + tau_null,
+        "damping-sign": push + bias - rub + tau_null,
+        "damping-without-qd": push + bias + damping + tau_null,
+        "wrench-sign": rest - push,
+        "wrench-forgotten": rest,
+        "pinv-for-transpose": np.linalg.pinv(J) @ wrench + rest,
+        "null-forgotten": push + bias + rub,
+        "null-sign": push + bias + rub - tau_null,
+        "halves-swapped": J.T @ wrench[SWAP] + rest,
     }
 
 
 @row.right  # Joint by joint.
 def _(J, wrench, bias, damping, qd, tau_null):
-    return np.array(
-        [
-            J[:, i] @ wrench + bias[i] + damping[i] * qd[i] + tau_null[i]
-            for i in range(7)
-        ]
-    )
+    rest = zip(J.T, bias, damping, qd, tau_null)
+    return np.array([S @ wrench + b + d * v + tau for S, b, d, v, tau in rest])

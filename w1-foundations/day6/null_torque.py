@@ -5,16 +5,8 @@ import numpy as np
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
-from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    M_CASE,
-    TORQUE,
-    model,
-    some,
-    states,
-)
+from .states import J_CASE, M_CASE, TORQUE, model, some, states
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
 
@@ -45,11 +37,6 @@ def _(rng):
     return [case, *((*model(now), some(rng, 10, 7)) for now in states(rng))]
 
 
-def _elbow(J: Array) -> Array:
-    """Return the joint speeds, of length 1, that leave the hand at rest."""
-    return np.linalg.svd(J)[2][-1]
-
-
 @row.wrongs
 def _(J, M, Lambda, tau):
     """another-projector: it does not accelerate the hand either, but what you took away
@@ -76,25 +63,8 @@ def _(J, M, Lambda, tau):
       => minus the right one
     M-left-out: M is missing: J tau is no acceleration of the hand, tau has to become
       one of the joints first => tau - J^T Lambda J tau
-    """
-    return {
-        "another-projector": M @ _elbow(J) * (_elbow(J) @ solve(M, tau)),
-        "acceleration": solve(M, tau - J.T @ Lambda @ J @ solve(M, tau)),
-        "not-projected": tau,
-        "kinematic-projector": tau - pinv(J) @ (J @ tau),
-        "M-for-identity": M @ tau - J.T @ Lambda @ J @ solve(M, tau),
-        "projector-transposed": tau - solve(M, J.T @ Lambda @ J @ tau),
-        "the-other-part": J.T @ Lambda @ J @ solve(M, tau),
-        "added": tau + J.T @ Lambda @ J @ solve(M, tau),
-        "negative": J.T @ Lambda @ J @ solve(M, tau) - tau,
-        "M-left-out": tau - J.T @ Lambda @ J @ tau,
-    }
-
-
-@row.wrongs
-def _(J, M, Lambda, tau):
-    """M-not-inverted: M multiplies tau; torques become accelerations through M^-1 =>
-      the right one with M for M^-1
+    M-not-inverted: M multiplies tau; torques become accelerations through M^-1 => the
+      right one with M for M^-1
     Lambda-left-out: Lambda is missing: the hand's acceleration is used as if it were a
       push => the right one with Lambda = I
     Lambda-inverted: Lambda is inverted => the right one with Lambda^-1
@@ -104,11 +74,24 @@ def _(J, M, Lambda, tau):
       pushes: I - J^T pinv(J^T) keeps speeds from the hand, not torques => tau - J^T
       pinv(J^T) tau
     """
+    acc = solve(M, tau)
+    a, elbow = J @ acc, np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand
+    felt = J.T @ Lambda @ a
     return {
+        "another-projector": M @ elbow * (elbow @ acc),
+        "acceleration": solve(M, tau - felt),
+        "not-projected": tau,
+        "kinematic-projector": tau - pinv(J) @ (J @ tau),
+        "M-for-identity": M @ tau - felt,
+        "projector-transposed": tau - solve(M, J.T @ Lambda @ J @ tau),
+        "the-other-part": felt,
+        "added": tau + felt,
+        "negative": felt - tau,
+        "M-left-out": tau - J.T @ Lambda @ J @ tau,
         "M-not-inverted": tau - J.T @ Lambda @ J @ M @ tau,
-        "Lambda-left-out": tau - J.T @ J @ solve(M, tau),
-        "Lambda-inverted": tau - J.T @ solve(Lambda, J @ solve(M, tau)),
-        "pinv-for-transpose": tau - pinv(J) @ Lambda @ J @ solve(M, tau),
+        "Lambda-left-out": tau - J.T @ a,
+        "Lambda-inverted": tau - J.T @ solve(Lambda, a),
+        "pinv-for-transpose": tau - pinv(J) @ Lambda @ a,
         "pinv-of-transpose": tau - J.T @ pinv(J.T) @ tau,
     }
 

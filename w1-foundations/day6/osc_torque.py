@@ -3,16 +3,8 @@
 import numpy as np
 
 from labkit.judge.row import Row
-from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    SWAP,
-    TORQUE,
-    model,
-    some,
-    states,
-)
+from .states import J_CASE, SWAP, TORQUE, model, some, states
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
 
@@ -32,11 +24,6 @@ def _(rng):
         (J, Lambda, bias, drift, 30.0 * acc),  # more than the motors have
     ]
     return [case, *asked, *drawn]
-
-
-def _elbow(J: Array) -> Array:
-    """Return the joint speeds, of length 1, that leave the hand at rest."""
-    return np.linalg.svd(J)[2][-1]
 
 
 @row.wrongs
@@ -62,33 +49,28 @@ def _(J, Lambda, bias, site_bias, acc):
     acc-sign: the wanted acceleration is taken away from site_bias: the hand is pushed
       the other way, further and further from where it should be => the right one with
       site_bias - acc
-    """
-    return {
-        "site-bias-forgotten": J.T @ Lambda @ acc + bias,
-        "site-bias-added": J.T @ Lambda @ (acc + site_bias) + bias,
-        "bias-forgotten": J.T @ Lambda @ (acc - site_bias),
-        "bias-sign": J.T @ Lambda @ (acc - site_bias) - bias,
-        "Lambda-left-out": J.T @ (acc - site_bias) + bias,
-        "Lambda-inverted": J.T @ solve(Lambda, acc - site_bias) + bias,
-        "Lambda-by-entries": J.T @ (np.diag(Lambda) * (acc - site_bias)) + bias,
-        "pinv-for-transpose": pinv(J) @ Lambda @ (acc - site_bias) + bias,
-        "site-bias-not-weighed": J.T @ (Lambda @ acc - site_bias) + bias,
-        "acc-sign": J.T @ Lambda @ (site_bias - acc) + bias,
-    }
-
-
-@row.wrongs
-def _(J, Lambda, bias, site_bias, acc):
-    """bias-at-the-hand: bias is subtracted within the brackets, at the hand; it is a
+    bias-at-the-hand: bias is subtracted within the brackets, at the hand; it is a
       torque of joints => J^T (Lambda (acc - site_bias) + J bias)
     halves-swapped: the accelerations are put in the order (linear; angular); the
       angular three come first => the right one with its halves swapped
     gravity-twice: bias is added twice => the right one with 2 bias
     """
+    own = acc - site_bias
+    push = J.T @ Lambda @ own
     return {
-        "bias-at-the-hand": J.T @ (Lambda @ (acc - site_bias) + J @ bias),
-        "halves-swapped": J.T @ Lambda @ (acc - site_bias)[SWAP] + bias,
-        "gravity-twice": J.T @ Lambda @ (acc - site_bias) + 2.0 * bias,
+        "site-bias-forgotten": J.T @ Lambda @ acc + bias,
+        "site-bias-added": J.T @ Lambda @ (acc + site_bias) + bias,
+        "bias-forgotten": push,
+        "bias-sign": push - bias,
+        "Lambda-left-out": J.T @ own + bias,
+        "Lambda-inverted": J.T @ solve(Lambda, own) + bias,
+        "Lambda-by-entries": J.T @ (np.diag(Lambda) * own) + bias,
+        "pinv-for-transpose": pinv(J) @ Lambda @ own + bias,
+        "site-bias-not-weighed": J.T @ (Lambda @ acc - site_bias) + bias,
+        "acc-sign": bias - push,
+        "bias-at-the-hand": push + J.T @ J @ bias,
+        "halves-swapped": J.T @ Lambda @ own[SWAP] + bias,
+        "gravity-twice": push + 2.0 * bias,
     }
 
 

@@ -5,9 +5,7 @@ import numpy as np
 from labkit.judge import Scalar, draw
 from labkit.judge.row import Row
 
-from .states import (
-    COUNT,
-)
+from .states import COUNT
 
 row = Row(Scalar(unit="m"))
 
@@ -23,12 +21,6 @@ def _(rng):
     # A deep one, and a hand that hangs from a ceiling and pulls it down.
     asked = [(20.0, 400.0, 0.42), (60.0, 50.0, 0.3), (-8.0, 300.0, -0.2)]
     return [*asked, *(tuple(map(float, one)) for one in drawn)]
-
-
-def _at(wrench, row, value):
-    out = wrench.copy()
-    out[row] = value
-    return out
 
 
 @row.wrongs
@@ -52,6 +44,12 @@ def _(force, k, surface):
       surface - force // k
     docstrings-numbers: k is 400, as in the docstring, whatever it is given => surface -
       force / 400
+    half-a-depth: half of the depth is missing: force is k times depth, its half belongs
+      to energy => surface - force / (2 k)
+    never-below-zero: a height below 0 is not returned; a soft spring has to be pulled
+      there, and only the hand presses, not the target => the right one, 0 at least
+    newtons-as-weight: force is divided by 9.81, as if it were to be a mass; k takes
+      newtons => surface - force / (9.81 k)
     """
     return {
         "above-the-surface": surface + force / k,
@@ -64,26 +62,17 @@ def _(force, k, surface):
         "surface-only": surface,
         "whole-metres": surface - force // k,
         "docstrings-numbers": surface - force / 400.0,
-    }
-
-
-@row.wrongs
-def _(force, k, surface):
-    """docstrings-numbers: the surface is at 0.42, as in the docstring, whatever it is
-      given => 0.42 - force / k
-    half-a-depth: half of the depth is missing: force is k times depth, its half belongs
-      to energy => surface - force / (2 k)
-    never-below-zero: a height below 0 is not returned; a soft spring has to be pulled
-      there, and only the hand presses, not the target => the right one, 0 at least
-    newtons-as-weight: force is divided by 9.81, as if it were to be a mass; k takes
-      newtons => surface - force / (9.81 k)
-    """
-    return {
-        "docstrings-numbers": 0.42 - force / k,
         "half-a-depth": surface - 0.5 * force / k,
         "never-below-zero": max(surface - force / k, 0.0),
         "newtons-as-weight": surface - force / 9.81 / k,
     }
+
+
+@row.wrong
+def docstrings_numbers(force, k, surface):
+    """the surface is at 0.42, as in the docstring, whatever it is given => 0.42 - force
+    / k"""
+    return 0.42 - force / k
 
 
 @row.right  # With NumPy, as an array of no axes.

@@ -4,10 +4,7 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .states import (
-    WRENCH,
-    springs,
-)
+from .states import WRENCH, springs
 
 row = Row(WRENCH)
 
@@ -35,6 +32,8 @@ def _(e, V_err, K, D):
       right one with e in mm
     half-a-spring: the spring has a factor 1/2: that is its energy's, not its force's =>
       the right one with K e / 2
+    diagonal-of-K: only the diagonal of K is used; a spring may couple its directions =>
+      the right one with K's diagonal
     """
     return {
         "spring-sign": -K @ e + D @ V_err,
@@ -47,20 +46,15 @@ def _(e, V_err, K, D):
         "halves-swapped": np.roll(K @ e + D @ V_err, 3),
         "millimetres": K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err,
         "half-a-spring": 0.5 * K @ e + D @ V_err,
-    }
-
-
-@row.wrongs
-def _(e, V_err, K, D):
-    """diagonal-of-K: only the diagonal of K is used; a spring may couple its directions
-      => the right one with K's diagonal
-    diagonal-of-D: only the diagonals of K and D are used; the six directions are
-      coupled => the right one with their diagonals
-    """
-    return {
         "diagonal-of-K": np.diag(K) * e + D @ V_err,
-        "diagonal-of-D": np.diag(K) * e + np.diag(D) * V_err,
     }
+
+
+@row.wrong("diagonal-of-D")
+def both_diagonals(e, V_err, K, D):
+    """only the diagonals of K and D are used; the six directions are coupled => the
+    right one with their diagonals"""
+    return np.diag(K) * e + np.diag(D) * V_err
 
 
 @row.right  # From the left: K is symmetric.

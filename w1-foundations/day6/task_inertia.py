@@ -8,15 +8,7 @@ from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    M_CASE,
-    SWAP,
-    model,
-    states,
-)
-
-pinv = np.linalg.pinv
+from .states import J_CASE, M_CASE, SWAP, model, states
 
 
 def damped(case: Case) -> Finding | None:
@@ -55,17 +47,6 @@ def _(J, M):
       accelerates the hand, not how heavy the hand is => J M^-1 J^T
     M-not-inverted: M stands between J and J^T as it is; a push meets the joints'
       torques first, and torques make accelerations through M^-1 => J M J^T
-    """
-    return {
-        "inverse-forgotten": J @ np.linalg.solve(M, J.T),
-        "M-not-inverted": J @ M @ J.T,
-    }
-
-
-@row.wrongs
-def _(J, M):
-    """M-not-inverted: M stands between J and J^T as it is, and the product is inverted;
-      M has to be inverted too => (J M J^T)^-1
     pinv-both-sides: pinv(J)^T M pinv(J) is right for an arm of six joints; with seven
       the elbow is free to give way, and the hand is lighter => pinv(J)^T M pinv(J)
     M-left-out: M is not in it: (J J^T)^-1 knows where the joints are, not what they
@@ -81,28 +62,31 @@ def _(J, M):
       are coupled => that diagonal
     entries-inverted: 1 / A inverts every entry; the inverse of a matrix is another
       thing => 1 / (J M^-1 J^T)
+    blocks-alone: the two 3x3 blocks are inverted alone; a push turns the hand, too, so
+      the directions are coupled => the inverse of each block
     """
+    A, back = J @ np.linalg.solve(M, J.T), np.linalg.pinv(J)
+    block = np.kron(np.eye(2), np.ones((3, 3)))
     return {
-        "M-not-inverted": np.linalg.inv(J @ M @ J.T),
-        "pinv-both-sides": np.linalg.pinv(J).T @ M @ np.linalg.pinv(J),
+        "inverse-forgotten": A,
+        "M-not-inverted": J @ M @ J.T,
+        "pinv-both-sides": back.T @ M @ back,
         "M-left-out": np.linalg.inv(J @ J.T),
         "armature-left-out": inertia(J, M - ARMATURE * np.eye(7)),
         "armature-twice": inertia(J, M + ARMATURE * np.eye(7)),
         "rows-swapped": inertia(J[SWAP], M),
         "diagonal-of-M": inertia(J, np.diag(np.diag(M))),
-        "diagonal-inverted": np.diag(1.0 / np.diag(J @ np.linalg.solve(M, J.T))),
-        "entries-inverted": 1.0 / (J @ np.linalg.solve(M, J.T)),
+        "diagonal-inverted": np.diag(1.0 / np.diag(A)),
+        "entries-inverted": 1.0 / A,
+        "blocks-alone": np.linalg.inv(A * block),
     }
 
 
 @row.wrong
-def blocks_alone(J, M):
-    """the two 3x3 blocks are inverted alone; a push turns the hand, too, so the
-    directions are coupled => the inverse of each block"""
-    A = J @ np.linalg.solve(M, J.T)
-    out = np.zeros((6, 6))
-    out[:3, :3], out[3:, 3:] = np.linalg.inv(A[:3, :3]), np.linalg.inv(A[3:, 3:])
-    return out
+def M_not_inverted(J, M):
+    """M stands between J and J^T as it is, and the product is inverted; M has to be
+    inverted too => (J M J^T)^-1"""
+    return np.linalg.inv(J @ M @ J.T)
 
 
 @row.right  # By a Cholesky factor of M.

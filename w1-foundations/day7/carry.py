@@ -72,6 +72,14 @@ def _(m1, c1, I1, m2, c2, I2):
     only-the-dyad: d d^T alone is what comes off; d.d I is missing => the answer with d
       d^T
     dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
+    distance-not-squared: the theorem takes the distance squared => the answer with |d|
+    mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
+      => the answer without the masses there
+    total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
+      has its own => the answer with m1 + m2 there
+    masses-exchanged: in the theorem, each body has the mass of the other => the answer
+      with m1 and m2 exchanged there
+    inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
     """
     m, c = m1 + m2, centre(m1, c1, m2, c2)
     return {
@@ -93,23 +101,6 @@ def _(m1, c1, I1, m2, c2, I2):
         "dyad-sign": by_theorem(
             lambda d: d @ d * np.eye(3) + np.outer(d, d), m1, c1, I1, m2, c2, I2
         ),
-    }
-
-
-@row.wrongs
-def _(m1, c1, I1, m2, c2, I2):
-    """distance-not-squared: the theorem takes the distance squared => the answer with
-      |d|
-    mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
-      => the answer without the masses there
-    total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
-      has its own => the answer with m1 + m2 there
-    masses-exchanged: in the theorem, each body has the mass of the other => the answer
-      with m1 and m2 exchanged there
-    inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
-    """
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return {
         "distance-not-squared": by_theorem(
             lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d),
             m1,

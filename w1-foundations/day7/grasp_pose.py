@@ -72,8 +72,13 @@ def _(T_world_cube, above):
       pose with diag(1, 1, -1)
     height-subtracted: the tool is below the cube: above counts up, and the tool's own z
       points down => the pose below the cube
+    height-forgotten: the tool is in the cube's centre: above is not added => the pose
+      at the cube's centre
+    place-forgotten: the tool is over the world's origin: the cube's place is missing =>
+      the pose over the origin
     """
     yaw = yaw_of(T_world_cube)
+    R = grasp_pose(T_world_cube, above)[:3, :3]
     return {
         "yaw-not-folded": tool(T_world_cube, above, yaw_of(T_world_cube)),
         "folded-to-90": tool(
@@ -97,18 +102,6 @@ def _(T_world_cube, above):
             grasp_pose(T_world_cube, above), np.diag([1.0, 1.0, -1.0])
         ),
         "height-subtracted": grasp_pose(T_world_cube, -above),
-    }
-
-
-@row.wrongs
-def _(T_world_cube, above):
-    """height-forgotten: the tool is in the cube's centre: above is not added => the
-      pose at the cube's centre
-    place-forgotten: the tool is over the world's origin: the cube's place is missing =>
-      the pose over the origin
-    """
-    R = grasp_pose(T_world_cube, above)[:3, :3]
-    return {
         "height-forgotten": grasp_pose(T_world_cube, 0.0),
         "place-forgotten": se3.make_T(R, [0.0, 0.0, above]),
     }

@@ -55,6 +55,8 @@ def _(q0, q1, t, T):
       T^2
     q-wrapped: the angles are wrapped into +-pi; a joint's angle is no direction, and
       joint6 goes up to 3.75 rad => the answer with q wrapped
+    way-wrapped: the way is wrapped into +-pi, the shorter way round; a joint cannot go
+      through its ends => the answer with the way wrapped
     """
     s, sd, sdd = quintic_scaling(t, T)
     q, qd, qdd = joint_move(q0, q1, t, T)
@@ -73,14 +75,8 @@ def _(q0, q1, t, T):
             [q0 + (q1 - q0) * s, (q1 - q0) * sd / T, (q1 - q0) * sdd / T**2]
         ),
         "q-wrapped": np.array([wrapped(q), qd, qdd]),
+        "way-wrapped": along(q0, wrapped(q1 - q0), t, T),
     }
-
-
-@row.wrong
-def way_wrapped(q0, q1, t, T):
-    """the way is wrapped into +-pi, the shorter way round; a joint cannot go through
-    its ends => the answer with the way wrapped"""
-    return along(q0, wrapped(q1 - q0), t, T)
 
 
 row.reached_by("quintic_scaling", "in the scaling, ")

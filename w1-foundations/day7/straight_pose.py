@@ -62,6 +62,7 @@ def _(T0, T1, s):
       rotations do not add up => the exponential of their mean
     not-turned: the rotation stays that of the first pose => R0
     turned-at-once: the rotation is that of the last pose from the start => R1
+    whole-turn: s is missing in the rotation: it is turned at once => R1
     """
     R0, R1 = T0[:3, :3], T1[:3, :3]
     a, b = se3.R_to_quat(T0[:3, :3]), se3.R_to_quat(T1[:3, :3])
@@ -78,14 +79,8 @@ def _(T0, T1, s):
         "logarithms-mixed": line(T0, T1, s, exp(w0 + s * (w1 - w0))),
         "not-turned": line(T0, T1, s, T0[:3, :3]),
         "turned-at-once": line(T0, T1, s, T1[:3, :3]),
+        "whole-turn": line(T0, T1, s, R0 @ exp(log_rotation(R0.T @ R1))),
     }
-
-
-@row.wrong
-def whole_turn(T0, T1, s):
-    """s is missing in the rotation: it is turned at once => R1"""
-    R0, R1 = T0[:3, :3], T1[:3, :3]
-    return line(T0, T1, s, R0 @ exp(log_rotation(R0.T @ R1)))
 
 
 @row.wrong
