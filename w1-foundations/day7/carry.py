@@ -37,16 +37,8 @@ def ten(m, c, inertia):
     return np.array([m, *c, *inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]])
 
 
-def about(c, m1, c1, I1, m2, c2, I2):
-    """Return the answer with another centre."""
-    return ten(
-        m1 + m2, c, I1 + m1 * parallel_axes(c1 - c) + I2 + m2 * parallel_axes(c2 - c)
-    )
-
-
-def by_theorem(theorem, m1, c1, I1, m2, c2, I2):
-    """Return the answer with another theorem instead of `parallel_axes`."""
-    c = centre(m1, c1, m2, c2)
+def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
+    """Return the answer with another centre, or another theorem."""
     return ten(m1 + m2, c, I1 + m1 * theorem(c1 - c) + I2 + m2 * theorem(c2 - c))
 
 
@@ -65,14 +57,6 @@ def _(m1, c1, I1, m2, c2, I2):
       the common one => the answer about the first centre
     distance-of-the-two: the distance between the two centres is used for both; each
       moves to the common centre => the answer with that distance twice
-    parallel-axes-sign: moving away from the centre of mass adds inertia; here it is
-      taken off => the answer with a minus
-    along-the-way-too: the term d.d I alone resists a turn about the line between the
-      centres too; d d^T has to come off => the answer without d d^T
-    only-the-dyad: d d^T alone is what comes off; d.d I is missing => the answer with d
-      d^T
-    dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
-    distance-not-squared: the theorem takes the distance squared => the answer with |d|
     mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
       => the answer without the masses there
     total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
@@ -81,80 +65,87 @@ def _(m1, c1, I1, m2, c2, I2):
       with m1 and m2 exchanged there
     inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
     """
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
+    m, c, own = m1 + m2, centre(m1, c1, m2, c2), I1 + I2
+    first, second = parallel_axes(c1 - c), parallel_axes(c2 - c)
+    both = parallel_axes(c2 - c1)
+    about = {
+        "no-parallel-axes": own,
+        "about-the-origin": own + m1 * parallel_axes(c1) + m2 * parallel_axes(c2),
+        "only-the-second-moved": own + m2 * second,
+        "only-the-first-moved": own + m1 * first,
+        "about-the-first-centre": own + m2 * both,
+        "distance-of-the-two": own + m * both,
+        "mass-not-in-the-theorem": own + first + second,
+        "total-mass-for-each": own + m * (first + second),
+        "masses-exchanged": own + m2 * first + m1 * second,
+        "inertia-of-one": I1 + m1 * first + m2 * second,
+    }
+    return {slug: ten(m, c, inertia) for slug, inertia in about.items()}
+
+
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """parallel-axes-sign: moving away from the centre of mass adds inertia; here it is
+      taken off => the answer with a minus
+    along-the-way-too: the term d.d I alone resists a turn about the line between the
+      centres too; d d^T has to come off => the answer without d d^T
+    only-the-dyad: d d^T alone is what comes off; d.d I is missing => the answer with d
+      d^T
+    dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
+    distance-not-squared: the theorem takes the distance squared => the answer with |d|
+    """
+    c = centre(m1, c1, m2, c2)
+    theorems = {
+        "parallel-axes-sign": lambda d: -parallel_axes(d),
+        "along-the-way-too": lambda d: d @ d * np.eye(3),
+        "only-the-dyad": lambda d: np.outer(d, d),
+        "dyad-sign": lambda d: d @ d * np.eye(3) + np.outer(d, d),
+        "distance-not-squared": lambda d: np.sqrt(d @ d) * np.eye(3) - np.outer(d, d),
+    }
     return {
-        "no-parallel-axes": ten(m1 + m2, centre(m1, c1, m2, c2), I1 + I2),
-        "about-the-origin": ten(
-            m, c, I1 + m1 * parallel_axes(c1) + I2 + m2 * parallel_axes(c2)
-        ),
-        "only-the-second-moved": ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c)),
-        "only-the-first-moved": ten(m, c, I1 + m1 * parallel_axes(c1 - c) + I2),
-        "about-the-first-centre": ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c1)),
-        "distance-of-the-two": ten(m, c, I1 + I2 + m * parallel_axes(c2 - c1)),
-        "parallel-axes-sign": by_theorem(
-            lambda d: -parallel_axes(d), m1, c1, I1, m2, c2, I2
-        ),
-        "along-the-way-too": by_theorem(
-            lambda d: d @ d * np.eye(3), m1, c1, I1, m2, c2, I2
-        ),
-        "only-the-dyad": by_theorem(lambda d: np.outer(d, d), m1, c1, I1, m2, c2, I2),
-        "dyad-sign": by_theorem(
-            lambda d: d @ d * np.eye(3) + np.outer(d, d), m1, c1, I1, m2, c2, I2
-        ),
-        "distance-not-squared": by_theorem(
-            lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d),
-            m1,
-            c1,
-            I1,
-            m2,
-            c2,
-            I2,
-        ),
-        "mass-not-in-the-theorem": ten(
-            m, c, I1 + parallel_axes(c1 - c) + I2 + parallel_axes(c2 - c)
-        ),
-        "total-mass-for-each": ten(
-            m, c, I1 + m * parallel_axes(c1 - c) + I2 + m * parallel_axes(c2 - c)
-        ),
-        "masses-exchanged": ten(
-            m, c, I1 + m2 * parallel_axes(c1 - c) + I2 + m1 * parallel_axes(c2 - c)
-        ),
-        "inertia-of-one": carry(m1, c1, I1, m2, c2, 0.0 * I2),
+        slug: whole(m1, c1, I1, m2, c2, I2, c, some) for slug, some in theorems.items()
     }
 
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """inertia-of-one: the first body's own inertia I1 is missing => the answer without
-      I1
-    plain-mean: the common centre is half way; the heavier body counts for more => the
-      answer with the plain mean
+    """plain-mean: the common centre is half way; the heavier body counts for more =>
+      the answer with the plain mean
     weights-swapped: the centre is nearer to the lighter body: the masses are swapped =>
       the answer with the masses swapped
     not-divided-by-the-mass: the sum of m c is not divided by the mass => the answer
       with the sum of m c
     first-centre-kept: the centre of mass stays that of the first body => the answer
       with the first centre
-    by-rows: the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes first
-      => the answer with the six by rows
+    """
+    centres = {
+        "plain-mean": (c1 + c2) / 2,
+        "weights-swapped": centre(m2, c1, m1, c2),
+        "not-divided-by-the-mass": m1 * c1 + m2 * c2,
+        "first-centre-kept": c1,
+    }
+    return {slug: whole(m1, c1, I1, m2, c2, I2, c) for slug, c in centres.items()}
+
+
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """by-rows: the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes
+      first => the answer with the six by rows
     xy-last: the last three are in the order yz, xz, xy; xy comes first => the answer
       with yz, xz, xy
     products-negated: the last three have the other sign: here they are entries of the
       matrix => the answer with the signs of xy, xz, yz turned
     mass-of-the-first: the mass is that of the first body alone => the answer with the
       first mass
+    inertia-of-one: the first body's own inertia I1 is missing => the answer without I1
     """
+    right = carry(m1, c1, I1, m2, c2, I2)
     return {
+        "by-rows": right[[0, 1, 2, 3, 4, 7, 8, 5, 9, 6]],
+        "xy-last": right[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]],
+        "products-negated": right * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1],
+        "mass-of-the-first": np.append(m1, right[1:]),
         "inertia-of-one": carry(m1, c1, 0.0 * I1, m2, c2, I2),
-        "plain-mean": about((c1 + c2) / 2, m1, c1, I1, m2, c2, I2),
-        "weights-swapped": about(centre(m2, c1, m1, c2), m1, c1, I1, m2, c2, I2),
-        "not-divided-by-the-mass": about(m1 * c1 + m2 * c2, m1, c1, I1, m2, c2, I2),
-        "first-centre-kept": about(c1, m1, c1, I1, m2, c2, I2),
-        "by-rows": carry(m1, c1, I1, m2, c2, I2)[[0, 1, 2, 3, 4, 7, 8, 5, 9, 6]],
-        "xy-last": carry(m1, c1, I1, m2, c2, I2)[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]],
-        "products-negated": carry(m1, c1, I1, m2, c2, I2)
-        * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1],
-        "mass-of-the-first": np.append(m1, carry(m1, c1, I1, m2, c2, I2)[1:]),
     }
 
 

@@ -1,5 +1,7 @@
 """7.7 `grasp_pose(T_world_cube, above)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -30,23 +32,9 @@ def _(rng):
     return [*rows[:4], *((se3.make_T(se3.Rz(a), p), h) for a, h in low), *rows[4:]]
 
 
-def yaw_of(T):
-    """Return how far a cube is turned about z."""
-    return np.arctan2(T[1, 0], T[0, 0])
-
-
 def tool(T_world_cube, above, yaw):
     """Return the tool's pose over the cube, turned by a yaw of one's own."""
-    T = se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3])
-    T[2, 3] += above
-    return T
-
-
-def turned_over(T, other):
-    """Return the tool's pose with another matrix instead of DOWN."""
-    T = T.copy()
-    T[:3, :3] = T[:3, :3] @ DOWN @ other
-    return T
+    return se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3] + [0.0, 0.0, above])
 
 
 @row.wrongs
@@ -65,7 +53,22 @@ def _(T_world_cube, above):
     turned-the-wrong-way: the tool turns the other way than the cube: look at the yaw
       (its sign, and which entries atan2 takes), then at the order of the turn and
       diag(1, -1, -1) => the pose with -yaw
-    tool-up: the tool looks up: its z axis has to point down => the pose with z up
+    """
+    yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
+    yaws = {
+        "yaw-not-folded": yaw,
+        "folded-to-90": np.mod(yaw, QUARTER),
+        "rounded-towards-zero": yaw - np.trunc(yaw / QUARTER) * QUARTER,
+        "folded-by-half-turns": yaw - np.round(yaw / np.pi) * np.pi,
+        "yaw-forgotten": 0.0,
+        "turned-the-wrong-way": np.round(yaw / QUARTER) * QUARTER - yaw,
+    }
+    return {slug: partial(tool, T_world_cube, above, one) for slug, one in yaws.items()}
+
+
+@row.wrongs
+def _(T_world_cube, above):
+    """tool-up: the tool looks up: its z axis has to point down => the pose with z up
     about-y: the tool is turned over about y: at yaw 0 its x points backwards => the
       pose turned over about y
     left-handed: turning only z over makes a mirror image: the determinant is -1 => the
@@ -77,33 +80,15 @@ def _(T_world_cube, above):
     place-forgotten: the tool is over the world's origin: the cube's place is missing =>
       the pose over the origin
     """
-    yaw = yaw_of(T_world_cube)
-    R = grasp_pose(T_world_cube, above)[:3, :3]
+    right = grasp_pose(T_world_cube, above)
+    own = right @ np.diag([1.0, -1.0, -1.0, 1.0])
     return {
-        "yaw-not-folded": tool(T_world_cube, above, yaw_of(T_world_cube)),
-        "folded-to-90": tool(
-            T_world_cube, above, np.mod(yaw_of(T_world_cube), QUARTER)
-        ),
-        "rounded-towards-zero": tool(
-            T_world_cube, above, yaw - np.trunc(yaw / QUARTER) * QUARTER
-        ),
-        "folded-by-half-turns": tool(
-            T_world_cube, above, yaw - np.round(yaw / np.pi) * np.pi
-        ),
-        "yaw-forgotten": tool(T_world_cube, above, 0.0),
-        "turned-the-wrong-way": tool(
-            T_world_cube, above, np.round(yaw / QUARTER) * QUARTER - yaw
-        ),
-        "tool-up": turned_over(grasp_pose(T_world_cube, above), np.eye(3)),
-        "about-y": turned_over(
-            grasp_pose(T_world_cube, above), np.diag([-1.0, 1.0, -1.0])
-        ),
-        "left-handed": turned_over(
-            grasp_pose(T_world_cube, above), np.diag([1.0, 1.0, -1.0])
-        ),
+        "tool-up": own,
+        "about-y": own @ np.diag([-1.0, 1.0, -1.0, 1.0]),
+        "left-handed": own @ np.diag([1.0, 1.0, -1.0, 1.0]),
         "height-subtracted": grasp_pose(T_world_cube, -above),
         "height-forgotten": grasp_pose(T_world_cube, 0.0),
-        "place-forgotten": se3.make_T(R, [0.0, 0.0, above]),
+        "place-forgotten": se3.make_T(right[:3, :3], [0.0, 0.0, above]),
     }
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Matrix, draw
 from labkit.judge.row import Row
-from robo47.trajectory import joint_move, quintic_scaling
+from robo47.trajectory import quintic_scaling
 
 from .quintic_scaling import times
 
@@ -21,11 +21,6 @@ def _(rng):
     # Past pi, where only joint6 goes: a joint's angle is no direction.
     far = np.array([0.1, -0.4, 0.2, -1.8, 0.3, 3.7, 0.7])
     return [*rows[:6], (q0[0], far, 1.8, 2.0), (far, q1[0], 0.3, 2.0), *rows[6:]]
-
-
-def along(q0, way, t, T):
-    """Return what a move from q0 along a way would be."""
-    return joint_move(q0, q0 + way, t, T)
 
 
 def wrapped(angles):
@@ -58,24 +53,22 @@ def _(q0, q1, t, T):
     way-wrapped: the way is wrapped into +-pi, the shorter way round; a joint cannot go
       through its ends => the answer with the way wrapped
     """
-    s, sd, sdd = quintic_scaling(t, T)
-    q, qd, qdd = joint_move(q0, q1, t, T)
+    way, scaling = q1 - q0, quintic_scaling(t, T)
+    (s, sd, sdd), alike = scaling, np.ones(7)
+    q, qd, qdd = q0 + way * s, way * sd, way * sdd
+    at_rest = q0 * [[1.0], [0.0], [0.0]]
     return {
-        "start-everywhere": q0 + np.outer(quintic_scaling(t, T), q1 - q0),
-        "start-forgotten": np.outer(quintic_scaling(t, T), q1 - q0),
-        "goal-for-way": along(q0, q1, t, T),
-        "way-reversed": along(q0, q0 - q1, t, T),
-        "backwards": along(q1, q0 - q1, t, T),
-        "speed-forwards-only": along(q0, np.abs(q1 - q0), t, T),
-        "rates-without-way": np.array(
-            [q0 + (q1 - q0) * s, np.full(7, sd), np.full(7, sdd)]
-        ),
-        "rates-of-the-goal": np.array([q0 + (q1 - q0) * s, q1 * sd, q1 * sdd]),
-        "rates-divided-again": np.array(
-            [q0 + (q1 - q0) * s, (q1 - q0) * sd / T, (q1 - q0) * sdd / T**2]
-        ),
+        "start-everywhere": q0 + np.outer(scaling, way),
+        "start-forgotten": np.outer(scaling, way),
+        "goal-for-way": at_rest + np.outer(scaling, q1),
+        "way-reversed": at_rest - np.outer(scaling, way),
+        "backwards": np.array([q1 - way * s, -qd, -qdd]),
+        "speed-forwards-only": at_rest + np.outer(scaling, np.abs(way)),
+        "rates-without-way": np.array([q, alike * sd, alike * sdd]),
+        "rates-of-the-goal": np.array([q, q1 * sd, q1 * sdd]),
+        "rates-divided-again": np.array([q, qd / T, qdd / T**2]),
         "q-wrapped": np.array([wrapped(q), qd, qdd]),
-        "way-wrapped": along(q0, wrapped(q1 - q0), t, T),
+        "way-wrapped": at_rest + np.outer(scaling, wrapped(way)),
     }
 
 

@@ -53,71 +53,42 @@ def seconds(dq, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
     return np.array([speed * dq / v_max, np.sqrt(acceleration * dq / a_max)])
 
 
-@row.wrong
-def peak_of_the_cubic(dq, v_max, a_max):
-    """1.5 is the cubic's peak speed; the quintic is faster half way, so this breaks the
-    speed limit by a quarter => the duration with 1.5"""
-    return seconds(dq, v_max, a_max, speed=1.5).max()
-
-
-@row.wrong
-def peak_of_the_cubic(dq, v_max, a_max):
-    """1.5 and 6 are the cubic's peaks; the quintic has others => the cubic's
-    duration"""
-    return seconds(dq, v_max, a_max, speed=1.5, acceleration=6.0).max()
+@row.wrongs
+def _(dq, v_max, a_max):
+    """peak-of-the-cubic: 1.5 is the cubic's peak speed; the quintic is faster half way,
+      so this breaks the speed limit by a quarter => the duration with 1.5
+    average-speed: the time dq / v would do for a move that is always at its top speed;
+      this one starts and stops softly => the duration with dq / v
+    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15 => the
+      duration with 8/15
+    peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
+      little earlier, where its derivative is 0 => the duration with 5.625
+    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
+      lost => the duration with 10/3
+    """
+    peaks = {
+        "peak-of-the-cubic": {"speed": 1.5},
+        "average-speed": {"speed": 1.0},
+        "peak-upside-down": {"speed": 8 / 15},
+        "peak-at-a-quarter": {"acceleration": 5.625},
+        "peak-acceleration": {"acceleration": 10 / 3},
+    }
+    return {slug: seconds(dq, v_max, a_max, **of).max() for slug, of in peaks.items()}
 
 
 @row.wrongs
 def _(dq, v_max, a_max):
-    """peak-of-the-cubic: 6 is the cubic's peak acceleration; the quintic's is where the
-      derivative of its acceleration is 0 => the duration with 6
+    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others => the
+      cubic's duration
     limits-of-different-joints: the longest way is divided by the smallest limit of all;
       way and limit have to be those of one joint => max(dq) over min(a_max) for the
       acceleration
     both-added: the time for the speed and the time for the acceleration are added; one
       way keeps both limits if it takes the longer of the two => their sum
-    peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
-      little earlier, where its derivative is 0 => the duration with 5.625
-    """
-    longest = np.abs(dq).max()
-    by_acceleration = np.sqrt(PEAK_ACCELERATION * longest / a_max.min())
-    return {
-        "peak-of-the-cubic": seconds(dq, v_max, a_max, acceleration=6.0).max(),
-        "limits-of-different-joints": max(
-            seconds(dq, v_max, a_max)[0].max(), by_acceleration
-        ),
-        "both-added": seconds(dq, v_max, a_max).sum(axis=0).max(),
-        "peak-at-a-quarter": seconds(dq, v_max, a_max, acceleration=5.625).max(),
-    }
-
-
-@row.wrongs
-def _(dq, v_max, a_max):
-    """shorter-of-two: it takes the shorter of the two durations, which breaks one of
+    shorter-of-two: it takes the shorter of the two durations, which breaks one of
       the limits; the longer one keeps both => the smaller of the two
-    average-speed: the time dq / v would do for a move that is always at its top speed;
-      this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15 => the
-      duration with 8/15
-    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
-      lost => the duration with 10/3
     fastest-joint: it takes the joint that needs least; all the others break their
       limits => the smallest of the joints' durations
-    """
-    by_speed, by_acceleration = seconds(dq, v_max, a_max)
-    return {
-        "shorter-of-two": min(by_speed.max(), by_acceleration.max()),
-        "average-speed": seconds(dq, v_max, a_max, speed=1.0).max(),
-        "peak-upside-down": seconds(dq, v_max, a_max, speed=8 / 15).max(),
-        "peak-acceleration": seconds(dq, v_max, a_max, acceleration=10 / 3).max(),
-        "fastest-joint": seconds(dq, v_max, a_max).max(axis=0).min(),
-    }
-
-
-@row.wrongs
-def _(dq, v_max, a_max):
-    """fastest-joint: it takes the joint that needs least, for the speed and for the
-      acceleration; all the others break their limits => the larger of the two minima
     one-length: the ways of all joints are put together as one length, |dq|; each joint
       has its own way and its own limits => the duration of |dq| with the lowest limits
     summed: the joints' durations are added up; they move at the same time => the sum
@@ -128,22 +99,6 @@ def _(dq, v_max, a_max):
       need more => the duration of the joint with the longest way
     one-limit-for-all: the first joint's limits are used for all; each joint has its own
       => the duration with joint1's limits
-    """
-    i = np.argmax(np.abs(dq))
-    return {
-        "fastest-joint": seconds(dq, v_max, a_max).min(axis=1).max(),
-        "one-length": seconds(np.linalg.norm(dq), v_max.min(), a_max.min()).max(),
-        "summed": seconds(dq, v_max, a_max).max(axis=0).sum(),
-        "mean": seconds(dq, v_max, a_max).max(axis=0).mean(),
-        "longest-way": seconds(dq[i], v_max[i], a_max[i]).max(),
-        "one-limit-for-all": seconds(dq, v_max[0], a_max[0]).max(),
-    }
-
-
-@row.wrongs
-def _(dq, v_max, a_max):
-    """one-limit-for-all: the lowest limits are used for all; each joint has its own =>
-      the duration with the lowest limits
     speed-only: only the speed limits count; a short move breaks the acceleration's =>
       the duration by speed
     acceleration-only: only the acceleration limits count; a long move breaks the
@@ -152,20 +107,49 @@ def _(dq, v_max, a_max):
       duration without the root
     added-up: the two durations are added; the longer one keeps both limits => the sum
       of the two
-    shorter-of-two: each joint takes the shorter of its two durations; both limits count
-      => the shorter of the two
     forwards-only: a joint that moves backwards counts as one that is ready before it
       starts: the way's sign is still in it => the duration with signed ways
     """
-    by_speed, by_acceleration = seconds(dq, v_max, a_max)
+    each, i = seconds(dq, v_max, a_max), np.argmax(np.abs(dq))
+    by_speed, by_acceleration = each
+    longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
+    lowest = v_max.min(), a_max.min()
     return {
-        "one-limit-for-all": seconds(dq, v_max.min(), a_max.min()).max(),
-        "speed-only": seconds(dq, v_max, a_max)[0].max(),
-        "acceleration-only": seconds(dq, v_max, a_max)[1].max(),
+        "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
+        "limits-of-different-joints": max(by_speed.max(), longest),
+        "both-added": each.sum(axis=0).max(),
+        "shorter-of-two": min(each.max(axis=1)),
+        "fastest-joint": each.max(axis=0).min(),
+        "one-length": seconds(np.linalg.norm(dq), *lowest).max(),
+        "summed": each.max(axis=0).sum(),
+        "mean": each.max(axis=0).mean(),
+        "longest-way": each[:, i].max(),
+        "one-limit-for-all": seconds(dq, v_max[0], a_max[0]).max(),
+        "speed-only": by_speed.max(),
+        "acceleration-only": by_acceleration.max(),
         "root-forgotten": max(by_speed.max(), (by_acceleration**2).max()),
-        "added-up": seconds(dq, v_max, a_max).max(axis=1).sum(),
-        "shorter-of-two": seconds(dq, v_max, a_max).min(axis=0).max(),
+        "added-up": each.max(axis=1).sum(),
         "forwards-only": max((np.sign(dq) * by_speed).max(), by_acceleration.max()),
+    }
+
+
+@row.wrongs
+def _(dq, v_max, a_max):
+    """peak-of-the-cubic: 6 is the cubic's peak acceleration; the quintic's is where the
+      derivative of its acceleration is 0 => the duration with 6
+    shorter-of-two: each joint takes the shorter of its two durations; both limits count
+      => the shorter of the two
+    fastest-joint: it takes the joint that needs least, for the speed and for the
+      acceleration; all the others break their limits => the larger of the two minima
+    one-limit-for-all: the lowest limits are used for all; each joint has its own =>
+      the duration with the lowest limits
+    """
+    each = seconds(dq, v_max, a_max)
+    return {
+        "peak-of-the-cubic": seconds(dq, v_max, a_max, acceleration=6.0).max(),
+        "shorter-of-two": each.min(axis=0).max(),
+        "fastest-joint": each.min(axis=1).max(),
+        "one-limit-for-all": seconds(dq, v_max.min(), a_max.min()).max(),
     }
 
 

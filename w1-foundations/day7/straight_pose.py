@@ -1,5 +1,7 @@
 """7.6 `straight_pose(T0, T1, s)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -29,17 +31,18 @@ def exp(w):
     return exp_rotation(w / angle, angle) if angle > 0 else np.eye(3)
 
 
-def line(T0, T1, s, R):
-    """Return the pose at s of the straight line, with another rotation."""
+def nlerp(R0, R1, s):
+    """Return the normalised mean of two quaternions as a rotation."""
+    a, b = se3.R_to_quat(R0), se3.R_to_quat(R1)
+    return se3.quat_to_R((1 - s) * a + s * (b if a @ b >= 0 else -b))
+
+
+def line(T0, T1, s, turn):
+    """Return the pose at s of the straight line, turned by a function's rotation."""
     T = np.eye(4)
-    T[:3, :3] = R
+    T[:3, :3] = turn()
     T[:3, 3] = T0[:3, 3] + s * (T1[:3, 3] - T0[:3, 3])
     return T
-
-
-def at(T0, T1, s, p):
-    """Return the pose at s of the right turn, at another place."""
-    return se3.make_T(straight_pose(T0, T1, s)[:3, :3], p)
 
 
 @row.wrongs
@@ -63,24 +66,25 @@ def _(T0, T1, s):
     not-turned: the rotation stays that of the first pose => R0
     turned-at-once: the rotation is that of the last pose from the start => R1
     whole-turn: s is missing in the rotation: it is turned at once => R1
+    transposed: the rotation is transposed => its transpose
     """
     R0, R1 = T0[:3, :3], T1[:3, :3]
-    a, b = se3.R_to_quat(T0[:3, :3]), se3.R_to_quat(T1[:3, :3])
-    b = b if a @ b >= 0 else -b
-    w0, w1 = log_rotation(T0[:3, :3]), log_rotation(T1[:3, :3])
-    return {
-        "by-entries": line(T0, T1, s, R0 + s * (R1 - R0)),
-        "nlerp": line(T0, T1, s, se3.quat_to_R((1 - s) * a + s * b)),
-        "turn-in-world-axes": line(T0, T1, s, R0 @ exp(s * log_rotation(R1 @ R0.T))),
-        "turn-on-the-left": line(T0, T1, s, exp(s * log_rotation(R0.T @ R1)) @ R0),
-        "turn-backwards": line(T0, T1, s, R0 @ exp(s * log_rotation(R1.T @ R0))),
-        "start-forgotten": line(T0, T1, s, exp(s * log_rotation(R0.T @ R1))),
-        "goals-own-turn": line(T0, T1, s, R0 @ exp(s * log_rotation(R1))),
-        "logarithms-mixed": line(T0, T1, s, exp(w0 + s * (w1 - w0))),
-        "not-turned": line(T0, T1, s, T0[:3, :3]),
-        "turned-at-once": line(T0, T1, s, T1[:3, :3]),
-        "whole-turn": line(T0, T1, s, R0 @ exp(log_rotation(R0.T @ R1))),
+    w0 = log_rotation(R0)
+    turns = {
+        "by-entries": lambda: R0 + s * (R1 - R0),
+        "nlerp": lambda: nlerp(R0, R1, s),
+        "turn-in-world-axes": lambda: R0 @ exp(s * log_rotation(R1 @ R0.T)),
+        "turn-on-the-left": lambda: exp(s * log_rotation(R0.T @ R1)) @ R0,
+        "turn-backwards": lambda: R0 @ exp(s * log_rotation(R1.T @ R0)),
+        "start-forgotten": lambda: exp(s * log_rotation(R0.T @ R1)),
+        "goals-own-turn": lambda: R0 @ exp(s * log_rotation(R1)),
+        "logarithms-mixed": lambda: exp(w0 + s * (log_rotation(R1) - w0)),
+        "not-turned": lambda: R0,
+        "turned-at-once": lambda: R1,
+        "whole-turn": lambda: R0 @ exp(log_rotation(R0.T @ R1)),
+        "transposed": lambda: straight_pose(T0, T1, s)[:3, :3].T,
     }
+    return {slug: partial(line, T0, T1, s, turn) for slug, turn in turns.items()}
 
 
 @row.wrong
@@ -106,17 +110,17 @@ def _(T0, T1, s):
     goal-for-way: the goal p1 stands where the way from p0 to p1 belongs => p0 + s p1
     not-moved: the position stays that of the first pose => p0
     backwards: it goes from the last pose to the first => the way back
-    transposed: the rotation is transposed => its transpose
     """
     p0, p1 = T0[:3, 3], T1[:3, 3]
-    return {
-        "way-in-the-first-frame": at(T0, T1, s, p0 + s * T0[:3, :3] @ (p1 - p0)),
-        "start-place-forgotten": at(T0, T1, s, s * (p1 - p0)),
-        "goal-for-way": at(T0, T1, s, p0 + s * p1),
-        "not-moved": at(T0, T1, s, T0[:3, 3]),
-        "backwards": straight_pose(T1, T0, s),
-        "transposed": line(T0, T1, s, straight_pose(T0, T1, s)[:3, :3].T),
+    right = straight_pose(T0, T1, s)
+    places = {
+        "way-in-the-first-frame": p0 + s * T0[:3, :3] @ (p1 - p0),
+        "start-place-forgotten": s * (p1 - p0),
+        "goal-for-way": p0 + s * p1,
+        "not-moved": p0,
     }
+    found = {slug: se3.make_T(right[:3, :3], p) for slug, p in places.items()}
+    return {**found, "backwards": straight_pose(T1, T0, s)}
 
 
 @row.right  # Slerp of quaternions.
@@ -131,7 +135,7 @@ def _(T0, T1, s):
 @row.right  # The turn in world axes, on the left.
 def _(T0, T1, s):
     R0, R1 = T0[:3, :3], T1[:3, :3]
-    return line(T0, T1, s, exp(s * log_rotation(R1 @ R0.T)) @ R0)
+    return line(T0, T1, s, lambda: exp(s * log_rotation(R1 @ R0.T)) @ R0)
 
 
 @row.close("float32")  # Single precision at the end.
