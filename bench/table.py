@@ -4,11 +4,7 @@ from typing import Any
 
 
 def render(results: dict[str, Any]) -> str:
-    """Return the tables of every part that has been run, in 80 columns.
-
-    Args:
-        results: what bench/results.json holds.
-    """
+    """Return the tables of what bench/results.json holds, in 80 columns."""
     about = results["about"]
     lines = [f"{about['date']}, {about['machine']}"]
     tools = ("python", "mujoco", "numpy", "pin")

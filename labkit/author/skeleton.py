@@ -24,9 +24,6 @@ def new_day(number: int, week: str, name: str, root: Path = ROOT) -> list[Path]:
         week: its week's folder, "w2-autonomy", or the number of one that is there.
         name: of its script, "identification" for src/dayN_identification.py.
         root: the clone.
-
-    Raises:
-        Robo47Error: the day is there, or a number or a name cannot be one.
     """
     if not 1 <= number <= LAST_DAY or number in day_numbers(root):
         why = "is there already" if number in day_numbers(root) else "cannot be"

@@ -61,12 +61,7 @@ class History:
     blobs: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, name: str, data: bytes | None) -> bool:
-        """Return whether a file is committed as it is.
-
-        Args:
-            name: path from the top of the clone.
-            data: its content; None where only its name counts.
-        """
+        """Return whether a file is committed as it is; None asks for its name alone."""
         blob = self.blobs.get(name)
         if blob is None or data is None:
             return blob is not None
@@ -157,11 +152,7 @@ def blob(clone: Path, name: str) -> bytes:
 
 
 def short_sha(folder: Path) -> str:
-    """Return the short commit id that HEAD names, or "" outside a repository.
-
-    Args:
-        folder: the working tree's top folder: a clone or a linked worktree.
-    """
+    """Return the short commit id that HEAD names, or "" outside a repository."""
     try:
         return (_git(folder / ".git", "rev-parse", "--verify", "HEAD") or "")[:SHA]
     except (GitError, OSError):  # a folder that is not for us to look into

@@ -93,13 +93,7 @@ def start_options() -> dict[str, object]:
 def run(
     command: Sequence[str], *, env: Mapping[str, str], **more: Any
 ) -> subprocess.CompletedProcess[str]:
-    """Run a program that reads no input; return what it printed, bad bytes as "?".
-
-    Args:
-        command: its words.
-        env: its environment.
-        more: as `subprocess.run`: cwd, timeout.
-    """
+    """Run a program that reads no input; return what it printed, bad bytes as "?"."""
     return subprocess.run(
         command,
         env=env,
@@ -133,12 +127,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
-    """Bound every file that a child and what it starts write, on Linux.
-
-    Args:
-        process: just started.
-        largest: bytes; who writes more is ended by the kernel.
-    """
+    """Have Linux end a child, or what it starts, that writes a larger file, bytes."""
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError, ValueError):  # gone, or bounded already
             limits = (largest, largest)
@@ -146,12 +135,7 @@ def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
 
 
 def sweep(prefix: str, seconds: float) -> None:
-    """Remove the temporary folders that a killed run of ours left behind.
-
-    Args:
-        prefix: of their names.
-        seconds: how long ago they were made, at least: nobody works there any more.
-    """
+    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`."""
     for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
         with contextlib.suppress(OSError):
             facts = folder.lstat()

@@ -32,13 +32,7 @@ def visible(text: object, length: int = LENGTH) -> str:
 
 
 def visible_lines(text: object, lines: int = 40, length: int = 200) -> str:
-    """Return text of several lines as lines that are each harmless.
-
-    Args:
-        text: anything.
-        lines: how many to keep.
-        length: characters to keep of each.
-    """
+    """Return text of several lines as so many lines that are each harmless."""
     whole = (text if isinstance(text, str) else str(text))[: 2 * lines * length]
     return "\n".join(visible(line, length) for line in whole.splitlines()[:lines])
 

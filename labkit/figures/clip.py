@@ -30,16 +30,7 @@ Caption = tuple[str, bool | None]  # words; whether they are good news, None for
 
 
 def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
-    """Return a soft move to a configuration and back, without a jump at its end.
-
-    Args:
-        q_from: (nq,).
-        q_to: (nq,).
-        count: of configurations.
-
-    Returns:
-        (count, nq).
-    """
+    """Return a soft move from (nq,) to (nq,) and back without a jump, (count, nq)."""
     start, end = np.asarray(q_from, dtype=float), np.asarray(q_to, dtype=float)
     s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
     return start + s[:, None] * (end - start)
@@ -59,9 +50,6 @@ def arm_clip(
             link7 carries the hand along.
         caption_of: what stands below.
         camera: by default the portraits', a little further away.
-
-    Raises:
-        Robo47Error: nothing draws here; the line names what to install.
     """
     seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
     pictures = []
@@ -96,9 +84,6 @@ def save_clip(
 
     Returns:
         Its size, bytes.
-
-    Raises:
-        Robo47Error: another ending.
     """
     kind = kind_of(path)
     each = round(1000 * seconds / len(frames))
@@ -114,11 +99,7 @@ def save_clip(
 
 
 def kind_of(path: Path) -> str:
-    """Return "gif" or "webp".
-
-    Raises:
-        Robo47Error: another ending.
-    """
+    """Return "gif" or "webp"; a Robo47Error refuses another ending."""
     kind = path.suffix.lower().lstrip(".")
     if kind not in ("gif", "webp"):
         raise Robo47Error(f"{path.name}: a clip ends in .gif or .webp")
@@ -142,12 +123,7 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
 
 
 def captioned(picture: Image.Image, caption: Caption) -> Image.Image:
-    """Return a picture with words below it.
-
-    Args:
-        picture: of any size.
-        caption: its words, see `Caption`; the picture stays as it is without.
-    """
+    """Return a picture with words below it, as it is where there are none."""
     words, good = caption
     if not words:
         return picture

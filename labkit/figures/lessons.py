@@ -11,18 +11,11 @@ from robo47.paths import shown
 
 
 def lesson_figures(number: int, own: bool = False) -> dict[str, Callable[[], Any]]:
-    """Return what draws each picture of a day.
+    """Return what draws each picture of a day: {"dayN_name": function, ...}.
 
     Args:
-        number: of the day.
+        number: of the day; {} where it has no pictures of its own.
         own: draw with the functions of the student's file, not with the kit's.
-
-    Returns:
-        {"dayN_name": function that returns a PIL image, ...}; {} where the day has
-        no pictures of its own.
-
-    Raises:
-        Robo47Error: no such day, or its figures.py offers no FIGURES.
     """
     day = find_day(number)
     if not folder.has(day, "figures"):

@@ -32,15 +32,7 @@ def portrait(
 
 
 def draw(scene: Scene, frames: Mapping[str, Array]) -> Image.Image:
-    """Return the picture of a scene with frames over it.
-
-    Args:
-        scene: what MuJoCo draws.
-        frames: {name: T_world_frame (4, 4)}, what we draw.
-
-    Raises:
-        Robo47Error: nothing draws here; the line names what to install.
-    """
+    """Return the picture of a scene with frames over it, {name: (4, 4)}."""
     picture = Image.fromarray(client.draw(scene))
     return overlay.draw_frames(picture, scene.camera, frames) if frames else picture
 
@@ -48,11 +40,8 @@ def draw(scene: Scene, frames: Mapping[str, Array]) -> Image.Image:
 def with_fingers(qpos: ArrayLike) -> Array:
     """Return a configuration of the Panda with its hand, (9,).
 
-    Args:
-        qpos: the arm's joints (7,), or those and the fingers' (9,).
-
     Raises:
-        ValueError: another size, or not finite.
+        ValueError: not the arm's joints (7,) or those and the fingers' (9,), finite.
     """
     q = np.asarray(qpos, dtype=np.float64)
     if q.shape == (len(panda.READY_Q),):
@@ -61,16 +50,10 @@ def with_fingers(qpos: ArrayLike) -> Array:
 
 
 def link_frames(qpos: Array) -> dict[str, Array]:
-    """Return the pose of every link's frame and of the end effector's.
+    """Return the pose of every link's frame and of the end effector's, `ee`.
 
     They come from `robo47.kinematics`. `ee` is the frame whose matrix the lessons
     print, `attachment_site`: the hand's origin, turned by 180 degrees about z.
-
-    Args:
-        qpos: (9,).
-
-    Returns:
-        {"link0": T_world_link0, ..., "ee": T_world_ee}.
     """
     poses = kinematics.fk_all(panda.load("panda_nohand"), qpos[: len(panda.READY_Q)])
     found = {name: poses[f"body:{name}"] for name in LINKS}
@@ -78,11 +61,7 @@ def link_frames(qpos: Array) -> dict[str, Array]:
 
 
 def corners(poses: Mapping[str, Array]) -> Array:
-    """Return points that the whole arm lies between, (n, 3), metres.
-
-    Args:
-        poses: {name: T_world_frame (4, 4)}.
-    """
+    """Return points that the whole arm lies between, (n, 3), metres."""
     origins = np.array([T[:3, 3] for T in poses.values()])
     sides = REACH * np.vstack([np.eye(3), -np.eye(3)])
     return (origins[:, None] + sides).reshape(-1, 3)

@@ -14,15 +14,7 @@ FROM_THE_LEFT = Camera(azimuth=np.radians(58.0), elevation=np.radians(-18.0))
 
 
 def screenshot(qpos: ArrayLike, title: str) -> Image.Image:
-    """Return the Panda with its frames, its configuration in the corner.
-
-    Args:
-        qpos: the arm's joints, (7,), radians.
-        title: what the configuration is called.
-
-    Raises:
-        Robo47Error: nothing draws here; the line names what to install.
-    """
+    """Return the Panda at q (7,) with its frames, its titled q in the corner."""
     q = portrait.with_fingers(qpos)
     poses = portrait.link_frames(q)
     camera = FROM_THE_LEFT.stepped_back(portrait.corners(poses), SIZE)

@@ -137,11 +137,7 @@ class Day:
         return self.folder / f"day{self.number}"
 
     def named_as(self, is_there: Callable[[str], bool]) -> "Day":
-        """Return the day, under a name that its script had where only that is there.
-
-        Args:
-            is_there: whether a path from the clone's top is.
-        """
+        """Return the day, under a name that its script had where only that is there."""
         before = [replace(self, script=name, was=()) for name in self.was]
         some = (day for day in (self, *before) if is_there(day.files["script"]))
         return next(some, self)
@@ -206,9 +202,6 @@ class Day:
         Args:
             check: its name.
             metric: of which there may be several to a check; "" where there is one.
-
-        Raises:
-            Robo47Error: the manifest has no such row, or several.
         """
         found = [m for m in self.metrics if m.check == check]
         found = [m for m in found if metric in ("", m.metric)]
@@ -223,38 +216,22 @@ class Day:
 
 
 def day_numbers(root: Path = ROOT) -> list[int]:
-    """Return the numbers of all days that have a manifest, in order.
-
-    Args:
-        root: the clone; its weeks name their days.
-    """
+    """Return the numbers of all days that have a manifest, in order."""
     return sorted(_manifests(root))
 
 
 def all_days(root: Path = ROOT) -> list[Day]:
-    """Return every day of the course, in order.
-
-    Raises:
-        Robo47Error: a manifest is not right.
-    """
+    """Return every day of the course, in order."""
     return [load_day(path) for _, path in sorted(_manifests(root).items())]
 
 
 def days_of(week: Week) -> list[Day]:
-    """Return the days of a week, in order.
-
-    Raises:
-        Robo47Error: a manifest is not right.
-    """
+    """Return the days of a week, in order."""
     return [load_day(path) for path in week.manifests.values()]
 
 
 def find_day(number: int, root: Path = ROOT) -> Day:
-    """Return a day, from whichever week has it.
-
-    Args:
-        number: of the day.
-        root: the clone.
+    """Return a day, from whichever week of a clone has it.
 
     Raises:
         Robo47Error: no week has that day, or its manifest is not right.
@@ -283,9 +260,6 @@ def chosen_day(number: int | None, task_id: str | None = None) -> Day:
     Args:
         number: of the day; None where none was typed: the task's, or the last begun.
         task_id: such as "1.4", or None.
-
-    Raises:
-        Robo47Error: no such day or task, or a task of another day.
     """
     day = find_day(started_day() if number is None else number)
     if not task_id:
@@ -305,9 +279,6 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
     Args:
         number: of the week; None where none was typed: that of the day.
         day: its number; None where none was typed: the day begun last.
-
-    Raises:
-        Robo47Error: no such week or day.
     """
     if number is not None:
         return find_week(number)
@@ -315,11 +286,7 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
 
 
 def day_of(script: Path) -> Day:
-    """Return the day whose lab a script is, by its name.
-
-    Raises:
-        Robo47Error: the name is not like dayN_name.py.
-    """
+    """Return the day whose lab a script is, by its name: dayN_name.py."""
     found = re.match(r"day(\d+)_", script.name)
     if not found:
         raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
@@ -327,15 +294,7 @@ def day_of(script: Path) -> Day:
 
 
 def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
-    """Return a task and its day.
-
-    Args:
-        task_id: such as "1.4".
-        root: as `find_day`.
-
-    Raises:
-        Robo47Error: not an id, or no such day or task.
-    """
+    """Return the task of an id such as "1.4", and its day."""
     number = task_id.partition(".")[0]
     if not number.isdecimal():
         raise Robo47Error(f"{task_id!r} is no task; expected an id such as 1.4")
@@ -344,10 +303,7 @@ def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
 
 
 def load_day(manifest: Path) -> Day:
-    """Return the day of a manifest.
-
-    Args:
-        manifest: path of a `day.toml`.
+    """Return the day of a `day.toml`.
 
     Raises:
         Robo47Error: it cannot be read, or an entry is missing, empty, of a wrong type

@@ -24,11 +24,7 @@ def has(day: Day, name: str) -> bool:
 
 
 def load(day: Day, name: str) -> ModuleType:
-    """Return a module of a day's folder.
-
-    Args:
-        day: from its manifest.
-        name: without the ending: "gains".
+    """Return a module of a day's folder, "gains".
 
     Raises:
         Robo47Error: the day has no such file, or it stops while it is loaded.
@@ -62,11 +58,7 @@ def lab(day: Day) -> ModuleType:
 
 
 def load_lab(script: Path) -> ModuleType:
-    """Return a lab script as a module of its own.
-
-    Args:
-        script: its path. It does not hand on to the kit's own Python: this is that one.
-    """
+    """Return a lab script as a module of its own, in the kit's Python: this one."""
     module = ModuleType(script.stem)
     module.__file__ = str(script)
     exec(_code(read_script(script), str(script)), vars(module))

@@ -123,17 +123,7 @@ class Sandbox:
         added: str = "",
         limits: Limits | None = None,
     ) -> "Session":
-        """Return the student's file, loaded, for many rounds of questions.
-
-        Args:
-            script: the file.
-            robots: those that questions will hold.
-            library, added, limits: see `run`.
-
-        Raises:
-            LoadError: the file does not load.
-            Robo47Error: there is no such file, it is no script, or no process starts.
-        """
+        """Return a student's file, loaded, for many rounds of questions; see `run`."""
         limits = limits or Limits()
         request = messages.request(
             script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,

@@ -18,11 +18,7 @@ def films() -> dict[str, Callable[[], Recording]]:
 
 
 def record(folder: Path) -> None:
-    """Record every film into a folder.
-
-    Raises:
-        Robo47Error: one is too large for a page.
-    """
+    """Record every film into a folder; one that is too large for a page is an error."""
     folder.mkdir()
     for name, make in films().items():
         path = folder / f"{name}.html"

@@ -152,11 +152,7 @@ def twin() -> mujoco.MjModel:
 
 
 def chosen() -> list[tuple[int, Row, Way]]:
-    """Return the day, the row and the mistake of each ghost.
-
-    Raises:
-        Robo47Error: a day no longer has one of them.
-    """
+    """Return the day, the row and the mistake of each ghost."""
     found = []
     for number, function, slug in _listed():
         row = row_of(find_day(number), function)

@@ -46,9 +46,6 @@ def lay_out(
         folder: where to.
         repository: whose documents.
         filmed: names of the pictures that have a film.
-
-    Raises:
-        FileNotFoundError: a document links to a file that is not there.
     """
     shutil.rmtree(folder, ignore_errors=True)
     documents = [path for each in DOCUMENTS for path in sorted(repository.glob(each))]
