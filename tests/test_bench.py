@@ -96,7 +96,8 @@ def test_the_dynamics_table_has_a_row_for_every_rival_and_names_the_missing(
     monkeypatch.setitem(bench_dynamics.RIVALS, "Pinocchio, loop", missing)
     monkeypatch.setattr(bench_dynamics, "ONE", 10)
     results = bench_dynamics.run(rounds=1, n=300)
-    lines = "\n".join(table._dynamics(results))
+    about = {"date": "", "machine": ""}
+    lines = table.render({"about": about, "dynamics": results})
     assert lines.count("robo47 batch") == lines.count("MuJoCo, loop") == 3
     assert "left out: Pinocchio, loop (No module named 'pinocchio')" in lines
     assert max(row["error"] for rows in results["questions"].values()
