@@ -11,6 +11,7 @@ import types
 from functools import cache, lru_cache
 from pathlib import Path
 from types import CodeType, ModuleType
+from typing import Any
 
 from labkit.lesson.day import Day
 from labkit.lesson.starter import read_script
@@ -49,6 +50,26 @@ def load(day: Day, name: str) -> ModuleType:
         why = f"{type(error).__name__}: {error}{where}"
         file = shown(day.own / name)
         raise Robo47Error(f"{file}.py does not load: {why}") from error
+
+
+def offered(day: Day, name: str, lab: Path | None = None) -> dict[str, Any]:
+    """Return what a day's figures.py or films.py offers: {"dayN_name": function}.
+
+    Args:
+        day: {} where it has no such file.
+        name: "figures", for FIGURES.
+        lab: the script that the file imports from; by default the kit's.
+    """
+    if not has(day, name):
+        return {}
+    source = str((lab or day.source).parent)
+    if source not in sys.path:
+        sys.path.insert(0, source)
+    found = getattr(load(day, name), name.upper(), None)
+    if not isinstance(found, dict):
+        file = f"{shown(day.own)}/{name}.py"
+        raise Robo47Error(f"{file} has no {name.upper()}: {{name: function}}")
+    return {f"day{day.number}_{key}": made for key, made in found.items()}
 
 
 @cache
