@@ -23,6 +23,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 SIZE, SECONDS = (480, 420), 5.0  # of a clip
+CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
 GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
@@ -40,7 +41,6 @@ def arm_clip(
     qs: ArrayLike,
     ghost_of: Callable[[Array], Mapping[str, Array]] = lambda q: {},
     caption_of: Callable[[Array], Caption] = lambda q: ("", None),
-    camera: Camera | None = None,
 ) -> list[Image.Image]:
     """Return one picture of the Panda per configuration.
 
@@ -49,9 +49,7 @@ def arm_clip(
         ghost_of: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
             link7 carries the hand along.
         caption_of: what stands below.
-        camera: by default the portraits', a little further away.
     """
-    seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
     pictures = []
     for q in tqdm(
         np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
@@ -63,7 +61,7 @@ def arm_clip(
             for link, T in ghost_of(q).items()
             if link in LINKS
         )
-        scene = Scene(full, SIZE, seen_from, ghosts, fast=True)
+        scene = Scene(full, SIZE, CAMERA, ghosts, fast=True)
         pictures.append(captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
     return pictures
 

@@ -217,12 +217,12 @@ class Day:
 
 def day_numbers(root: Path = ROOT) -> list[int]:
     """Return the numbers of all days that have a manifest, in order."""
-    return sorted(_manifests(root))
+    return list(_manifests(root))
 
 
 def all_days(root: Path = ROOT) -> list[Day]:
     """Return every day of the course, in order."""
-    return [load_day(path) for _, path in sorted(_manifests(root).items())]
+    return [load_day(path) for path in _manifests(root).values()]
 
 
 def days_of(week: Week) -> list[Day]:
@@ -238,7 +238,7 @@ def find_day(number: int, root: Path = ROOT) -> Day:
     """
     manifests = _manifests(root)
     if number not in manifests:
-        known = ", ".join(str(n) for n in sorted(manifests)) or "none"
+        known = ", ".join(map(str, manifests)) or "none"
         raise Robo47Error(f"there is no day {number} yet; the kit has: {known}")
     return load_day(manifests[number])
 
@@ -293,12 +293,12 @@ def day_of(script: Path) -> Day:
     return find_day(int(found[1]))
 
 
-def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
+def find_task(task_id: str) -> tuple[Day, Task]:
     """Return the task of an id such as "1.4", and its day."""
     number = task_id.partition(".")[0]
     if not number.isdecimal():
         raise Robo47Error(f"{task_id!r} is no task; expected an id such as 1.4")
-    day = find_day(int(number), root)
+    day = find_day(int(number))
     return day, day.task(task_id)
 
 
@@ -343,10 +343,11 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
 
 
 def _manifests(root: Path) -> dict[int, Path]:
+    """Return the manifests of a clone's days, in order."""
     found: dict[int, Path] = {}
     for week in weeks(root):
         for number, path in week.manifests.items():
             other = found.setdefault(number, path)
             if other != path:
                 raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
-    return found
+    return dict(sorted(found.items()))
