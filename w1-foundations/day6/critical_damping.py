@@ -23,7 +23,7 @@ def root(A):
 def _(rng):
     drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
-    light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
+    light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
     slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
@@ -144,6 +144,14 @@ def eigenvectors_transposed(K, Lambda):
     """the eigenvectors are transposed: those of eigh are the columns, so the root is V
     diag V^T => the right one with V^T diag V"""
     return _sum(_turned(Lambda), np.sqrt(K))
+
+
+@row.wrong
+def eigenvectors_transposed(K, Lambda):
+    """the last transpose is missing: the root is V diag V^T => the right one with V
+    diag V"""
+    values, V = np.linalg.eigh(Lambda)
+    return _sum(V @ np.diag(np.sqrt(values)) @ V, np.sqrt(K))
 
 
 @row.wrong

@@ -113,6 +113,20 @@ def spring_couples_into_z(e, V_err, K, D, force):
     return wrench
 
 
+@row.wrong
+def column_in_place_of_row(e, V_err, K, D, force):
+    """the error along z is left out, and with it K's last column; what is to go is what
+    K makes along z, its last row => the right one with e[5] = 0"""
+    return _at(K[:, :5] @ e[:5] + D @ V_err, Z, K[Z, :5] @ e[:5] + D[Z] @ V_err - force)
+
+
+@row.wrong
+def column_in_place_of_row(e, V_err, K, D, force):
+    """K's last column is gone with its last row; what an error along z makes in the
+    other five directions stays => the right one with row and column 5 of K at 0"""
+    return _at(K[:, :5] @ e[:5] + D @ V_err, Z, D[Z] @ V_err - force)
+
+
 @row.right  # With a selection matrix, as Raibert and Craig write it.
 def _(e, V_err, K, D, force):
     S = np.diag([1, 1, 1, 1, 1, 0])
