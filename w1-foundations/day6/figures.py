@@ -174,3 +174,4 @@ def cone(figure: Figure) -> None:
 
 
 FIGURES = {"push": push, "press": press, "loop": loop, "cone": cone}
+SMALL = ("press", 0, 0.03, 1)  # its left, top and width, in parts of its width
