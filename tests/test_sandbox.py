@@ -219,7 +219,6 @@ class TestALoop:
 
 
 @pytest.mark.kit
-@pytest.mark.kit
 class TestWhatATaskMayTake:
     IMAGE = """
         import numpy as np

@@ -29,18 +29,12 @@ from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
+RIVALS = ("roboticstoolbox-python", "modern-robotics", "mink")
 PARTS = (
     "fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker",
     "first-minute",
 )  # fmt: skip
-VERSIONS = (
-    "mujoco",
-    "numpy",
-    "pin",
-    "roboticstoolbox-python",
-    "modern-robotics",
-    "mink",
-)
+VERSIONS = ("mujoco", "numpy", "pin", *RIVALS)
 
 
 def machine() -> dict[str, Any]:
