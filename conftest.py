@@ -203,14 +203,12 @@ def empty_worksheet(day) -> str:
     return "\n".join([*lines, "## Checklist", "- [ ] I ran it", "- [ ] I read it", ""])
 
 
-@pytest.fixture
-def clone(tmp_path):
-    """Return a copy of the kit that a test may work in, with nothing done in it.
+def copy_kit(copy: Path) -> Path:
+    """Return a new folder with a copy of the kit, and nothing done in it.
 
     A student's clone holds rows, a worksheet and pictures of their own: `make test`
     must pass on it as well.
     """
-    copy = tmp_path / "clone"
     copy.mkdir()
     skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
     for name in kit_folders():
@@ -225,9 +223,8 @@ def clone(tmp_path):
     return copy
 
 
-@pytest.fixture
-def one_day(clone):
-    """Return that copy with its first day alone: the labs of a week take seconds."""
+def keep_first_day(clone: Path) -> Path:
+    """Return a copy of the kit, now with its first day alone: it is run in seconds."""
     from labkit.lesson.week import weeks
 
     first, *others = weeks(clone)
@@ -237,6 +234,18 @@ def one_day(clone):
         shutil.rmtree(first.folder / f"day{number}")
     write_week(first.folder, first.days[0])
     return clone
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of the kit that a test may work in."""
+    return copy_kit(tmp_path / "clone")
+
+
+@pytest.fixture
+def one_day(clone):
+    """Return that copy with its first day alone."""
+    return keep_first_day(clone)
 
 
 @pytest.fixture
