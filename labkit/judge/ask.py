@@ -4,9 +4,8 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest.
 """
 
-import contextlib
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from pathlib import Path as File
@@ -30,7 +29,6 @@ Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
-NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -165,6 +163,7 @@ class Ask:
         near_miss: says why an answer is right to some digits only.
         measured: adds lines for --explain.
         slips: exceptions that have better words than their own.
+        at_edge: whether a call with edge values has one right answer; None is yes.
     """
 
     inputs: Inputs
@@ -180,7 +179,8 @@ class Ask:
     unnamed: Callable[[Case], Finding | None] | None = None
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None
-    slips: Sequence[Slip] = field(default=())
+    slips: Sequence[Slip] = ()
+    at_edge: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept."""
@@ -199,21 +199,31 @@ class Ask:
         return list(own)
 
     @cached_property
+    def main(self) -> list[tuple[Any, ...]]:
+        """The calls that are the same at every check."""
+        return [tuple(call) for call in self.inputs(np.random.default_rng(SEED))]
+
+    @cached_property
     def draws(self) -> int:
         """How often inputs are drawn anew."""
-        *_, last = self.inputs(np.random.default_rng(SEED))
-        size = sum(map(np.size, last))
-        draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
+        draws = (
+            CHEAP_DRAWS if sum(map(np.size, self.main[-1])) <= CHEAP else FRESH_DRAWS
+        )
         return (draws if self.truth else 1) if self.fresh else 0
 
     @cached_property
     def edges(self) -> list[tuple[Any, ...]]:
         """Calls with the edge values of every argument, where one answer is right."""
-        found: dict[str, tuple[Any, ...]] = {}
-        for i in range(self.draws if self.truth else 0):
-            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
-            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
-        return [call for call in found.values() if _well_posed(self, call)]
+        if not self.truth:
+            return []
+        draw = [Edges(np.random.PCG64([SEED, i])) for i in range(self.draws)]
+        found = {repr(call): call for call in self.drawn(draw)}
+        return [c for c in found.values() if not self.at_edge or self.at_edge(*c)]
+
+    def drawn(self, generators: Sequence[np.random.Generator]) -> list[tuple[Any, ...]]:
+        """Return the calls that each generator draws anew."""
+        calls = [list(self.inputs(rng))[-self.fresh :] for rng in generators]
+        return list(map(tuple, chain.from_iterable(calls)))
 
 
 @dataclass(frozen=True)
@@ -255,35 +265,17 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
     def exchanges(calls: Iterable[Sequence[Any]]) -> list[Exchange]:
         return [Exchange(Question(task, function, tuple(args))) for args in calls]
 
-    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
-        return exchanges(inputs(np.random.default_rng(seed)))
+    def further(inputs: Inputs) -> list[Exchange]:
+        return exchanges(inputs(np.random.default_rng(SEED)))
 
-    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(ask.draws))
+    anew = [np.random.default_rng([seed, i]) for i in range(ask.draws)]
     return Asked(
         function,
         ask,
-        make(ask.inputs),
-        [*exchanges(ask.edges), *chain.from_iterable(drawn)],
-        [make(held.inputs) for held in ask.held_out],
-        make(ask.probe.inputs) if ask.probe else [],
-    )
-
-
-def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
-    """Return whether a call has one right answer, whatever its last digits are."""
-    assert ask.truth is not None
-    columns = [_column((arg,), True) for arg in call]
-    answers = []
-    for nudge in (0.0, NUDGE, -NUDGE):
-        near = [c + nudge if isinstance(c, np.ndarray) else c for c in columns]
-        with contextlib.suppress(ValueError, ArithmeticError, Robo47Error):
-            answers.append(parts(ask.truth(*near)))
-        if not answers:
-            return False
-    return all(
-        bool(np.all(np.abs(one - first) <= ask.near * kind.scale))
-        for some in answers
-        for one, first, kind in zip(some, answers[0], ask.kinds, strict=True)
+        exchanges(ask.main),
+        exchanges([*ask.edges, *ask.drawn(anew)]),
+        [further(held.inputs) for held in ask.held_out],
+        further(ask.probe.inputs) if ask.probe else [],
     )
 
 
