@@ -4,7 +4,6 @@ import numpy as np
 
 from labkit.base.exchange import Reply
 from labkit.judge.ask import (
-    held_out_answers,
     make_round,
     parts,
     right_answers,
@@ -79,7 +78,7 @@ def judged_replies(ask, replies, source=""):
         answers = [NONE] * len(exchanges)
         if not held.mistaken:
             sizes = sizes_of(ask, exchanges)
-            answers = replies_of(held_out_answers(held, ask, exchanges), sizes)
+            answers = replies_of(right_answers(ask, exchanges, held), sizes)
         answered(exchanges, answers)
     answered(asked.probes, [NONE] * len(asked.probes))
     return judge(asked, source)

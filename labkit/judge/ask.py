@@ -246,6 +246,11 @@ class Asked:
     held_out: list[list[Exchange]]
     probes: list[Exchange]
 
+    @cached_property
+    def right(self) -> Parts:
+        """The right answers to the main questions."""
+        return right_answers(self.ask, self.main)
+
     @property
     def exchanges(self) -> list[Exchange]:
         """All of them, in the order in which they are asked."""
@@ -313,17 +318,17 @@ def _column(column: tuple[Any, ...], shared: bool) -> Any:
     return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 
-def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:
-    """Return the right answers to questions: per part of the answer, (n, ...)."""
-    assert ask.truth is not None
-    return parts(ask.truth(*stacked(exchanges)))
+def right_answers(
+    ask: Ask, exchanges: Iterable[Exchange], held: HeldOut | None = None
+) -> Parts:
+    """Return the right answers to questions: per part of the answer, (n, ...).
 
-
-def held_out_answers(
-    held: HeldOut, ask: Ask, exchanges: Iterable[Exchange]
-) -> tuple[Array, ...]:
-    """Return what answers to held-out questions are compared with."""
-    function = held.mistaken or held.truth or ask.truth
+    Args:
+        ask: the function's row.
+        exchanges: the questions.
+        held: whose these are; what its mistake gives, where it looks for one.
+    """
+    function = (held and (held.mistaken or held.truth)) or ask.truth
     assert function is not None
     return parts(function(*stacked(exchanges)))
 
@@ -354,39 +359,3 @@ def parts(answers: Any) -> tuple[Array, ...]:
     """Return answers as a tuple of parts, also where there is one."""
     some = answers if isinstance(answers, tuple) else (answers,)
     return tuple(np.asarray(part, dtype=np.float64) for part in some)
-
-
-def in_words(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a question's input as a student can type it, or "" where it is too long.
-
-    Numbers and vectors can be typed; where a matrix is among them, the rest would
-    mislead.
-
-    Args:
-        question: whose arguments.
-        names: theirs, where they are known.
-    """
-    named = len(names) == len(question.args) > 1
-    words = []
-    for i, arg in enumerate(question.args):
-        if isinstance(arg, (int, float)):
-            says = number(float(arg))
-        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            says = "(" + ", ".join(number(float(x)) for x in arg) + ")"
-        elif isinstance(arg, np.ndarray):
-            return ""
-        else:  # the robot, or a path along it
-            continue
-        words.append(f"{names[i]} = {says}" if named else says)
-    return (", " if named else " and ").join(words)
-
-
-def number(x: float) -> str:
-    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
-    for over in (1, 2, 3, 4, 6):
-        times = x * over / np.pi
-        if times and times == round(times) and abs(times) <= 2 * over:
-            sign = "-" if times < 0 else ""
-            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
-            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
-    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)

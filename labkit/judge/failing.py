@@ -9,12 +9,10 @@ import numpy as np
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import problems
 from labkit.judge.ask import (
-    Ask,
     Asked,
+    HeldOut,
     Parts,
     gaps,
-    held_out_answers,
-    number,
     right_answers,
     worst_part,
 )
@@ -44,27 +42,22 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
         names: of the function's arguments, where they are known.
     """
     with np.errstate(all="ignore"):
-        for truth, exchanges in _rounds(asked):
+        for exchanges, held in _rounds(asked):
             if found := _broken(exchanges, names):
                 return found
-            if truth is not None and (
-                found := _wrong(asked.ask, truth, exchanges, names)
+            if (asked.ask.truth or held) and (
+                found := _wrong(asked, exchanges, held, names)
             ):
                 return found
     return _refused(asked, names)
 
 
-def _rounds(asked: Asked) -> list[tuple[Any, list[Exchange]]]:
-    ask = asked.ask
-    truth = right_answers if ask.truth else None
-    rounds: list[tuple[Any, list[Exchange]]] = [(truth, asked.main)]
-    rounds.append((truth, asked.fresh))
-    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
-        if not held.mistaken:
-            rounds.append(
-                (lambda a, e, held=held: held_out_answers(held, a, e), exchanges)
-            )
-    return [(truth, some) for truth, some in rounds if some]
+def _rounds(asked: Asked) -> list[tuple[list[Exchange], HeldOut | None]]:
+    rounds: list[tuple[list[Exchange], HeldOut | None]]
+    rounds = [(asked.main, None), (asked.fresh, None)]
+    held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
+    rounds += [(some, held) for some, held in held_out if not held.mistaken]
+    return [(exchanges, held) for exchanges, held in rounds if exchanges]
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -77,12 +70,17 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
 
 
 def _wrong(
-    ask: Ask, truth: Any, exchanges: Sequence[Exchange], names: Sequence[str]
+    asked: Asked,
+    exchanges: Sequence[Exchange],
+    held: HeldOut | None,
+    names: Sequence[str],
 ) -> Failing | None:
+    ask = asked.ask
     S = problems.read([e.reply for e in exchanges if e.reply], ask, "")
     if isinstance(S, Finding):
         return None
-    T = truth(ask, exchanges)
+    main = exchanges is asked.main
+    T = asked.right if main else right_answers(ask, exchanges, held)
     gap = gaps(ask, S, T)
     i, part = int(np.argmax(gap)), worst_part(ask, S, T)
     if gap[i] <= ask.tolerance:
@@ -147,15 +145,54 @@ def _only_known(main: Parts, S: Parts) -> bool:
 
 def typed(question: Question, names: Sequence[str] = ()) -> str:
     """Return a call as a student can type it; what is too long goes by its name."""
-    words = []
-    for i, arg in enumerate(question.args):
-        short = "..." if len(names) != len(question.args) else names[i]
-        if isinstance(arg, (int, float)):
-            short = number(float(arg))
-        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            short = _vector(arg)
-        words.append(short)
+    named = len(names) == len(question.args)
+    words = [
+        _value(arg) or (names[i] if named else "...")
+        for i, arg in enumerate(question.args)
+    ]
     return f"{question.function}({', '.join(words)})"
+
+
+def in_words(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a question's input as a student can type it, or "" where it is too long.
+
+    Numbers and vectors can be typed; where a matrix is among them, the rest would
+    mislead.
+
+    Args:
+        question: whose arguments.
+        names: theirs, where they are known.
+    """
+    args = question.args
+    if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
+        return ""
+    named = len(names) == len(args) > 1
+    words = [
+        f"{names[i]} = {says}" if named else says
+        for i, arg in enumerate(args)
+        if (says := _value(arg))  # not the robot, or a path along it
+    ]
+    return (", " if named else " and ").join(words)
+
+
+def _value(arg: Any) -> str:
+    """Return a number or a vector as it is typed, "" for anything else."""
+    if isinstance(arg, (int, float)):
+        return number(float(arg))
+    if isinstance(arg, np.ndarray) and arg.ndim == 1:
+        return "(" + ", ".join(number(float(x)) for x in arg) + ")"
+    return ""
+
+
+def number(x: float) -> str:
+    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
+    for over in (1, 2, 3, 4, 6):
+        times = x * over / np.pi
+        if times and times == round(times) and abs(times) <= 2 * over:
+            sign = "-" if times < 0 else ""
+            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
+            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
+    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
 
 
 def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
@@ -166,10 +203,6 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
             name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
             found.append(f"{name} = {_matrix(arg)}")
     return tuple(found)
-
-
-def _vector(values: Array) -> str:
-    return "(" + ", ".join(number(float(x)) for x in values) + ")"
 
 
 def _matrix(values: Array) -> str:

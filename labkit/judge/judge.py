@@ -14,8 +14,6 @@ from labkit.judge.ask import (
     Case,
     HeldOut,
     gaps,
-    held_out_answers,
-    in_words,
     off_by,
     parts,
     right_answers,
@@ -23,7 +21,7 @@ from labkit.judge.ask import (
     worst_part,
 )
 from labkit.judge.compare import as_one, difference, largest, matches
-from labkit.judge.failing import failing_call, for_fresh
+from labkit.judge.failing import failing_call, for_fresh, in_words
 from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
 from robo47.checks import Array
 
@@ -66,7 +64,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
-    T = right_answers(ask, asked.main)
+    T = asked.right
     case = _case(asked, S, T, names)
     measured = _measured(case, S, T)
     off = off_by(ask, S, T)
@@ -95,7 +93,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
         return found
     with np.errstate(all="ignore"):
-        T = right_answers(asked.ask, good)
+        T = rest.right
         if off_by(asked.ask, S, T) <= asked.ask.near:
             return found
         case = _case(rest, S, T, names)
@@ -148,7 +146,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = problems.read(replies(exchanges), ask, "")
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    off = off_by(ask, S, held_out_answers(held, ask, exchanges))
+    off = off_by(ask, S, right_answers(ask, exchanges, held))
     return off <= ask.near if held.mistaken else off > ask.near
 
 
@@ -269,9 +267,10 @@ def named_mistake(
         S: the student's answers: per part, (n, ...).
         T: the right ones, or None where many are right.
     """
+    first = -1 if T is None else int(np.argmax(gaps(ask, S, T)))
     for mistake in mistakes:
         try:
-            again = _made_again(mistake, arguments, ask, S)
+            again = _made_again(mistake, arguments, ask, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
         pairs = list(zip(S, again, ask.kinds, strict=False))
@@ -287,26 +286,22 @@ def named_mistake(
 
 
 def _made_again(
-    mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Parts
+    mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Parts, first: int
 ) -> Parts:
-    """Return the answers with a mistake; none as soon as one is not the student's.
+    """Return the answers with a mistake; none where the first is not the student's.
 
     Raises:
         ValueError: it has no answer to one of the questions.
     """
     redo = mistake.redo
-    if not isinstance(redo, InTurn):
-        return parts(redo(*arguments))
-    pairs = zip(S, ask.kinds, strict=True)
-    scales = [k.scale * max(1.0, largest(s, k.scale)) for s, k in pairs]
-    found: list[Parts] = []
-    for i in reversed(range(len(S[0]))):
-        found.append(parts(redo.nth(i, arguments)))
-        for s, a, scale, k in zip(S, found[-1], scales, ask.kinds, strict=False):
-            one, again = as_one([s[i], a])
-            if not k.fits(a.shape) or not matches(one[None], again[None], scale):
+    if isinstance(redo, InTurn):
+        again = parts(redo.nth(first, arguments))
+        for s, a, kind in zip(S, again, ask.kinds, strict=False):
+            scale = kind.scale * max(1.0, largest(s, kind.scale))
+            mine, its = as_one([s[first], a])
+            if not matches(mine[None], its[None], scale):
                 return ()
-    return tuple(map(as_one, zip(*reversed(found), strict=True)))
+    return parts(redo(*arguments))
 
 
 def redone(

@@ -67,6 +67,32 @@ class Kind:
         pairs = zip(shape, self.shape, strict=False)
         return len(shape) == len(self.shape) and all(n in (m, None) for m, n in pairs)
 
+    def read(self, values: Sequence[object]) -> list[Array] | Finding:
+        """Return answers as arrays, or what keeps one of them from it."""
+        found = []
+        for value in values:
+            try:
+                array = np.asarray(value)
+            except ValueError:  # parts of different shapes
+                some = value if isinstance(value, tuple | list) else ()
+                shapes = ", ".join(str(np.shape(part)) for part in some)
+                says = f"It returns parts of shapes {shapes}"
+                return Finding("shape", f"{says}; expected is {self.expected}.")
+            if array.dtype.kind not in "fiub":
+                says = f"It returns {array.dtype} values; expected is {self.expected}"
+                return Finding("not-numbers", f"{says} of real numbers.")
+            if not self.fits(array.shape):
+                return self._misfit(array.shape)
+            found.append(self.plain(array))
+        return found
+
+    def _misfit(self, got: tuple[int, ...]) -> Finding:
+        text = f"It returns shape {got}; expected is {self.expected}"
+        if None not in self.shape and str(self.shape) not in text.partition(";")[2]:
+            text += f", shape {self.shape}"
+        reason = self.why_shape(got)
+        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
         return answer

@@ -102,11 +102,15 @@ class InTurn:
         Raises:
             ValueError: the function has no answer to one of them.
         """
-        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
-        answers = [self.nth(i, columns) for i in range(n)]
+        answers = self.each(columns)
         if isinstance(answers[0], tuple):
             return tuple(map(as_one, zip(*answers, strict=True)))
         return as_one(answers)
+
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the answers one by one."""
+        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
+        return [self.nth(i, columns) for i in range(n)]
 
     def nth(self, i: int, columns: Sequence[Any]) -> Any:
         """Return the answer to one question; it gets arrays of its own."""

@@ -142,15 +142,8 @@ def read(
         if nothing < len(replies):
             says = f"It returns None for {nothing} of {len(replies)} inputs."
         return Finding("nothing-returned", says)
-    kinds = ask.kinds
-    columns: list[list[Array]] = [[] for _ in kinds]
-    for reply in replies:
-        row = _parts(reply.value, kinds)
-        if isinstance(row, Finding):
-            return row
-        for column, part in zip(columns, row, strict=True):
-            column.append(part)
-    return tuple(map(as_one, columns))
+    columns = _columns(replies, ask.kinds)
+    return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
 def answers(asked: Asked) -> Iterator[Any]:
@@ -159,8 +152,8 @@ def answers(asked: Asked) -> Iterator[Any]:
     Args:
         asked: questions whose replies `read` has read.
     """
-    for reply in replies([*asked.main, *asked.fresh]):
-        row = _parts(reply.value, asked.ask.kinds)
+    columns = _columns(replies([*asked.main, *asked.fresh]), asked.ask.kinds)
+    for row in zip(*columns, strict=True):
         parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
         yield parts[0] if len(parts) == 1 else tuple(parts)
 
@@ -170,19 +163,14 @@ def of_another_size(asked: Asked) -> Finding | None:
     truth, kinds = asked.ask.truth, asked.ask.kinds
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
         return None
-    arguments = stacked(asked.main)
-    for i, exchange in enumerate(asked.main):
-        right, value = (
-            parts(truth.nth(i, arguments)),
-            exchange.reply and exchange.reply.value,
-        )
-        answers: Any = value if len(kinds) > 1 else (value,)
-        for T, S in zip(right, answers, strict=True):
+    right = truth.each(stacked(asked.main))
+    for i, (wanted, reply) in enumerate(zip(right, replies(asked.main), strict=True)):
+        got = reply.value if len(kinds) > 1 else (reply.value,)
+        for T, S in zip(parts(wanted), got, strict=True):
             if np.shape(S) != T.shape:
                 says = f"It returns shape {np.shape(S)} where {T.shape} is right"
-                return Finding(
-                    "shape", f"{says}, in call {i + 1} of {len(asked.main)}."
-                )
+                where = f"in call {i + 1} of {len(asked.main)}"
+                return Finding("shape", f"{says}, {where}.")
     return None
 
 
@@ -272,43 +260,32 @@ def _flat(value: Any) -> Array | None:
     return np.concatenate([np.asarray(v, dtype=np.float64).ravel() for v in some])
 
 
-def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Array, ...] | Finding:
-    """Return one answer's parts, checked."""
-    if len(kinds) == 1:
-        part = _array(value, kinds[0])
-        return part if isinstance(part, Finding) else (part,)
-    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+def _columns(
+    replies: Sequence[Reply], kinds: tuple[Kind, ...]
+) -> list[list[Array]] | Finding:
+    """Return the answers, checked: a list of arrays per part."""
+    columns: list[Any] = [[reply.value for reply in replies]]
+    if len(kinds) > 1:
+        rows = [_parts(value, kinds) for value in columns[0]]
+        if broken := [row for row in rows if isinstance(row, Finding)]:
+            return broken[0]
+        columns = list(zip(*rows, strict=True))
+    found = []
+    for kind, column in zip(kinds, columns, strict=True):
+        part = kind.read(column)
+        if isinstance(part, Finding):
+            called = f"{kind.called or 'One result'}: " if len(kinds) > 1 else ""
+            return Finding(part.slug, called + part.message)
+        found.append(part)
+    return found
+
+
+def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
+    """Return one answer's parts, of a function that returns several."""
     if isinstance(value, np.ndarray) and value.ndim:  # numbers, that travel as one
         value = tuple(value)
-    if not isinstance(value, tuple) or len(value) != len(kinds):
-        got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
-        return Finding("parts", f"It returns {got}; expected are {expected}.")
-    found: list[Array] = []
-    for part, kind in zip(value, kinds, strict=True):
-        array = _array(part, kind)
-        if isinstance(array, Finding):
-            return Finding(
-                array.slug, f"{kind.called or 'One result'}: {array.message}"
-            )
-        found.append(array)
-    return tuple(found)
-
-
-def _array(value: object, kind: Kind) -> Array | Finding:
-    try:
-        array = np.asarray(value)
-    except ValueError:  # parts of different shapes
-        some = value if isinstance(value, tuple | list) else ()
-        shapes = ", ".join(str(np.shape(part)) for part in some)
-        says = f"It returns parts of shapes {shapes}; expected is {kind.expected}."
-        return Finding("shape", says)
-    if array.dtype.kind not in "fiub":
-        says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
-        return Finding("not-numbers", f"{says} numbers.")
-    if not kind.fits(array.shape):
-        text = f"It returns shape {array.shape}; expected is {kind.expected}"
-        if None not in kind.shape and str(kind.shape) not in text.partition(";")[2]:
-            text += f", shape {kind.shape}"
-        reason = kind.why_shape(array.shape)
-        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
-    return kind.plain(array)
+    if isinstance(value, tuple) and len(value) == len(kinds):
+        return value
+    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+    got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
+    return Finding("parts", f"It returns {got}; expected are {expected}.")

@@ -346,17 +346,18 @@ class _Answered(InTurn):
         super().__init__(function)
         self.kinds, self.fault = kinds, fault
 
-    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+    def each(self, columns: Sequence[Any]) -> list[Any]:
         try:
-            answer = super().nth(i, columns)
+            answers = super().each(columns)
         except ValueError as error:
             raise self.fault("truth", error.__cause__ or error) from None
-        found = answer if isinstance(answer, tuple) else (answer,)
-        for one, kind in zip(found, self.kinds, strict=False):
-            if len(found) != len(self.kinds) or not kind.fits(np.shape(one)):
-                says = f"returns shape {np.shape(one)}, and its kind is {kind.expected}"
-                raise self.fault("truth", None, says)
-        return answer
+        parts = [a if isinstance(a, tuple) else (a,) for a in answers]
+        for shapes in {tuple(map(np.shape, some)) for some in parts}:
+            for got, kind in zip(shapes, self.kinds, strict=False):
+                if len(shapes) != len(self.kinds) or not kind.fits(got):
+                    says = f"returns shape {got}, and its kind is {kind.expected}"
+                    raise self.fault("truth", None, says)
+        return answers
 
 
 def _told(accept: Code, fault: Code) -> Code:
