@@ -5,10 +5,10 @@ import numpy as np
 from labkit.base.exchange import Reply
 from labkit.judge.ask import (
     make_round,
-    parts,
     right_answers,
     stacked,
 )
+from labkit.judge.compare import parts
 from labkit.judge.judge import judge
 from labkit.judge.mistake import InTurn
 
@@ -31,7 +31,7 @@ def sizes_of(ask, exchanges):
     if not isinstance(ask.truth, InTurn) or all(None not in k.shape for k in ask.kinds):
         return []
     arguments = stacked(exchanges)
-    each = [parts(ask.truth.nth(i, arguments)) for i in range(len(exchanges))]
+    each = map(parts, ask.truth.each(arguments))
     return [[np.shape(part) for part in one] for one in each]
 
 

@@ -10,9 +10,8 @@ from judged import judged, right, round_of
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question
-from labkit.judge.ask import parts, stacked
-from labkit.judge.compare import difference, matches
-from labkit.judge.judge import off_by
+from labkit.judge.ask import stacked
+from labkit.judge.compare import difference, matches, off_by, parts
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
@@ -51,7 +50,7 @@ def redone(ask):
                 S = parts(mistake.redo(*arguments))
             except (ValueError, np.linalg.LinAlgError):
                 continue  # it has no answer of its own to these; the judge goes on too
-            if off_by(ask, S, T) > ask.near:
+            if off_by(ask.kinds, S, T) > ask.near:
                 found.append((mistake, S))
     return found
 
@@ -130,7 +129,9 @@ def test_an_edge_value_has_one_right_answer(number, name, ask):
             near = [c + off if isinstance(c, np.ndarray) else c for c in columns]
             with contextlib.suppress(Robo47Error):  # there it has no answer at all
                 # Where this fails, the row says at_edge.
-                assert off_by(ask, parts(ask.truth(*near)), first) <= ask.near, call
+                assert off_by(ask.kinds, parts(ask.truth(*near)), first) <= ask.near, (
+                    call
+                )
 
 
 @every

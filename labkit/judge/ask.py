@@ -15,16 +15,14 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question
-from labkit.judge.compare import as_one_size, difference
+from labkit.judge.compare import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-Parts = tuple[Array, ...]
 Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
@@ -187,7 +185,7 @@ class Ask:
         if (self.truth is None) == (self.accept is None):
             raise ValueError("an Ask has either truth or accept")
 
-    @property
+    @cached_property
     def kinds(self) -> tuple[Kind, ...]:
         """The kinds of the answer's parts; one where it is no tuple."""
         return self.kind if isinstance(self.kind, tuple) else (self.kind,)
@@ -331,31 +329,3 @@ def right_answers(
     function = (held and (held.mistaken or held.truth)) or ask.truth
     assert function is not None
     return parts(function(*stacked(exchanges)))
-
-
-def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
-    """Return per call the largest difference of an entry, in units of its scale."""
-    trios = zip(S, T, ask.kinds, strict=True)
-    return np.max(
-        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
-    )
-
-
-def off_by(ask: Ask, S: Parts, T: Parts) -> float:
-    """Return the largest difference of any entry, in units of its scale."""
-    return float(gaps(ask, S, T).max())
-
-
-def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
-    """Return the first part of an answer that is wrong, or the one furthest off."""
-    off = [
-        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
-
-
-def parts(answers: Any) -> tuple[Array, ...]:
-    """Return answers as a tuple of parts, also where there is one."""
-    some = answers if isinstance(answers, tuple) else (answers,)
-    return tuple(np.asarray(part, dtype=np.float64) for part in some)

@@ -8,15 +8,8 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import problems
-from labkit.judge.ask import (
-    Asked,
-    HeldOut,
-    Parts,
-    gaps,
-    right_answers,
-    worst_part,
-)
-from labkit.judge.compare import as_one_size, difference
+from labkit.judge.ask import Asked, HeldOut, right_answers
+from labkit.judge.compare import Parts, as_one_size, difference, gaps, worst_part
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
@@ -81,8 +74,8 @@ def _wrong(
         return None
     main = exchanges is asked.main
     T = asked.right if main else right_answers(ask, exchanges, held)
-    gap = gaps(ask, S, T)
-    i, part = int(np.argmax(gap)), worst_part(ask, S, T)
+    gap = gaps(ask.kinds, S, T)
+    i, part = int(np.argmax(gap)), worst_part(ask.kinds, S, T, ask.near)
     if gap[i] <= ask.tolerance:
         return None
     mine, its = (some[i] for some in as_one_size(S[part], T[part]))
@@ -125,7 +118,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask, S, T) > asked.ask.near
+    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not come from the inputs.")

@@ -108,14 +108,18 @@ class InTurn:
         return as_one(answers)
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
-        """Return the answers one by one."""
+        """Return the answers one by one; every call gets arrays of its own."""
         n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
-        return [self.nth(i, columns) for i in range(n)]
-
-    def nth(self, i: int, columns: Sequence[Any]) -> Any:
-        """Return the answer to one question; it gets arrays of its own."""
-        args = [_own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+        calls = [
+            [_own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+            for i in range(n)
+        ]
         try:
-            return self.function(*args)
+            return [self.function(*args) for args in calls]
         except Exception as error:  # a mistake may stop, as a student's may
             raise ValueError(str(error)) from error
+
+    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+        """Return the answer to one question."""
+        one = [c[[i]] if isinstance(c, np.ndarray) else c for c in columns]
+        return self.each(one)[0]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Reply, replies
-from labkit.judge.ask import Ask, Asked, parts, stacked
-from labkit.judge.compare import as_one
+from labkit.judge.ask import Ask, Asked, stacked
+from labkit.judge.compare import Parts, as_one, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, InTurn, Verdict
 from labkit.lesson.starter import function_lines
@@ -123,9 +123,7 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why
 
 
-def read(
-    replies: Sequence[Reply], ask: Ask, source: str
-) -> tuple[Array, ...] | Finding:
+def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
     """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
 
     Args:
