@@ -109,30 +109,13 @@ def as_json(report: Report) -> dict[str, Any]:
         of a task also "follows" and "call".
     """
     tasks = [
-        {
-            "id": result.task.id,
-            "kind": "task",
-            "title": result.task.title,
-            "status": result.verdict.status,
-            "mistake": result.verdict.mistake,
-            "message": result.verdict.message,
-            "follows": result.verdict.follows,
-            "call": result.verdict.call,
-            "measured": list(result.verdict.measured),
-        }
+        _entry("task", result.task.id, result.task.title, result.verdict)
+        | {"follows": result.verdict.follows, "call": result.verdict.call}
         for result in report.tasks
     ]
     items = [
-        {
-            "id": item.name,
-            "kind": "deliverable",
-            "title": item.name,
-            "status": item.status,
-            "mistake": "",
-            "message": item.message,
-            "measured": [],
-        }
-        for item in report.items
+        _entry("deliverable", i.name, i.name, Verdict(i.status, message=i.message))
+        for i in report.items
     ]
     return {
         "day": report.day.number,
@@ -142,6 +125,18 @@ def as_json(report: Report) -> dict[str, Any]:
         "problem": report.problem,
         "next": report.next_step(),
         "entries": tasks + items,
+    }
+
+
+def _entry(kind: str, name: str, title: str, verdict: Verdict) -> dict[str, Any]:
+    return {
+        "id": name,
+        "kind": kind,
+        "title": title,
+        "status": verdict.status,
+        "mistake": verdict.mistake,
+        "message": verdict.message,
+        "measured": list(verdict.measured),
     }
 
 

@@ -88,17 +88,6 @@ class HeldOut:
 
 
 @dataclass(frozen=True)
-class Probe:
-    """Questions whose replies only help to say where a wrong answer goes wrong.
-
-    Attributes:
-        inputs: as those of `Ask`; replies may be errors.
-    """
-
-    inputs: Inputs
-
-
-@dataclass(frozen=True)
 class Slip:
     """A slip that ends in an exception whose own text does not help.
 
@@ -156,7 +145,8 @@ class Ask:
         tolerance: an answer is right up to this, in units of its kind's scale.
         near: and nearly right up to this.
         held_out: further questions to a right function.
-        probe: further questions that help a wrong one.
+        probe: inputs of further questions, whose replies only help to say where a wrong
+            answer goes wrong; they may be errors.
         unnamed: says where an answer that no named mistake gives goes wrong.
         near_miss: says why an answer is right to some digits only.
         measured: adds lines for --explain.
@@ -173,7 +163,7 @@ class Ask:
     tolerance: float = 1e-8
     near: float = 1e-4
     held_out: Sequence[HeldOut] = ()
-    probe: Probe | None = None
+    probe: Inputs | None = None
     unnamed: Callable[[Case], Finding | None] | None = None
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None
@@ -278,7 +268,7 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
         exchanges(ask.main),
         exchanges([*ask.edges, *ask.drawn(anew)]),
         [further(held.inputs) for held in ask.held_out],
-        further(ask.probe.inputs) if ask.probe else [],
+        further(ask.probe) if ask.probe else [],
     )
 
 
@@ -299,11 +289,19 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     return tuple(_column(column, one and not alone) for column, one in pairs)
 
 
+def as_plain(arg: Any) -> Any:
+    """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
+    return (
+        arg.model
+        if isinstance(arg, Robot)
+        else arg.pairs
+        if isinstance(arg, Path)
+        else arg
+    )
+
+
 def _column(column: tuple[Any, ...], shared: bool) -> Any:
-    plain = [
-        a.model if isinstance(a, Robot) else a.pairs if isinstance(a, Path) else a
-        for a in column
-    ]
+    plain = list(map(as_plain, column))
     special = isinstance(column[0], Robot | Path)
     if special and shared:
         return plain[0]

@@ -84,6 +84,17 @@ def plain(some: Parts) -> Any:
     return some[0] if len(some) == 1 else some
 
 
+def flat(answer: Any) -> Array | None:
+    """Return all numbers of one answer, (n,); None where it is none."""
+    if answer is None:
+        return None
+    some = answer if isinstance(answer, tuple) else (answer,)
+    try:
+        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
+    except (TypeError, ValueError):
+        return None
+
+
 def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
     trios = zip(S, T, kinds, strict=True)
@@ -139,13 +150,8 @@ def say_degrees(deg: float) -> str:
 def _say(value: float, unit: str, least: float) -> str:
     if value < least:
         return "0"
-    return (
-        f"{value:.0f} {unit}" if value >= 200 else f"{value:.{_digits(value)}f} {unit}"
-    )
-
-
-def _digits(value: float) -> int:
-    return 1 if value >= 10 else 2
+    digits = 0 if value >= 200 else 1 if value >= 10 else 2
+    return f"{value:.{digits}f} {unit}"
 
 
 def say_value(value: float, unit: str, scale: float, entry: str) -> str:

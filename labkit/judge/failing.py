@@ -10,7 +10,7 @@ from labkit.base.exchange import Exchange, Question
 from labkit.judge import problems
 from labkit.judge.ask import Asked, HeldOut, right_answers
 from labkit.judge.compare import Parts, as_one_size, difference, gaps, worst_part
-from labkit.judge.mistake import Finding
+from labkit.judge.mistake import Finding, own
 from robo47.checks import Array
 
 
@@ -94,14 +94,10 @@ def _wrong(
 def _refused(asked: Asked, names: Sequence[str]) -> Failing:
     """Return the first call that a function with many right answers got wrong."""
     ask = asked.ask
-    accept = ask.accept
-    for one in [*asked.main, *asked.fresh] if accept else []:
-        args = [
-            np.copy(a) if isinstance(a, np.ndarray) else a for a in one.question.args
-        ]
+    for one in [*asked.main, *asked.fresh] if ask.accept else []:
         if not one.reply or isinstance(problems.read([one.reply], ask, ""), Finding):
             continue
-        if accept and accept(*args, one.reply.value):
+        if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
             yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
             says = f"{typed(one.question, names)} is such a call."
             return Failing(says, _given(one.question, names) + yours)

@@ -22,7 +22,7 @@ from labkit.judge.compare import (
     worst_part,
 )
 from labkit.judge.failing import failing_call, for_fresh, in_words
-from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
+from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised, own
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -159,8 +159,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
     wrong: list[tuple[Question, Finding]] = []
     for question, answer in zip(questions, problems.answers(asked), strict=True):
-        args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
-        if why := ask.accept(*args, answer):
+        if why := ask.accept(*map(own, question.args), answer):
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((question, found))
     if not wrong:

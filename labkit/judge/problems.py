@@ -9,7 +9,7 @@ import numpy as np
 
 from labkit.base.exchange import Reply, replies
 from labkit.judge.ask import Ask, Asked, stacked
-from labkit.judge.compare import Parts, as_one, parts
+from labkit.judge.compare import Parts, as_one, flat, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, InTurn, Verdict
 from labkit.lesson.starter import function_lines
@@ -244,18 +244,11 @@ def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Findi
 def _differs(reply: Reply) -> bool:
     if reply.kind or reply.again_error:  # stopped once, and not the other time
         return bool(reply.again_error) or reply.again is not None
-    first, second = _flat(reply.value), _flat(reply.again)
+    first, second = flat(reply.value), flat(reply.again)
     if first is None or second is None or first.shape != second.shape:
         return not (first is None and second is None)
     scale = max(1.0, float(np.abs(first[np.isfinite(first)]).max(initial=0.0)))
     return not np.allclose(first, second, rtol=0.0, atol=SAME * scale, equal_nan=True)
-
-
-def _flat(value: Any) -> Array | None:
-    if value is None:
-        return None
-    some = value if isinstance(value, tuple) else (value,)
-    return np.concatenate([np.asarray(v, dtype=np.float64).ravel() for v in some])
 
 
 def _columns(

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from labkit.judge.compare import rigid, say_factor
+from labkit.judge.compare import flat, rigid, say_factor
+from labkit.judge.mistake import own
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
@@ -137,7 +138,7 @@ def growth(before: Sequence[Any], after: Sequence[Any], near: float) -> float | 
         after: the same calls' with an argument doubled.
         near: how far off a right answer may be, relative to its largest entry.
     """
-    pairs = [(_flat(b), _flat(a)) for b, a in zip(before, after, strict=True)]
+    pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
     whole = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
     if len(whole) < AGREE or any(b.shape != a.shape for b, a in whole):
         return None
@@ -228,10 +229,10 @@ def _right(
     agree, different = 0, False
     first: Array | None = None
     for call, answer in zip(calls, given, strict=True):
-        right = _flat(_or_none(truth, call))
+        right = flat(_or_none(truth, call))
         if right is None or not np.isfinite(right).all():
             continue  # the question has no answer: it says nothing
-        mine = _flat(answer)
+        mine = flat(answer)
         if mine is None or mine.shape != right.shape:
             return False
         scale = max(1.0, float(np.abs(right).max(initial=0.0)))
@@ -259,20 +260,8 @@ def _share_right(
 
 
 def _or_none(function: Callable[..., Any], call: Call) -> Any:
-    copies = (np.copy(x) if isinstance(x, np.ndarray) else x for x in call)
     try:
         with np.errstate(all="ignore"):
-            return function(*copies)
+            return function(*map(own, call))
     except Exception:  # a singular matrix, say
         return None
-
-
-def _flat(answer: Any) -> Array | None:
-    if answer is None:
-        return None
-    some = answer if isinstance(answer, tuple) else (answer,)
-    try:
-        parts = [np.asarray(part, dtype=np.float64).ravel() for part in some]
-    except (TypeError, ValueError):
-        return None
-    return np.concatenate(parts)

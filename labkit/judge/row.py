@@ -264,7 +264,7 @@ class Row:
         if "accept" in more:
             more["accept"] = _told(more["accept"], self._fault)
         named = lambda: [  # noqa: E731 (made when an answer is wrong)
-            Mistake(way.slug, way.says, InTurn(way.code), way.redone, way.reached)
+            Mistake(way.slug, way.says, InTurn(way.code), way.redone)
             for way in self.named
         ]
         return Ask(
