@@ -82,14 +82,6 @@ def test_memory_that_is_shared_never_passes(shares, slug):
     assert (verdict.status, verdict.mistake) == ("wrong", slug)
 
 
-def test_answers_looked_up_fail_at_fresh_inputs():
-    ask = Ask(lambda rng: [(x,) for x in rng.uniform(size=5)], Scalar(), truth=np.sin)
-    asked = round_of(ask)
-    answered(asked.main, replies_of(right(ask)[0]))
-    answered(asked.fresh, replies_of(np.full(len(asked.fresh), 9.0)))
-    assert judge(asked).mistake == "looked-up"
-
-
 def test_a_held_out_question_tells_how_an_answer_came_about():
     held = HeldOut("by-halves", "Only half.", lambda rng: [(8.0,)], mistaken=np.sqrt)
     ask = Ask(

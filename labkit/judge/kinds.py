@@ -200,14 +200,16 @@ class _Halves(Kind):
         )
         if found := one_factor(self, S, T):
             return found
-        if first <= NEAR:
-            says = f"{self.halves[0]} is right; {self.halves[1]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("second-half-off", says)
-        if second <= NEAR:
-            says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("first-half-off", says)
+        for right, wrong, off, slug in (
+            (0, 1, first, "second"),
+            (1, 0, second, "first"),
+        ):
+            if off <= NEAR:
+                says = (
+                    f"{self.halves[right]} is right; {self.halves[wrong]} is not: off"
+                )
+                says = f"{capitalised(says)} by up to {self.apart(S, T)}."
+                return Finding(f"{slug}-half-off", says)
         return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
 
 

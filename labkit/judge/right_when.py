@@ -21,13 +21,6 @@ OTHERS = 12  # of them are asked
 Call = tuple[Any, ...]
 
 
-class Neutral(NamedTuple):
-    """A neutral value of an argument: what it is called, and the value itself."""
-
-    says: str  # "{} is 0"
-    value: Any
-
-
 class Experiment(NamedTuple):
     """Calls in which one argument is neutral.
 
@@ -42,40 +35,38 @@ class Experiment(NamedTuple):
     calls: list[Call]
 
 
-def neutrals(x: Any) -> Iterator[Neutral]:
-    """Yield the neutral values of an argument, the most telling first.
+def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the neutral values of an argument in words, the most telling first.
 
     Args:
         x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
     """
     if isinstance(x, float) and not isinstance(x, bool):
-        yield Neutral("{} is 0", 0.0)
-        yield Neutral("{} is 1", 1.0)
+        yield "{} is 0", 0.0
+        yield "{} is 1", 1.0
     elif isinstance(x, np.ndarray) and x.ndim == 1 and len(x) > 1:
-        yield Neutral("{} is 0", np.zeros_like(x))
-        yield Neutral("all entries of {} are equal", np.full_like(x, x[0]))
+        yield "{} is 0", np.zeros_like(x)
+        yield "all entries of {} are equal", np.full_like(x, x[0])
         one = np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0)
-        yield Neutral("only one entry of {} is not 0", one)
+        yield "only one entry of {} is not 0", one
     elif isinstance(x, np.ndarray) and x.ndim == 2:
         yield from _of_a_matrix(x)
 
 
-def _of_a_matrix(x: Array) -> Iterator[Neutral]:
+def _of_a_matrix(x: Array) -> Iterator[tuple[str, Array]]:
     if x.shape == (4, 4) and rigid(x[None]):
         turned, moved = x.copy(), x.copy()
         turned[:3, 3], moved[:3, :3] = 0.0, np.eye(3)
-        yield Neutral("{} does not translate", turned)
-        yield Neutral("{} does not rotate", moved)
+        yield "{} does not translate", turned
+        yield "{} does not rotate", moved
     elif x.shape == (3, 3) and rigid(x[None]):
-        yield Neutral("{} is the identity", np.eye(3))
+        yield "{} is the identity", np.eye(3)
     elif x.shape[0] == x.shape[1]:
-        yield Neutral("{} is diagonal", np.diag(np.diag(x)))
-        yield Neutral("{} is the identity", np.eye(len(x)))
-        yield Neutral("{} is 0", np.zeros_like(x))
+        yield "{} is diagonal", np.diag(np.diag(x))
+        yield "{} is the identity", np.eye(len(x))
+        yield "{} is 0", np.zeros_like(x)
     else:
-        one = np.zeros_like(x)
-        one[:, 0] = x[:, 0]
-        yield Neutral("only the first column of {} is not 0", one)
+        yield "only the first column of {} is not 0", x * (np.arange(x.shape[1]) == 0)
 
 
 def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
@@ -88,20 +79,13 @@ def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]
     some = _asked_again(calls, names)
     found = []
     for k, name in enumerate(names if some else ()):
-        columns = [list(neutrals(call[k])) for call in some]
-        for choices in zip(*columns, strict=False):
-            if len({choice.says for choice in choices}) == 1:
-                changed = [
-                    (*call[:k], choice.value, *call[k + 1 :])
-                    for call, choice in zip(some, choices, strict=True)
-                ]
-                count = np.mean(
-                    [np.sum(np.not_equal(c.value, call[k])) for c, call in
-                     zip(choices, some, strict=True)]
-                )  # fmt: skip
-                if count:
-                    says = choices[0].says.format(name)
-                    found.append(Experiment(says, float(count), changed))
+        for choices in zip(*(neutrals(call[k]) for call in some), strict=False):
+            says, values = zip(*choices, strict=True)
+            pairs = list(zip(some, values, strict=True))
+            count = np.mean([np.sum(np.not_equal(call[k], v)) for call, v in pairs])
+            if len(set(says)) == 1 and count:
+                changed = [(*call[:k], v, *call[k + 1 :]) for call, v in pairs]
+                found.append(Experiment(says[0].format(name), float(count), changed))
     return found
 
 
@@ -200,8 +184,13 @@ def conclude(
     telling = []
     for i, (one, given) in enumerate(zip(asked, answers, strict=True)):
         if _right(one.calls, given, truth, near):
-            share = _share_right(one.calls, others, truth, near)
-            if share <= COMMON:
+            right = [
+                _right(
+                    one.calls, [_or_none(o, call) for call in one.calls], truth, near
+                )
+                for o in list(others)[:OTHERS]
+            ]
+            if (share := sum(right) / max(1, len(right))) <= COMMON:
                 telling.append((share, one.changed, i))
     says: list[str] = []
     seen: set[str] = set()
@@ -242,21 +231,6 @@ def _right(
         first = right if first is None else first
         different = different or not np.allclose(right, first)
     return agree >= AGREE and different
-
-
-def _share_right(
-    calls: Sequence[Call],
-    others: Sequence[Callable[..., Any]],
-    truth: Callable[..., Any],
-    near: float,
-) -> float:
-    """Return which share of other wrong functions is right at the same calls."""
-    some = list(others)[:OTHERS]
-    right = [
-        _right(calls, [_or_none(one, call) for call in calls], truth, near)
-        for one in some
-    ]
-    return sum(right) / len(right) if right else 0.0
 
 
 def _or_none(function: Callable[..., Any], call: Call) -> Any:
