@@ -81,7 +81,8 @@ class Report:
         for result in self.left:
             if not result.task.optional:
                 task = result.task
-                return f"{_named(task)}. Stuck? make hint TASK={task.id}"
+                named = f"task {task.id}, {' and '.join(task.functions)}"
+                return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
                 return f"the {item.name}."
@@ -91,10 +92,6 @@ class Report:
             says = "nothing is left to do here. Well done. Your numbers: make report; "
             return f"{says}then: {then}."
         return f"the whole day: make check DAY={self.day.number}"
-
-
-def _named(task: Task) -> str:
-    return f"task {task.id}, {' and '.join(task.functions)}"
 
 
 def as_json(report: Report) -> dict[str, Any]:

@@ -182,9 +182,8 @@ class Ask:
 
     @cached_property
     def named(self) -> list[Mistake]:
-        """The named mistakes, then those that any answer of the kind can have."""
-        own = self.mistakes() if callable(self.mistakes) else self.mistakes
-        return list(own)
+        """The named mistakes."""
+        return list(self.mistakes() if callable(self.mistakes) else self.mistakes)
 
     @cached_property
     def main(self) -> list[tuple[Any, ...]]:

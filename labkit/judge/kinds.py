@@ -128,9 +128,7 @@ class Kind:
 class Scalar(Kind):
     """One number. `Scalar(unit="J", scale=10.0)`."""
 
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "one number"
+    expected = "one number"
 
 
 @dataclass(frozen=True)
@@ -194,22 +192,13 @@ class _Halves(Kind):
         )
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        first, second = (
-            float((np.abs(S - T) / self.scale)[:, half].max())
-            for half in (slice(0, 3), slice(3, 6))
-        )
+        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
         if found := one_factor(self, S, T):
             return found
-        for right, wrong, off, slug in (
-            (0, 1, first, "second"),
-            (1, 0, second, "first"),
-        ):
-            if off <= NEAR:
-                says = (
-                    f"{self.halves[right]} is right; {self.halves[wrong]} is not: off"
-                )
-                says = f"{capitalised(says)} by up to {self.apart(S, T)}."
-                return Finding(f"{slug}-half-off", says)
+        for i, slug in enumerate(("second-half-off", "first-half-off")):
+            if off[i] <= NEAR:
+                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
+                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
         return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
 
 

@@ -184,12 +184,8 @@ def conclude(
     telling = []
     for i, (one, given) in enumerate(zip(asked, answers, strict=True)):
         if _right(one.calls, given, truth, near):
-            right = [
-                _right(
-                    one.calls, [_or_none(o, call) for call in one.calls], truth, near
-                )
-                for o in list(others)[:OTHERS]
-            ]
+            said = [[_or_none(o, call) for call in one.calls] for o in others[:OTHERS]]
+            right = [_right(one.calls, those, truth, near) for those in said]
             if (share := sum(right) / max(1, len(right))) <= COMMON:
                 telling.append((share, one.changed, i))
     says: list[str] = []

@@ -255,21 +255,18 @@ class Row:
         if self._draw is None:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
-        if "held_out" in more:
-            more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
-        kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
-        truth = None
-        if "accept" not in more:
-            truth = _Answered(self.truth, kinds, self._fault)
+        more["held_out"] = [_one_by_one(held) for held in more.get("held_out", ())]
         if "accept" in more:
             more["accept"] = _told(more["accept"], self._fault)
-        named = lambda: [  # noqa: E731 (made when an answer is wrong)
-            Mistake(way.slug, way.says, InTurn(way.code), way.redone)
-            for way in self.named
-        ]
-        return Ask(
-            self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
-        )
+        else:
+            kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+            more["truth"] = _Answered(self.truth, kinds, self._fault)
+
+        def named() -> list[Mistake]:  # made when an answer is wrong
+            ways = self.named
+            return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
+
+        return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
 
     def _fault(
         self, what: str, error: BaseException | None, says: str = ""
