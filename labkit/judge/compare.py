@@ -84,17 +84,6 @@ def plain(some: Parts) -> Any:
     return some[0] if len(some) == 1 else some
 
 
-def flat(answer: Any) -> Array | None:
-    """Return all numbers of one answer, (n,); None where it is none."""
-    if answer is None:
-        return None
-    some = answer if isinstance(answer, tuple) else (answer,)
-    try:
-        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
-    except (TypeError, ValueError):
-        return None
-
-
 def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
     trios = zip(S, T, kinds, strict=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from labkit.base.exchange import Reply, replies
 from labkit.judge.ask import Ask, Asked, stacked
-from labkit.judge.compare import Parts, as_one, flat, parts
+from labkit.judge.compare import Parts, as_one, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, InTurn, Verdict
 from labkit.lesson.starter import function_lines
@@ -249,6 +249,17 @@ def _differs(reply: Reply) -> bool:
         return not (first is None and second is None)
     scale = max(1.0, float(np.abs(first[np.isfinite(first)]).max(initial=0.0)))
     return not np.allclose(first, second, rtol=0.0, atol=SAME * scale, equal_nan=True)
+
+
+def flat(answer: Any) -> Array | None:
+    """Return all numbers of one answer, (n,); None where it is none."""
+    if answer is None:
+        return None
+    some = answer if isinstance(answer, tuple) else (answer,)
+    try:
+        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
+    except (TypeError, ValueError):
+        return None
 
 
 def _columns(

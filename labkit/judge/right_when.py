@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from labkit.judge.compare import flat, rigid, say_factor
+from labkit.judge.compare import rigid, say_factor
 from labkit.judge.mistake import own
+from labkit.judge.problems import flat
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
