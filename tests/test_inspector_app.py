@@ -39,7 +39,6 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
-        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
         draw.arrows([[[0, 0, 0], [0, 0, 1]]])
@@ -209,7 +208,7 @@ def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
 
 
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
-    monkeypatch.setattr("labkit.inspector.history.SECONDS", 20.0)
+    monkeypatch.setattr("labkit.inspector.app.DRAG", 20.0)
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
         say((joint(page, 0), float(x)))
@@ -244,7 +243,6 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
 
 
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
-    from labkit.inspector.app import Meshes
     from labkit.inspector.serve import on_loop
     from labkit.inspector.shapes import Shape
 
@@ -253,8 +251,7 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     noisy.ghost.pose({"link1": np.eye(4)})
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
-    meshes = Meshes([triangle], ghosts=True)
-    on_loop(page.server, lambda: page.dress(page.arm.model, meshes))
+    on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
     assert page.opened.tab is noisy
     assert set(page.panel._children()) == before
     assert len(noisy.ghost.meshes) == 1
@@ -339,6 +336,21 @@ def test_the_students_poses_are_judged_in_their_name(page):
     assert "robo47.kinematics" in contents(page)
 
 
+def test_a_page_without_a_file_asks_once_and_rests(page):
+    from labkit.inspector.serve import on_loop
+
+    asked = []
+    soon = page.on_loop(page.hear)
+    page.student = SimpleNamespace(want=lambda q: (asked.append(q), soon(None)))
+    on_loop(page.server, page.ask)
+    time.sleep(0.3)
+    settle(page)
+    assert len(asked) == 1
+    on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
+    settle(page)
+    assert len(asked) == 2
+
+
 def test_a_call_from_another_thread_reaches_the_event_loop(page):
     names = []
     done = threading.Event()
@@ -377,16 +389,6 @@ def test_the_order_tab_says_what_the_lab_says(server):
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
         on_loop(server, page.opened.leave)
-
-
-def test_an_image_of_depths_goes_from_black_to_white():
-    from labkit.inspector.widgets import as_bytes
-
-    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
-    assert shown.shape == (2, 2, 3)
-    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
-    colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
-    assert as_bytes(colours) is colours
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])

@@ -81,8 +81,8 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
     """Return how the student's arm differs from MuJoCo's.
 
     Args:
-        ghost: whose function.
-        seen: its poses.
+        ghost: whose function gave the poses in `seen`.
+        seen: what it said.
         truth: {short name: MuJoCo's pose (4, 4)}, of the same configuration.
     """
     whose = f"YOUR {ghost.function}"
@@ -129,12 +129,9 @@ def is_rigid(T: Array) -> bool:
 
 
 def nearest_pose(T: Array) -> Array:
-    """Return the rigid transform nearest to a matrix, for drawing it.
+    """Return the rigid transform nearest to a finite matrix, (4, 4), for drawing it.
 
     The rotation is the nearest in the least-squares sense (Kabsch 1976).
-
-    Args:
-        T: finite, (4, 4).
     """
     U, _, Vt = np.linalg.svd(T[:3, :3])
     U[:, 2] *= np.sign(np.linalg.det(U @ Vt)) or 1.0
@@ -144,12 +141,7 @@ def nearest_pose(T: Array) -> Array:
 
 
 def no_pose(function: str, value: Any) -> str:
-    """Return why a value cannot be drawn as a pose; "" where it can.
-
-    Args:
-        function: whose value.
-        value: as the sandbox gives it.
-    """
+    """Return why a function's value cannot be drawn as a pose; "" where it can."""
     if not isinstance(value, np.ndarray):
         got = "nothing" if value is None else type(value).__name__
         return f"{function} returned {got}; a pose is an array of shape (4, 4)."

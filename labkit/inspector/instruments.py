@@ -75,7 +75,6 @@ class Plot:
         self,
         gui: viser.GuiApi,
         curves: Sequence[str],
-        x: str,
         y: str,
         height: int,
         least: float,
@@ -83,7 +82,7 @@ class Plot:
         """Start empty; see `Page.plot`."""
         self.count, self.least = len(curves), least
         self.points: list[list[float]] = []
-        series = [uplot.Series(label=x)] + [
+        series = [uplot.Series(label="t (s)")] + [
             uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)
             for i, name in enumerate(curves)
         ]

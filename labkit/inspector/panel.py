@@ -8,8 +8,8 @@ from labkit.inspector import words
 from labkit.inspector.arm import Arm
 from labkit.inspector.checks import Standing
 from labkit.inspector.ghost import Difference, Seen
+from labkit.inspector.guard import TITLE
 
-TITLE = "robo47 inspector"
 LAST = 1e15  # below whatever a tab adds
 
 
@@ -17,13 +17,7 @@ class Panel:
     """What stands above the open tab."""
 
     def __init__(self, gui: viser.GuiApi, arm: Arm, about: str) -> None:
-        """Put the panel at the top of the page.
-
-        Args:
-            gui: the page's sidebar.
-            arm: what the numbers are of.
-            about: what to say of the robot, below all; "" for nothing.
-        """
+        """Put the panel at the top of the page; what `about` says stands below all."""
         self.gui, self.arm = gui, arm
         self.no_file = ""
         gui.set_panel_label(TITLE)

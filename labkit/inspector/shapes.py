@@ -16,6 +16,7 @@ from robo47 import se3
 from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
+WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
 Faces = NDArray[np.int32]
 Rgba = tuple[float, float, float, float]
 
@@ -55,6 +56,11 @@ def shapes(
                 key = body, _colour(model, geom)
                 parts.setdefault(key, []).append((placed, faces))
     return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
+
+
+def simple_links(model: mujoco.MjModel) -> list[Shape]:
+    """Return the shapes that a model collides with, in the colour of the links."""
+    return [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
 
 
 def thinned(shape: Shape, grid: float) -> Shape:

@@ -33,19 +33,11 @@ class Tab:
     camera: View = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
 
     def __init__(self, page: "Page") -> None:
-        """Open the tab: make its widgets and drawings.
-
-        Args:
-            page: what it makes them with.
-        """
+        """Open the tab: make its widgets and drawings."""
         self.page = page
 
     def on_move(self, q: Array) -> None:
-        """Show the configuration that the arm has now.
-
-        Args:
-            q: radians and metres, (nq,).
-        """
+        """Show the configuration that the arm has now; radians and metres, (nq,)."""
 
     def lost(self) -> None:
         """Show no numbers: the student's function gave none."""
@@ -83,17 +75,12 @@ class Opened:
         self.tab: Tab | None = None
         self.page: Page | None = None
 
-    def enter(self, title: str, page: "Page") -> None:
-        """Open a tab.
-
-        Args:
-            title: a key of `kinds`.
-            page: what it makes its widgets and drawings with.
-        """
-        self.kind, self.page = self.kinds[title], page
+    def enter(self, kind: type[Tab], page: "Page") -> None:
+        """Open a tab, with what it makes its widgets and drawings with."""
+        self.kind, self.page = kind, page
 
         def make() -> None:
-            self.tab = self.kind(page)
+            self.tab = kind(page)
 
         self.guarded(make)
         self.tell(page.q)
@@ -126,9 +113,6 @@ class Opened:
 def day_tabs(day: Day) -> DayTabs:
     """Return what the `inspector.py` of a day's folder brings; nothing where none is.
 
-    Args:
-        day: from its manifest.
-
     Raises:
         Robo47Error: it does not load, or TABS and GHOST are not what they should be.
     """
@@ -138,9 +122,8 @@ def day_tabs(day: Day) -> DayTabs:
     try:
         module = folder.load(day, FILE)
     except Exception as error:
-        raise Robo47Error(
-            f"{where} does not load: {type(error).__name__}: {error}"
-        ) from error
+        why = f"{type(error).__name__}: {error}"
+        raise Robo47Error(f"{where} does not load: {why}") from error
     ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
     if not isinstance(tabs, list | tuple):
         raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")
