@@ -98,7 +98,7 @@ def page(server):
     made = on_loop(server, lambda: Inspector(server, arm, "a robot", day))
     server.door.receive = made.receive
     yield made
-    on_loop(server, made.opened.leave)
+    on_loop(server, made.leave)
 
 
 BROWSER = 7  # the number of one that is connected
@@ -150,7 +150,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i]
+    return page.tab.sliders[i]
 
 
 def contents(page):
@@ -179,7 +179,7 @@ READY = "0, -pi/4, 0, -2.356, 0, 1.571, 0.785"
 
 
 def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say):
-    box = page.opened.tab.box
+    box = page.tab.box
     say((box, READY))
     assert page.arm.q[1] == -np.pi / 4
     assert joint(page, 1).value == -np.pi / 4
@@ -193,7 +193,7 @@ def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say
 
 
 def test_the_exact_configuration_can_be_copied(page, say):
-    say((page.opened.tab.box, READY))
+    say((page.tab.box, READY))
     assert repr(-np.pi / 4) in contents(page)
     assert repr(-np.pi / 4) in page.panel.state.content
 
@@ -202,9 +202,9 @@ def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
     say(("go", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
     np.testing.assert_array_equal(page.arm.q, [0.1, 0.2, 0.3, -1, 0.5, 0.6, 0.7])
     assert page.panel.frame.value == "link4"
-    assert page.opened.kind.title == "Chain"
+    assert page.kind.title == "Chain"
     say(("go", "?q=1,2&frame=nope&tab=nope"))
-    assert page.opened.kind.title == "Chain"
+    assert page.kind.title == "Chain"
 
 
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
@@ -212,7 +212,7 @@ def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
         say((joint(page, 0), float(x)))
-    say((page.opened.tab.buttons, "undo"))
+    say((page.tab.buttons, "undo"))
     np.testing.assert_array_equal(page.arm.q, start)
 
 
@@ -238,7 +238,7 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
     say(tab("Noisy"))
     noisy, before = Noisy.last, set(page.panel._children())
     say((joint(page, 0), 0.3), (joint(page, 0), "none"), tab("Noisy"))
-    assert page.opened.tab is noisy
+    assert page.tab is noisy
     assert set(page.panel._children()) == before
 
 
@@ -252,7 +252,7 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
     on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
-    assert page.opened.tab is noisy
+    assert page.tab is noisy
     assert set(page.panel._children()) == before
     assert len(noisy.ghost.meshes) == 1
     assert noisy.ghost.bodies["link1"].visible
@@ -311,7 +311,7 @@ def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
 def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
     say(tab("Chain"))
     assert len(page.arm.steps()) == 16
-    say((page.opened.tab.buttons, "next"))
+    say((page.tab.buttons, "next"))
     assert "factor 4 of 16, T_link1_link2" in contents(page)
     assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
     say(tab("Joints"))
@@ -388,7 +388,7 @@ def test_the_order_tab_says_what_the_lab_says(server):
     apart = np.linalg.norm((T @ x - x @ T)[:3, 3])
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
-        on_loop(server, page.opened.leave)
+        on_loop(server, page.leave)
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])
@@ -402,9 +402,7 @@ def test_a_click_that_no_browser_makes_meets_nothing(page, start, way):
 def test_a_text_that_is_far_too_long_is_answered_at_once(page, say):
     before = page.arm.q.copy()
     started = time.monotonic()
-    say(
-        (page.opened.tab.box, "9, " * 1_000_000), (page.opened.tab.box, "(" * 1_000_000)
-    )
+    say((page.tab.box, "9, " * 1_000_000), (page.tab.box, "(" * 1_000_000))
     assert time.monotonic() - started < SECONDS
     np.testing.assert_array_equal(page.arm.q, before)
 
@@ -446,10 +444,10 @@ def test_every_tab_of_every_day_opens_moves_and_closes(server, number):
     arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
     day = day_tabs(find_day(number))
     page = on_loop(server, lambda: Inspector(server, arm, "", day, simple=True))
-    for title in page.opened.kinds:
+    for title in page.kinds:
         on_loop(server, lambda title=title: page.open_tab(title))
         on_loop(server, lambda: page.move(page.arm.q + 0.01))
         settle(page)
-        assert page.opened.kind.title == title
+        assert page.kind.title == title
         assert "stopped with" not in contents(page)
-    on_loop(server, page.opened.leave)
+    on_loop(server, page.leave)

@@ -28,7 +28,7 @@ from labkit.inspector.pointed import Pointed
 from labkit.inspector.scene import GHOST_COLOUR, ArmScene
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
-from labkit.inspector.tab import DayTabs, Opened
+from labkit.inspector.tab import DayTabs, Tab
 from robo47.checks import Array, array
 
 PERIOD = 1 / 60
@@ -70,7 +70,11 @@ class Inspector:
         self.apart: Difference | None = None
         self.panel = Panel(server.gui, arm, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
-        self.opened = Opened([Joints, Chain, *day.tabs, Tasks])
+        tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
+        self.kinds = {kind.title: kind for kind in tabs}
+        self.kind: type[Tab] = Joints  # of the open tab
+        self.tab: Tab | None = None  # the open one; None where it failed to open
+        self.page: Page | None = None  # what it made its widgets with
         self.open_tab(Joints.title)
         self.listen(self.panel.frame, lambda _: self.light_frame())
         self.listen(self.panel.solid, lambda solid: self.scene.look(opaque=solid))
@@ -114,7 +118,7 @@ class Inspector:
             self.scene.update()
             if moved:
                 self.ask()
-                self.opened.tell(self.arm.q)
+                self.tell(self.arm.q)
                 self.pointed.show()
             self.show()
 
@@ -134,10 +138,10 @@ class Inspector:
         with self.server.atomic():
             self.scene.dress(meshes, ghosts)
             self.pointed.watch(model)
-            if ghosts and self.opened.page is not None:
+            if ghosts and self.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
-                self.opened.page.draw.dress(meshes)
-                self.opened.tell(self.arm.q)
+                self.page.draw.dress(meshes)
+                self.tell(self.arm.q)
 
     def show(self) -> None:
         """Show the numbers, and where the page is."""
@@ -147,7 +151,7 @@ class Inspector:
     @property
     def address(self) -> str:
         """The query that leads here: the configuration, the frame, the tab."""
-        return address.write(self.q, self.panel.frame.value, self.opened.kind.title)
+        return address.write(self.q, self.panel.frame.value, self.kind.title)
 
     def on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
         """Return a function for other threads that has the event loop call this one."""
@@ -193,32 +197,63 @@ class Inspector:
         @(widget.on_click if group else widget.on_update)
         async def _(event: viser.GuiEvent) -> None:
             if event.client is not None:  # else it was the page itself
-                self.opened.guarded(partial(then, widget.value))
+                self.guarded(partial(then, widget.value))
                 self.schedule()
 
         return widget
 
     def light_frame(self) -> None:
         """Have the frame that is chosen stand out."""
-        if self.opened.kind is Joints:
+        if self.kind is Joints:
             self.scene.light(self.panel.frame.value, None)
 
     def open_tab(self, title: str) -> None:
         """Leave the open tab with all that it made, and open another one."""
-        is_open = self.opened.page and title == self.opened.kind.title
-        if title in self.opened.kinds and not is_open:
-            kind = self.opened.kinds[title]
-            with self.server.atomic():
-                self.opened.leave()
-                self.panel.open(list(self.opened.kinds), title, kind.wide)
-                self.panel.explain(COLOURS if self.day.ghost else {})
-                self.scene.hide(False)
-                self.scene.light(self.panel.frame.value, None)
-                self.scene.trace(np.zeros((0, 3)))
-                self.scene.look_from(kind.camera)
-                page = Page(self, Sketch(self.server, self.scene.coarse))
-                self.opened.enter(kind, page)
-            self.schedule()
+        kind = self.kinds.get(title)
+        if kind is None or (self.page and kind is self.kind):
+            return
+        with self.server.atomic():
+            self.leave()
+            self.panel.open(list(self.kinds), title, kind.wide)
+            self.panel.explain(COLOURS if self.day.ghost else {})
+            self.scene.hide(False)
+            self.scene.light(self.panel.frame.value, None)
+            self.scene.trace(np.zeros((0, 3)))
+            self.scene.look_from(kind.camera)
+            self.kind = kind
+            self.page = Page(self, Sketch(self.server, self.scene.coarse))
+            self.guarded(self.enter)
+            self.tell(self.q)
+            self.page.end()
+        self.schedule()
+
+    def enter(self) -> None:
+        """Build the tab that was chosen."""
+        assert self.page is not None
+        self.tab = self.kind(self.page)
+
+    def leave(self) -> None:
+        """Close the open tab, and remove all that it made."""
+        if self.tab is not None:
+            self.guarded(self.tab.close)
+        if self.page is not None:
+            self.page.close()
+        self.tab = self.page = None
+
+    def tell(self, q: Array) -> None:
+        """Tell the open tab where the arm is."""
+        if self.tab is not None:
+            self.guarded(partial(self.tab.on_move, q.copy()))
+
+    def guarded(self, call: Callable[[], None]) -> None:
+        """Call a tab's code; where it fails the page says so and goes on."""
+        try:
+            call()
+        except Exception as error:
+            if self.page is None:  # nobody to tell: the tab is gone
+                return
+            what = f"{type(error).__name__}: {error}"
+            self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
 
     def hear(self, seen: Seen | None) -> None:
         """Show what the student's function said; None where there is no file."""
@@ -236,12 +271,12 @@ class Inspector:
 
     def reload(self) -> None:
         """Ask the student's file again whatever the open tab asks."""
-        self.opened.tell(self.arm.q)
+        self.tell(self.arm.q)
         self.schedule()
 
     def judge(self, standing: Standing) -> None:
         """Show how the tasks stand."""
         self.standing = standing
-        if isinstance(self.opened.tab, Tasks):
-            self.opened.tab.show(standing)
+        if isinstance(self.tab, Tasks):
+            self.tab.show(standing)
         self.schedule()

@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 
 from labkit.inspector.arm import AGREES
+from robo47 import se3
 from robo47.checks import Array
 
 Arguments = tuple[Any, ...]
@@ -97,7 +98,7 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
         end = ghost.frames[-1] if ghost.frames[-1] in wrong else wrong[-1]
         how = _how_far(seen.poses[end], truth[end])
         says = f"{whose} is off by {how} at {end}; first frame that differs: {wrong[0]}"
-        if bent := [name for name in wrong if not is_rigid(seen.poses[name])]:
+        if bent := [name for name in wrong if not se3.is_pose(seen.poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
         return Difference(f"{says}. {seen.problem}".strip(), False, drawn)
     if ghost.frames[-1] not in apart:
@@ -110,22 +111,12 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
 
 def _how_far(T: Array, truth: Array) -> str:
     """Return a distance, or an angle where the place is right."""
-    metres = float(np.linalg.norm(T[:3, 3] - truth[:3, 3]))
+    metres, radians = se3.pose_distance(nearest_pose(T), truth)
     if metres >= 1e-3:
         return f"{1000 * metres:.0f} mm"
-    R = nearest_pose(T)[:3, :3].T @ truth[:3, :3]
-    sine = np.linalg.norm([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
-    degrees = float(np.degrees(np.arctan2(sine, (np.trace(R) - 1) / 2)))
-    if degrees >= 0.05:
+    if (degrees := np.degrees(radians)) >= 0.05:
         return f"{degrees:.1f} degrees"
     return f"{float(np.abs(T - truth).max()):.1e} (largest entry)"
-
-
-def is_rigid(T: Array) -> bool:
-    """Return whether a matrix is a rigid transform, to six decimals."""
-    R = T[:3, :3]
-    rigid = np.allclose(R @ R.T, np.eye(3), atol=1e-6) and np.linalg.det(R) > 0
-    return bool(rigid and np.allclose(T[3], [0, 0, 0, 1], atol=1e-6))
 
 
 def nearest_pose(T: Array) -> Array:

@@ -9,7 +9,6 @@ right shape raises NoAnswerError: nothing else is passed off as the student's.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -42,8 +41,7 @@ class Own:
             library: a module, or {name: function}.
             free: names of functions that have more than one right answer.
         """
-        self._free = free
-        self._student = student
+        self._free, self._student = free, student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
         self._forget()
@@ -54,10 +52,7 @@ class Own:
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         """Return a function of the student's by its name."""
-        return partial(self._one, name)
-
-    def _one(self, name: str, *args: Any) -> Any:
-        return self.many((name, *args))[0]
+        return lambda *args: self.many((name, *args))[0]
 
     def many(self, *calls: Call) -> list[Any]:
         """Return the answers to several calls, asked at once.

@@ -89,7 +89,7 @@ def serve(show: Show, port: int) -> int:
             before = store.read(MEMORY).get(str(show.day.number), "")
             if show.back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
-            ends.callback(on_loop, server, page.opened.leave)
+            ends.callback(on_loop, server, page.leave)
             print("\n".join(where_to_look(port, server)), flush=True)
             ends.callback(watch(page, show, ends).close)
             dresser = threading.Thread(target=dress, args=(page, show), daemon=True)

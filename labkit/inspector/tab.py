@@ -1,7 +1,5 @@
 """A tab of the page, and the tabs of a day, found in its own folder."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from labkit.inspector.ghost import Ghost
@@ -56,58 +54,6 @@ class DayTabs(NamedTuple):
 
     ghost: Ghost | None
     tabs: list[type[Tab]]
-
-
-class Opened:
-    """The one tab that is open, among those that can be.
-
-    Attributes:
-        kinds: {title: class}, in the order of the row of tabs.
-        kind: of the open one.
-        tab: the open one; None where it failed to open.
-        page: what it made its widgets with.
-    """
-
-    def __init__(self, kinds: Sequence[type[Tab]]) -> None:
-        """Take the classes of the tabs, in the order of the row; open none yet."""
-        self.kinds = {kind.title: kind for kind in kinds}
-        self.kind = kinds[0]
-        self.tab: Tab | None = None
-        self.page: Page | None = None
-
-    def enter(self, kind: type[Tab], page: "Page") -> None:
-        """Open a tab, with what it makes its widgets and drawings with."""
-        self.kind, self.page = kind, page
-
-        def make() -> None:
-            self.tab = kind(page)
-
-        self.guarded(make)
-        self.tell(page.q)
-        page.end()
-
-    def leave(self) -> None:
-        """Close the open tab, and remove all that it made."""
-        if self.tab is not None:
-            self.guarded(self.tab.close)
-        if self.page is not None:
-            self.page.close()
-        self.tab = self.page = None
-
-    def tell(self, q: Array) -> None:
-        """Tell the open tab where the arm is."""
-        if self.tab is not None:
-            self.guarded(partial(self.tab.on_move, q.copy()))
-
-    def guarded(self, call: Callable[[], None]) -> None:
-        """Call a day's code; where it fails the page says so and goes on."""
-        try:
-            call()
-        except Exception as error:
-            if self.page is None:  # nobody to tell: the tab is gone
-                return
-            what = f"{type(error).__name__}: {error}"
-            self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
 
 
 def day_tabs(day: Day) -> DayTabs:
