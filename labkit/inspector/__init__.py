@@ -58,7 +58,7 @@ and never wait in one. `wide = True` on the class hides the two matrices at the 
 The modules, from the numbers to the page:
 
     arm, ghost                  MuJoCo's poses and the library's; the student's
-    student, own, week          the student's files in the checker's sandbox
+    student, own                the student's files in the checker's sandbox
     checks                      the verdicts of `make check`, in the background
     words, typed, address       numbers as HTML, as people type them, in the URL
     shapes, meshes, draw, scene, pointed    what is in the picture

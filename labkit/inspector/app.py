@@ -57,7 +57,7 @@ class Inspector:
             server: already listening.
             arm: the one that every browser moves.
             about: what to say of the robot, below all; "" for nothing.
-            day: what the day brings.
+            day: what it brings.
             simple: draw a tab's robots with simple meshes, too.
         """
         self.server, self.arm, self.day, self.simple = server, arm, day, simple
@@ -128,13 +128,7 @@ class Inspector:
             self.student.want(self.arm.q)
 
     def dress(self, model: mujoco.MjModel, meshes: list[Shape], ghosts: bool) -> None:
-        """Put meshes on the arm.
-
-        Args:
-            model: the arm's, with its shapes.
-            meshes: what to draw.
-            ghosts: whether other arms are drawn with them, too.
-        """
+        """Put the meshes of the arm's model on it, and on the ghosts, too."""
         with self.server.atomic():
             self.scene.dress(meshes, ghosts)
             self.pointed.watch(model)
@@ -186,12 +180,7 @@ class Inspector:
         return self.heard_words
 
     def listen(self, widget: Widget, then: Callable[[Any], None]) -> Widget:
-        """Have a function called when a person changes a widget; return the widget.
-
-        Args:
-            widget: viser's.
-            then: is given the new value; where it fails the page says so and goes on.
-        """
+        """Have a function called when a person changes a widget; return the widget."""
         group = isinstance(widget, viser.GuiButtonGroupHandle)
 
         @(widget.on_click if group else widget.on_update)

@@ -12,17 +12,11 @@ LEAVE_SECONDS = 5.0  # a check takes one or two
 
 @dataclass(frozen=True)
 class Standing:
-    """How the day's tasks stand.
+    """How the day's tasks stand."""
 
-    Attributes:
-        headline: one line about all of them.
-        kind: "good", "bad" or "quiet".
-        tasks: in the day's order; () where nothing is known.
-    """
-
-    headline: str
-    kind: str = "quiet"
-    tasks: tuple[TaskResult, ...] = ()
+    headline: str  # about all of them
+    kind: str = "quiet"  # or "good" or "bad"
+    tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
 
 
 def standing(results: Sequence[TaskResult]) -> Standing:

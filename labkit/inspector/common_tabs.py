@@ -171,11 +171,7 @@ class Chain(Tab):
 def says_of(this: Step, number: int, of: int, whole: bool) -> str:
     """Return one factor of the chain: what it is, and the three matrices, as HTML.
 
-    Args:
-        this: the step.
-        number: its place in the chain, from 1.
-        of: how many there are.
-        whole: whether the link has no factor after this one.
+    It is whole where the link has no factor after this one.
     """
     if this.joint:
         about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"

@@ -229,14 +229,10 @@ class Triad:
         anchor: Anchor = "bottom-left",
         letters: bool = False,
     ) -> None:
-        """Draw it at the world's origin.
+        """Draw it at the world's origin, under a name in the scene tree.
 
-        Args:
-            server: where to draw.
-            path: its name in the scene tree.
-            text: the label; "" for none.
-            anchor: which side of the label touches the frame.
-            letters: name the axes even while it does not stand out.
+        The label is a text or "", with its anchor at the frame; letters name the axes
+        even while it does not stand out.
         """
         scene, self.always = server.scene, letters
         self.frame = scene.add_frame(path, show_axes=False)

@@ -44,32 +44,20 @@ class Ghost:
 
 @dataclass(frozen=True)
 class Seen:
-    """What the student's function said of one configuration.
-
-    Attributes:
-        q: the configuration, (nq,).
-        poses: {short name: T_world_frame (4, 4)}, as far as there are any.
-        problem: why there are none, or fewer than asked for; "".
-    """
+    """What the student's function said of a configuration q, (nq,)."""
 
     q: Array
-    poses: Mapping[str, Array] = field(default_factory=dict)
-    problem: str = ""
+    poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
+    problem: str = ""  # why there are none, or fewer than asked for
 
 
 @dataclass(frozen=True)
 class Difference:
-    """How the student's poses differ from MuJoCo's.
+    """How the student's poses differ from MuJoCo's."""
 
-    Attributes:
-        sentence: in the student's name.
-        good: whether they agree everywhere.
-        drawn: {short name: a rigid pose, (4, 4)} of the frames that differ.
-    """
-
-    sentence: str
-    good: bool
-    drawn: Mapping[str, Array]
+    sentence: str  # in the student's name
+    good: bool  # whether they agree everywhere
+    drawn: Mapping[str, Array]  # {short name: a rigid pose, (4, 4)} where they differ
 
     @property
     def kind(self) -> str:
@@ -79,12 +67,9 @@ class Difference:
 
 
 def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
-    """Return how the student's arm differs from MuJoCo's.
+    """Return how what a ghost's function said differs from MuJoCo.
 
-    Args:
-        ghost: whose function gave the poses in `seen`.
-        seen: what it said.
-        truth: {short name: MuJoCo's pose (4, 4)}, of the same configuration.
+    The truth is {short name: MuJoCo's pose (4, 4)}, of the same configuration.
     """
     whose = f"YOUR {ghost.function}"
     apart = {

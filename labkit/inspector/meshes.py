@@ -33,13 +33,7 @@ class Skin:
         colour: tuple[int, int, int] | None = None,
         opacity: float | None = None,
     ) -> None:
-        """Replace its meshes.
-
-        Args:
-            shapes: what to draw.
-            colour: of all of them; None for their own.
-            opacity: 0 to 1; None for solid.
-        """
+        """Replace its meshes; without a colour they have their own, or are solid."""
         scene, old, self.meshes = self.server.scene, self.meshes, []
         for i, shape in enumerate(shapes):
             path = f"{self.path}/{shape.body}"
@@ -81,12 +75,7 @@ class Skin:
     def look(
         self, opacity: float | None, shade: tuple[float, float, float] = (1, 1, 1)
     ) -> None:
-        """Make it see-through, and darker.
-
-        Args:
-            opacity: 0 to 1; None for solid.
-            shade: its colours (r, g, b) are multiplied by it.
-        """
+        """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color, mesh.opacity = _rgb(shape, shade), opacity
 

@@ -71,11 +71,7 @@ class Recording:
         self.skin.pose(self.poses(qpos))
 
     def poses(self, qpos: ArrayLike) -> dict[str, Array]:
-        """Return {body: T_world_body (4, 4)} of what is seen, for a ghost.
-
-        Args:
-            qpos: a configuration; a shorter one is that of the first joints, (n,).
-        """
+        """Return {body: T_world_body (4, 4)} of what is seen, see `Skin.poses`."""
         return self.skin.poses(self.data, qpos)
 
     def wait(self, seconds: float = 1 / FRAMES) -> None:

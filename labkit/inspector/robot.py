@@ -20,12 +20,9 @@ class Robot:
     """The bodies of a model."""
 
     def __init__(self, page: Page, model: mujoco.MjModel, dressed: Load) -> None:
-        """Draw it instead of the page's arm.
+        """Draw what is simulated instead of the page's arm.
 
-        Args:
-            page: of the tab.
-            model: what is simulated, without its looks.
-            dressed: loads the same with its looks; a function of a module, asked once.
+        `dressed` loads the same with its looks; a function of a module, asked once.
         """
         self.page, self.model, self.data = page, model, mujoco.MjData(model)
         self.skin = Skin(page.host.server, page.draw.path())

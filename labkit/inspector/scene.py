@@ -102,11 +102,9 @@ class ArmScene:
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
-        """Draw the student's arm where it is not the real one.
+        """Draw the student's arm where it is not the real one, {short name: (4, 4)}.
 
-        Args:
-            poses: {short name of a frame: its pose, where it differs}.
-            end: the frame from whose true place a line leads to the student's.
+        A line leads to its end from where that should be.
         """
         self.ghost.pose(poses)
         there = poses.get(end)
@@ -128,12 +126,7 @@ class ArmScene:
             self.way.points = joined([[0.0, 0.0, 0.0], *origins])
 
     def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
-        """Make the arm solid or see-through, and green or not.
-
-        Args:
-            opaque: None leaves it as it is.
-            agrees: whether the student's code puts every link here.
-        """
+        """Make the arm solid or see-through, and green or not; None leaves it so."""
         before = self.opaque, self.agrees
         self.opaque = self.opaque if opaque is None else opaque
         self.agrees = self.agrees if agrees is None else agrees

@@ -43,31 +43,18 @@ WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numb
 
 @dataclass(frozen=True)
 class Show:
-    """What to show.
+    """What to show."""
 
-    Attributes:
-        day: whose tabs and whose file.
-        arm: without its looks; the numbers need none.
-        about: what to say of the robot on the page; "" for nothing.
-        dressed: loads the same model with its meshes; takes seconds.
-        simple: leave the fine meshes out, for a computer that draws without a GPU.
-        back: begin in the tab and the pose where the day's last page ended.
-    """
-
-    day: Day
-    arm: Arm
-    about: str
-    dressed: Callable[[], mujoco.MjModel]
-    simple: bool = False
-    back: bool = True
+    day: Day  # whose tabs and whose file
+    arm: Arm  # without its looks; the numbers need none
+    about: str  # what to say of the robot on the page; "" for nothing
+    dressed: Callable[[], mujoco.MjModel]  # the same with its meshes; takes seconds
+    simple: bool = False  # without the fine meshes, for a computer without a GPU
+    back: bool = True  # begin in the tab and the pose where the day's last page ended
 
 
 def serve(show: Show, port: int) -> int:
-    """Serve the page until Ctrl-C; return the exit code.
-
-    Args:
-        show: what to show.
-        port: the wish; the next free one is taken where it is busy.
+    """Serve the page until Ctrl-C, at this port or the next free one.
 
     Raises:
         Robo47Error: no port is free, or the day's tabs do not load.
@@ -121,13 +108,7 @@ def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:
 
 
 def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
-    """Start the thread that asks the student's file, and the checks after a save.
-
-    Args:
-        page: where it is shown.
-        show: the day and the arm.
-        ends: what is to be closed in the end.
-    """
+    """Start the thread that asks the student's file, and the checks after a save."""
     day, model = show.day, show.arm.model
     sandbox = ends.enter_context(Sandbox())
 
@@ -176,12 +157,7 @@ def dress(page: Inspector, show: Show) -> None:
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:
-    """Return the lines that tell a person where the page is.
-
-    Args:
-        wish: the port that was asked for; 0 for any.
-        server: listening.
-    """
+    """Return the lines that tell where the page is, and if the wished port is not."""
     port = server.get_port()
     moved = [f"port {wish} is taken; using {port}"] if wish not in (0, port) else []
     try:

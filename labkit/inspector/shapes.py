@@ -22,19 +22,12 @@ Rgba = tuple[float, float, float, float]
 
 
 class Shape(NamedTuple):
-    """Everything of one body that has one colour.
+    """Everything of one body that has one colour."""
 
-    Attributes:
-        body: its name.
-        rgba: colour and opacity, 0 to 1.
-        vertices: in the body's frame, metres, (n, 3).
-        faces: indices into vertices, (m, 3).
-    """
-
-    body: str
-    rgba: Rgba
-    vertices: Array
-    faces: Faces
+    body: str  # its name
+    rgba: Rgba  # colour and opacity, 0 to 1
+    vertices: Array  # in the body's frame, metres, (n, 3)
+    faces: Faces  # indices into vertices, (m, 3)
 
 
 def shapes(

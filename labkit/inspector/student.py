@@ -29,26 +29,17 @@ POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
 
 @dataclass(frozen=True)
 class Source:
-    """The file, and how it is opened.
+    """The student's file, and how it is opened."""
 
-    Attributes:
-        script: the student's file; it need not be there.
-        open: opens it in the sandbox; raises LoadError.
-        describe: says in a line what a reply that is no answer means.
-    """
-
-    script: Path
-    open: Callable[[Path], Session]
-    describe: Callable[[str, Reply], str]
+    script: Path  # it need not be there
+    open: Callable[[Path], Session]  # in the sandbox; raises LoadError
+    describe: Callable[[str, Reply], str]  # what a reply that is no answer means
 
 
 def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
     """Return the student's file of a day, to be opened in a sandbox.
 
-    Args:
-        day: from its manifest.
-        model: the robot that the page shows, as it is in questions.
-        sandbox: kept open as long as the page.
+    The model is the robot that the page shows, as it is in questions.
     """
 
     def opened(script: Path) -> Session:
@@ -59,12 +50,9 @@ def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
 
 
 def describe(tasks: Mapping[str, str], function: str, reply: Reply) -> str:
-    """Return in the checker's words what a reply that is no answer means, or "".
+    """Return in the checker's words what a function's reply that is no answer means.
 
-    Args:
-        tasks: {function: the task whose it is}.
-        function: that was called.
-        reply: what came of it.
+    "" where it is one. The tasks are {function: the task whose it is}.
     """
     if not reply.kind:
         return ""
@@ -88,8 +76,7 @@ class Student(threading.Thread):
 
         Args:
             source: the file.
-            ghost: which function to ask for the arm's poses, and what; None where a
-                day has none: then only its tabs ask.
+            ghost: what to ask for the arm's poses; None where only the day's tabs ask.
             model: the robot.
             deliver: is given what the function said; None where there is no file.
             saved: called when the file was opened anew.
@@ -210,14 +197,9 @@ class Student(threading.Thread):
 def poses_of(
     asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
-    """Return the poses that a student's function gives, and the first problem or "".
+    """Return the poses that the ghost's function gives at q, (nq,), and "" or why not.
 
-    Args:
-        asker: the file, loaded.
-        source: says what a reply that is no answer means.
-        ghost: which function, and what to ask it.
-        model: the robot.
-        q: (nq,).
+    The asker is the file, loaded; the source says what other replies mean.
     """
 
     def asked(

@@ -17,17 +17,12 @@ View = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 class Tab:
-    """One tab of the page; see `labkit.inspector` for what to write in it.
-
-    Attributes:
-        title: on the tab.
-        wide: the tab needs the room of the two matrices above it.
-        camera: from where one looks, and at what, metres; aimed beside the arm, since
-            the panel covers the right third of the page.
-    """
+    """One tab of the page; see `labkit.inspector` for what to write in it."""
 
     title = "a tab"
-    wide = False
+    wide = False  # whether it needs the room of the two matrices above it
+    # From where one looks, and at what, metres; aimed beside the arm, since the panel
+    # covers the right third of the page.
     camera: View = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
 
     def __init__(self, page: "Page") -> None:
@@ -45,15 +40,10 @@ class Tab:
 
 
 class DayTabs(NamedTuple):
-    """What a day brings to the page.
+    """What a day brings to the page."""
 
-    Attributes:
-        ghost: which function draws the student's arm; None for none.
-        tabs: in the day's order.
-    """
-
-    ghost: Ghost | None
-    tabs: list[type[Tab]]
+    ghost: Ghost | None  # which function draws the student's arm
+    tabs: list[type[Tab]]  # in the day's order
 
 
 def day_tabs(day: Day) -> DayTabs:

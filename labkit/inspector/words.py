@@ -142,11 +142,9 @@ def copy_button(label: str, text: str) -> str:
 
 
 def state(address: str, heard: int) -> str:
-    """Return the hidden element that tells every browser where the page is.
+    """Return the hidden element that tells every browser the page's query, "?q=...".
 
-    Args:
-        address: the query behind the page's address, "?q=...".
-        heard: the number of the last word from a browser that it knows of.
+    It knows of the word from a browser with that number, and of those before.
     """
     told = escape(json.dumps({"address": address, "heard": heard}))
     return f'<div hidden data-r47-state="{told}"></div>'
