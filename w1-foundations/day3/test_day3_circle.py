@@ -129,7 +129,7 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
     off, rate, path = drawn(lab.RADIUS, 0.0)
     assert rate.max() > 5
     assert verify.beyond(ARM[2], path) > 1.0
-    assert f"it is {off.max() / 1000:.2f} m off in steps of 0.02 s" in GUIDE
+    assert f"the hand is {off.max() / 1000:.2f} m off in steps of 0.02 s" in GUIDE
     assert abs(drawn(lab.RADIUS, 0.0, 1e-12)[0].max() - off.max()) < 1e-3
     monkeypatch.setattr(lab, "DT", 0.019)
     assert drawn(lab.RADIUS, 0.0)[0].max() > 2 * off.max()
