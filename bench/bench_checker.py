@@ -11,14 +11,7 @@ SOLVED = ROOT / "w1-foundations/src/day1_transforms.py"
 
 
 def run(rounds: int = 5) -> dict:
-    """Time the whole day and one task, on the reference solution.
-
-    Args:
-        rounds: timed runs of each.
-
-    Returns:
-        {name: {"median", "low", "high"}} in seconds.
-    """
+    """Return seconds for the whole day and for one task, on the reference solution."""
     commands = {
         "the whole day": ["1", "--file", str(SOLVED)],
         "one task (1.6)": ["1", "--file", str(SOLVED), "--task", "1.6"],

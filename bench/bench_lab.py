@@ -13,14 +13,7 @@ HANDOUT = ROOT / "bench/handout_day1.py"
 
 
 def run(rounds: int = 9) -> dict:
-    """Time whole processes, warm, taking turns.
-
-    Args:
-        rounds: timed runs of each.
-
-    Returns:
-        {"seconds": {name: {"median", "low", "high"}}}.
-    """
+    """Time whole processes, warm, taking turns; return {"seconds": {name: ...}}."""
     folder = files.panda_folder()
     commands = {
         "imports alone (python, numpy, mujoco)": [

@@ -182,7 +182,7 @@ class TestALoop:
         started = []
         real = sandbox.Process
         monkeypatch.setattr(
-            sandbox, "Process", lambda: started.append(real()) or started[-1]
+            sandbox, "Process", lambda *_: started.append(real()) or started[-1]
         )
         code = """
             def loop(n):

@@ -96,11 +96,7 @@ class Exchange:
 
 
 def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
-    """Return the replies of exchanges.
-
-    Raises:
-        ValueError: a question has no reply: nobody asked it.
-    """
+    """Return the replies of exchanges; a ValueError where nobody asked the question."""
     found = []
     for exchange in exchanges:
         if exchange.reply is None:

@@ -169,9 +169,6 @@ def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
     Args:
         documents: and whether their tables alone.
         check: write nothing.
-
-    Raises:
-        Robo47Error: a command that a document asks for fails.
     """
     drift = 0
     for path, tables in documents.items():

@@ -81,11 +81,7 @@ def main() -> int:
 
 
 def empty(out: Path) -> None:
-    """Make room: a new folder, or an older edition, whose history stays.
-
-    Raises:
-        Robo47Error: something else is there, or it is in the clone.
-    """
+    """Make room: a new folder, or an older edition, whose history stays."""
     if out.is_relative_to(ROOT):
         raise Robo47Error(f"{shown(out)} is inside the kit; expected a place beside it")
     if not out.exists() or not any(out.iterdir()):

@@ -41,15 +41,14 @@ class Camera:
         return se3.make_T(R_world_cam, back + self.lookat)
 
     def project(self, p_world: ArrayLike, size: tuple[int, int]) -> Array:
-        """Return where points appear in the picture.
+        """Return pixels right of and below the upper left corner, and the depth, m.
 
         Args:
             p_world: points, (..., 3), metres; in front of the camera.
             size: width and height of the picture, pixels.
 
         Returns:
-            Pixels right of and below the upper left corner, and the depth along the
-            line of sight in metres, (..., 3).
+            (..., 3).
         """
         T_cam_world = se3.inverse(self.T_world_cam)
         p_cam = np.asarray(p_world) @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
@@ -60,12 +59,7 @@ class Camera:
         return np.stack([right, below, depth], axis=-1)
 
     def stepped_back(self, p_world: Array, size: tuple[int, int]) -> "Camera":
-        """Return this camera, or one further away that has points in its picture.
-
-        Args:
-            p_world: points, (n, 3), metres.
-            size: width and height of the picture, pixels.
-        """
+        """Return this camera, or one further away that has points (n, 3) in view."""
         camera = self
         while camera.distance < FARTHEST:
             right, below, depth = camera.project(p_world, size).T

@@ -28,11 +28,7 @@ def signed(picture: Image.Image, text: str) -> Image.Image:
 
 
 def side_by_side(*panels: tuple[Image.Image, str, str]) -> Image.Image:
-    """Return pictures in a row.
-
-    Args:
-        panels: picture, title, and a line that explains it; pictures of one size.
-    """
+    """Return pictures of one size in a row, each with its title and a line below."""
     width, height = panels[0][0].size
     sheet = Image.new("RGB", (width * len(panels), height + HEAD), "white")
     pen = ImageDraw.Draw(sheet)

@@ -26,11 +26,7 @@ VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collis
 
 
 def light_up(spec: mujoco.MjSpec) -> None:
-    """Put a robot into a light room: a white sky, a pale floor, soft shadows.
-
-    Args:
-        spec: the robot alone, edited in place.
-    """
+    """Put a robot into a light room: a white sky, a pale floor, soft shadows."""
     _add_sky_and_floor(spec)
     for light in spec.lights:  # the Panda brings one that would glare
         light.active = False
@@ -68,13 +64,7 @@ def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
 
 @lru_cache(maxsize=2)
 def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.Renderer:
-    """Return a renderer, kept for the next picture of the same kind.
-
-    Args:
-        size: width and height, pixels.
-        fast: without multisampling.
-        robot: as in a `Scene`.
-    """
+    """Return a renderer, kept for the next picture of the same kind."""
     if robot:
         spec = mujoco.MjSpec.from_file(robot)
         light_up(spec)
@@ -89,11 +79,7 @@ def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.R
 
 
 def draw(scene: Scene) -> Array:
-    """Return the picture of a scene, (height, width, 3), bytes.
-
-    Args:
-        scene: what to draw.
-    """
+    """Return the picture of a scene, (height, width, 3), bytes."""
     renderer = renderer_for(scene.size, scene.fast, scene.robot)
     model = renderer.model
     data = mujoco.MjData(model)
@@ -113,11 +99,7 @@ def draw(scene: Scene) -> Array:
 
 
 def free_camera(camera: Camera) -> mujoco.MjvCamera:
-    """Return MuJoCo's camera for ours.
-
-    Args:
-        camera: ours, in radians.
-    """
+    """Return MuJoCo's camera, in degrees, for ours, in radians."""
     theirs = mujoco.MjvCamera()
     mujoco.mjv_defaultCamera(theirs)
     theirs.lookat[:] = camera.lookat
@@ -127,13 +109,7 @@ def free_camera(camera: Camera) -> mujoco.MjvCamera:
 
 
 def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> None:
-    """Add translucent copies of the shapes that a body carries.
-
-    Args:
-        scene: already filled with the robot.
-        model: the robot.
-        ghost: which body, and where to.
-    """
+    """Add translucent copies of the shapes that a body carries to what is drawn."""
     R, t = ghost.T_world_moved[:3, :3], ghost.T_world_moved[:3, 3]
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
@@ -153,12 +129,7 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
 
 
 def add_box(scene: mujoco.MjvScene, box: Box) -> None:
-    """Add a box to what is drawn.
-
-    Args:
-        scene: already filled with the robot.
-        box: where, how large, in which colour.
-    """
+    """Add a box to what is drawn."""
     shape, R, t = (
         scene.geoms[scene.ngeom],
         box.T_world_box[:3, :3],
@@ -179,13 +150,7 @@ def add_box(scene: mujoco.MjvScene, box: Box) -> None:
 
 
 def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:
-    """Return whether a body is the carrier or hangs from it.
-
-    Args:
-        model: the robot.
-        carrier: id of a body.
-        body: id of a body.
-    """
+    """Return whether a body (its id) is the carrier or hangs from it."""
     while body not in (0, carrier):
         body = model.body_parentid[body]
     return body == carrier

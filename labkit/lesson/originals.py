@@ -42,11 +42,7 @@ def _fault(day: Day) -> str:
 
 
 def require_kits(day: Day) -> None:
-    """Refuse a script in `src/` that is not the kit's.
-
-    Raises:
-        Robo47Error: it lacks the markers of the tasks; says how to get ours back.
-    """
+    """Refuse a script in `src/` that lacks the marks of the kit's own."""
     if not is_kits(day):
         if fault := _fault(day):
             author = f"Do you write this day? make author DAY={day.number}"

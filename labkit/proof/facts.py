@@ -103,13 +103,7 @@ def open_clone(path: Path, name: str = "", *, own: bool = False) -> Clone:
 
 
 def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> DayFacts:
-    """Return how a day stands; its files are left in `folder` for the capstone.
-
-    Args:
-        day: from the kit's manifest.
-        clone: whose.
-        folder: an empty one.
-        sandbox: where the functions run.
+    """Return how a day stands; its files are left in an empty folder for the capstone.
 
     Raises:
         OSError, GitError, FaultError: this machine failed.

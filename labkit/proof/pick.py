@@ -35,13 +35,7 @@ class Picked(NamedTuple):
 
 
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
-    """Pick the cube up with the functions that pass, the library's for the rest.
-
-    Args:
-        days: of a week.
-        folders: where each day's files are.
-        sandbox: where they run.
-    """
+    """Pick the cube up with the functions that pass, the library's for the rest."""
     fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
     names = {name for some in capstone.USES.values() for name in some}
     for facts, place in zip(days, folders, strict=True):

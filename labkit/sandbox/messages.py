@@ -67,12 +67,7 @@ def robots_of(questions: Iterable[Question]) -> Robots:
 
 
 def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
-    """Return questions as JSON.
-
-    Args:
-        questions: what to call.
-        robots: those that the process was given; a question names its own by place.
-    """
+    """Return questions as JSON; they name the process's robots by place."""
     args = {id(arg): arg for question in questions for arg in question.args}
     packed: dict[int, Any] = {id(one): {"model": at} for at, one in enumerate(robots)}
     for key, arg in args.items():
@@ -93,15 +88,7 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
 
 
 def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
-    """Return messages as replies, believing nothing in them.
-
-    Args:
-        came: as they came.
-        most: numbers in an answer.
-
-    Returns:
-        One per message, up to the first that somebody forged.
-    """
+    """Return messages as replies, up to the first forged one; none is believed."""
     values = wire.unpack_values([message.get("value") for message in came], most)
     found: list[Reply] = []
     with contextlib.suppress(Exception):  # a forged message can be anything

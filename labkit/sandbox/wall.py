@@ -85,11 +85,7 @@ def in_container() -> bool:
 
 
 def refusal() -> str:
-    """Return why other people's code should not run here; "" where it may.
-
-    Raises:
-        Robo47Error: ROBO47_WALL asks for a wall that this machine does not have.
-    """
+    """Return why other people's code should not run here; "" where it may."""
     if wall().name == "none":  # a container may share the home, as Toolbox's does
         return "these submissions would run with your rights"
     if hasattr(os, "geteuid") and os.geteuid() == 0 and not in_container():

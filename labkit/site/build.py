@@ -37,6 +37,7 @@ SETTINGS: dict[str, Any] = {
     "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",
     "napoleon_use_ivar": True,  # a class's attributes are listed once
+    "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
 

@@ -47,21 +47,21 @@ for slug, says, redone, code in (
     row.wrong(slug, says, redone)(code)
 
 
-@row.wrong
-def times_s(Y, tau, rtol):
-    """it is multiplied by the singular values; Y = U S V^T is undone by dividing, and
-    Y^T tau alone is no solution => V S U^T tau"""
+@row.wrongs
+def _(Y, tau, rtol):
+    """times-s: it is multiplied by the singular values; Y = U S V^T is undone by
+      dividing, and Y^T tau alone is no solution => V S U^T tau
+    first-columns: only the first columns are fitted, as many as the rank; which ones
+      hide one another is not known by their place => the first columns alone, 0 for the
+      rest
+    """
     U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (s * (U.T @ tau))
-
-
-@row.wrong
-def first_columns(Y, tau, rtol):
-    """only the first columns are fitted, as many as the rank; which ones hide one
-    another is not known by their place => the first columns alone, 0 for the rest"""
     rank, _ = identifiable(Y, rtol)
     first, *_ = np.linalg.lstsq(Y[:, :rank], tau, rcond=None)
-    return np.append(first, np.zeros(Y.shape[1] - rank))
+    return {
+        "times-s": Vt.T @ (s * (U.T @ tau)),
+        "first-columns": np.append(first, np.zeros(Y.shape[1] - rank)),
+    }
 
 
 @row.right  # NumPy's lstsq, told where to cut.

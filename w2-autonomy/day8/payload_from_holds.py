@@ -43,18 +43,17 @@ for slug, says, redone, other in (
         return solved(J_site, R_site, extra, g, **other)
 
 
-@row.wrong
-def R_forgotten(J_site, R_site, extra, g):
-    """R is not in it: m c is taken to stand in world axes all along => the right one
-    with R = I"""
-    return solved(J_site, np.array([np.eye(3)] * len(R_site)), extra, g)
-
-
-@row.wrong
-def R_transposed(J_site, R_site, extra, g):
-    """R is transposed: it takes the hand's axes to the world's => the right one with
-    R^T"""
-    return solved(J_site, np.swapaxes(R_site, 1, 2), extra, g)
+@row.wrongs
+def _(J_site, R_site, extra, g):
+    """R-forgotten: R is not in it: m c is taken to stand in world axes all along => the
+      right one with R = I
+    R-transposed: R is transposed: it takes the hand's axes to the world's => the right
+      one with R^T
+    """
+    return {
+        "R-forgotten": solved(J_site, np.array([np.eye(3)] * len(R_site)), extra, g),
+        "R-transposed": solved(J_site, np.swapaxes(R_site, 1, 2), extra, g),
+    }
 
 
 @row.wrong
