@@ -129,9 +129,7 @@ def q_start_unused(screws, M, T_goal, q_start, limits):
 
 @row.wrong("position-only")  # Only the translation is steered.
 def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return pose_error(T, T_goal) * [0, 0, 0, 1, 1, 1]
-
+    gap = lambda T, goal: pose_error(T, goal) * [0, 0, 0, 1, 1, 1]  # noqa: E731
     return walk(screws, M, T_goal, q_start, limits, gap=gap)
 
 
@@ -167,9 +165,7 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong("not-reached")  # Half of each step is taken.
 def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return pose_error(T, T_goal) / 2
-
+    gap = lambda T, goal: pose_error(T, goal) / 2  # noqa: E731
     return walk(screws, M, T_goal, q_start, limits, gap=gap)
 
 
@@ -208,9 +204,7 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong("start-returned")  # The error's sign.
 def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return -pose_error(T, T_goal)
-
+    gap = lambda T, goal: -pose_error(T, goal)  # noqa: E731
     return walk(screws, M, T_goal, q_start, limits, gap=gap)
 
 
@@ -233,4 +227,17 @@ def _(screws, M, T_goal, q_start, limits):
             q, T, damping = new, T_new, max(damping / 3, 1e-6)
         else:
             damping = 3 * damping
+    return q
+
+
+@row.wrong("shape")  # The number of steps comes back too.
+def _(screws, M, T_goal, q_start, limits):
+    return np.append(walk(screws, M, T_goal, q_start, limits), 60.0)
+
+
+@row.wrong("raises")  # A target out of reach stops it.
+def _(screws, M, T_goal, q_start, limits):
+    q = walk(screws, M, T_goal, q_start, limits)
+    if np.linalg.norm(pose_error(fk_space(screws, M, q), T_goal)) > 1e-8:
+        raise ValueError("not reached")
     return q
