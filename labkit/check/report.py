@@ -79,7 +79,7 @@ class Report:
         if self.problem:
             return "fix that line, then check again."
         for result in self.left:
-            if not result.task.optional:
+            if result in self.counted:
                 task = result.task
                 return f"{_named(task)}. Stuck? make hint TASK={task.id}"
         for item in self.items:

@@ -182,7 +182,8 @@ class _Halves(Kind):
             says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
             says = f"{capitalised(says)} {self.apart(S, T)}."
             return Finding("first-half-off", says)
-        return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
+        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
+        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)
