@@ -20,7 +20,6 @@ from robo47 import panda, screws, se3, verify
 
 SCRIPT = "w1-foundations/src/day2_screws.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day2-lab.md").read_text("utf-8").split())
-DATA = ROOT / "tests" / "data"
 DAY = find_day(2)
 ROULETTE = folder.load(DAY, "roulette")
 

@@ -83,12 +83,10 @@ def damping_not_squared(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong
-def damping_not_squared(screws, M, T_goal, q_start, limits):
+def damping_not_squared(*target):
     """the damping in it is too large by far: it is not squared => what that damping
     leads to"""
-    return walk(
-        screws, M, T_goal, q_start, limits, damping=lambda ee: np.sqrt(adaptive(ee))
-    )
+    return walk(*target, damping=lambda ee: np.sqrt(adaptive(ee)))
 
 
 @row.wrong
@@ -128,9 +126,8 @@ def q_start_unused(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("position-only")  # Only the translation is steered.
-def _(screws, M, T_goal, q_start, limits):
-    gap = lambda T, goal: pose_error(T, goal) * [0, 0, 0, 1, 1, 1]  # noqa: E731
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: pose_error(T, goal) * [0, 0, 0, 1, 1, 1])
 
 
 @row.wrong("position-only", hidden=BOTH_MOVE)  # The best is chosen by it.
@@ -164,9 +161,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("not-reached")  # Half of each step is taken.
-def _(screws, M, T_goal, q_start, limits):
-    gap = lambda T, goal: pose_error(T, goal) / 2  # noqa: E731
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: pose_error(T, goal) / 2)
 
 
 @row.wrong("not-reached")  # The damping is the same far away and near.
@@ -203,16 +199,13 @@ def _(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("start-returned")  # The error's sign.
-def _(screws, M, T_goal, q_start, limits):
-    gap = lambda T, goal: -pose_error(T, goal)  # noqa: E731
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: -pose_error(T, goal))
 
 
 @row.right  # The error and the Jacobian are the hand's: they go together too.
-def _(screws, M, T_goal, q_start, limits):
-    return walk(
-        screws, M, T_goal, q_start, limits, seen=body_jacobian, gap=in_the_hands_axes
-    )
+def _(*target):
+    return walk(*target, seen=body_jacobian, gap=in_the_hands_axes)
 
 
 @row.right  # The damping shrinks after a good step and grows after a bad one.

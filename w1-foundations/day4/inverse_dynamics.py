@@ -12,8 +12,7 @@ from .gravity import other_gravity
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
-SO = "the torque so"
-wrong = partial(row.wrong, redone=SO)
+wrong = partial(row.wrong, redone="the torque so")
 row.inputs(motions)
 
 
