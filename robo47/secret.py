@@ -101,13 +101,9 @@ def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 def swing(n: int = 200) -> Motion:
     """Return n samples, over ten seconds, of Day 5's swing of all joints together."""
-    t = np.pi * np.arange(n)[:, None] * SECONDS / n
+    t, half = np.pi * np.arange(n)[:, None] * SECONDS / n, REACH / 2.0
     c, s = np.cos(t), np.sin(t)
-    return Motion(
-        READY_Q + REACH * (1.0 - c) / 2.0,
-        REACH * np.pi * s / 2.0,
-        REACH * np.pi**2 * c / 2.0,
-    )
+    return Motion(READY_Q + half * (1.0 - c), half * np.pi * s, half * np.pi**2 * c)
 
 
 def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:

@@ -16,8 +16,7 @@ def model():
 
 @pytest.fixture(scope="module")
 def hung():
-    edit = secret.load(0.5, AT)
-    return panda.load("panda_nohand", drive="torque", edit=edit)
+    return panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
 
 
 def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
@@ -31,14 +30,10 @@ def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
 
 
 def test_the_motions_are_their_own_derivatives_and_keep_the_limits(model):
-    for motion, dt in (
-        (secret.excitation(model, 5, 20_000), 5e-4),
-        (secret.swing(20_000), 5e-4),
-    ):
-        q, qd, qdd = motion
+    (low, high), dt = simulate.limits(model)[0].T, 5e-4
+    for q, qd, qdd in (secret.excitation(model, 5, 20_000), secret.swing(20_000)):
         assert_same((q[2:] - q[:-2]) / (2 * dt), qd[1:-1], 1e-5)
         assert_same((qd[2:] - qd[:-2]) / (2 * dt), qdd[1:-1], 1e-4)
-        low, high = simulate.limits(model)[0].T
         assert ((q > low) & (q < high)).all()
         assert (np.abs(qd) < simulate.SPEED_LIMITS).all()
 

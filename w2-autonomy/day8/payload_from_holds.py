@@ -70,15 +70,13 @@ def _(J_site, R_site, extra, g):
     }
 
 
-row.of_argument(
-    "g",
-    Change(
-        "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument g",
-        lambda g: DOWN,
-        "what is found with that gravity",
-    ),
+TYPED_IN = Change(
+    "gravity-typed-in",
+    "9.81 downwards is typed in; gravity is the argument g",
+    lambda g: DOWN,
+    "what is found with that gravity",
 )
+row.of_argument("g", TYPED_IN)
 
 
 @row.right  # A hold at a time, with cross products; then the normal equations.

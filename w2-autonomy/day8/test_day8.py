@@ -23,26 +23,14 @@ lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
 
 
-@pytest.fixture(scope="module")
-def model():
-    return panda.load("panda_nohand", drive="torque")
+model = panda.load("panda_nohand", drive="torque")
+hung = panda.load("panda_nohand", drive="torque", edit=secret.load(lab.LOAD, lab.AT))
+arm, robot = panda.arm(model), secret.changed(model, lab.SEED)
 
 
 @pytest.fixture(scope="module")
-def hung():
-    edit = secret.load(lab.LOAD, lab.AT)
-    return panda.load("panda_nohand", drive="torque", edit=edit)
-
-
-@pytest.fixture(scope="module")
-def arm(model):
-    return panda.arm(model)
-
-
-@pytest.fixture(scope="module")
-def data(model, arm):
+def data():
     """Return Y, exact torques and the fast rows of three motions."""
-    robot = secret.changed(model, lab.SEED)
     motions = {
         "swing": secret.swing(),
         "excited": secret.excitation(model, lab.SEED),
@@ -67,10 +55,10 @@ def noises(seed):
     return lab.NOISE * np.random.default_rng(seed).normal(size=(2, 200, 7))
 
 
-def test_what_the_arm_hides(data, arm):
+def test_what_the_arm_hides(data):
     Y = data["elsewhere"][0]
     flat = Y.reshape(-1, 91)
-    rank = lambda A: np.linalg.matrix_rank(A, tol=1e-9 * np.linalg.norm(A, 2))  # noqa: E731
+    rank = lambda A: identification.identifiable(A, 1e-9)[0]  # noqa: E731
     assert rank(flat[:, :70]) == 1 + 6 * 7 == 43
     assert rank(flat) == 43 + 21 - 2 == 62
     zero = np.flatnonzero(np.abs(flat).max(axis=0) < 1e-12)
@@ -90,8 +78,7 @@ def test_one_hinge_feels_three_of_ten():
     assert "feel at all? (Three." in SENTENCES
 
 
-def test_without_noise_torques_are_right_and_masses_wrong(data, model):
-    robot = secret.changed(model, lab.SEED)
+def test_without_noise_torques_are_right_and_masses_wrong(data):
     Y, tau, fast = data["excited"]
     phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
     Y_new, truth, new = data["elsewhere"]
@@ -118,10 +105,8 @@ def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
 
 def test_the_trap_of_the_lab_and_what_tells(data):
     swing, excited = noises(lab.SEED)
-    (small, off), (large, good) = (
-        fitted(data, name, noise)
-        for name, noise in (("swing", swing), ("excited", excited))
-    )
+    small, off = fitted(data, "swing", swing)
+    large, good = fitted(data, "excited", excited)
     assert f"{small:.4f} for {large:.4f}" in SENTENCES
     assert f"of two fits be {off:,.0f} N m wrong" in SENTENCES
     Y, tau, fast = data["swing"]
@@ -133,8 +118,7 @@ def test_the_trap_of_the_lab_and_what_tells(data):
     cut = fitted(data, "swing", swing, 1e-3)[1]
     assert f"it is {cut:.1f} N m off" in SENTENCES
     assert f"Sigma says {lab.rms(sigma):.1f}" in SENTENCES
-    known = secret.numbers(panda.arm(panda.load("panda_nohand")))
-    near = fitted(data, "swing", swing, 1e-2, known)[1]
+    near = fitted(data, "swing", swing, 1e-2, secret.numbers(arm))[1]
     assert f"as the file has it: {near:.2f} N m" in SENTENCES
     s = np.linalg.svd(Y[fast], compute_uv=False)
     assert s[0] / s[61] == pytest.approx(1e8, rel=0.05)
@@ -146,7 +130,7 @@ def test_the_trap_of_the_lab_and_what_tells(data):
     assert f"half as wrong again, {worse:.3f} for {good:.3f}" in SENTENCES
 
 
-def test_dry_friction_spoils_the_rows_that_the_guide_says(data, model):
+def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     Y, tau, fast = data["excited"]
     phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
     motion = secret.excitation(model, lab.SEED)
@@ -162,7 +146,7 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data, model):
     assert f"they cost {worst:.2f} N m at worst" in SENTENCES
 
 
-def costs(code, arm, motion):
+def costs(code, motion):
     """Return the largest wrong torque of an arm_regressor at some states, N m."""
     off = 0.0
     for q, qd, qdd in zip(*motion, strict=True):
@@ -173,12 +157,12 @@ def costs(code, arm, motion):
     return off
 
 
-def test_what_mistakes_cost_in_motion_and_at_rest(arm, model):
+def test_what_mistakes_cost_in_motion_and_at_rest():
     still = np.zeros((1, 7))
     at_rest = secret.Motion(panda.READY_Q[None], still, still)
     motions = secret.anywhere(model, lab.SEED, 20), at_rest
     ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
-    cost = {slug: [costs(code, arm, m) for m in motions] for slug, code in ways.items()}
+    cost = {slug: [costs(code, m) for m in motions] for slug, code in ways.items()}
     rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
     assert len(rows) == 6
     for slug, *written in rows:
@@ -189,7 +173,7 @@ def test_what_mistakes_cost_in_motion_and_at_rest(arm, model):
 
 
 @pytest.mark.kit
-def test_other_robots_are_weighed_as_well_and_friction_is_why_not(model, hung, arm):
+def test_other_robots_are_weighed_as_well_and_friction_is_why_not():
     def grams(q, extra):
         given = *secret.hands(arm, q), extra, arm.gravity
         return 1000 * identification.payload_from_holds(*given)[0]
@@ -205,7 +189,7 @@ def test_other_robots_are_weighed_as_well_and_friction_is_why_not(model, hung, a
     assert f"finds {min(crossed):.0f} to {max(crossed):.0f} g" in SENTENCES
 
 
-def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre(model, hung, arm):
+def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     q = np.array([panda.READY_Q] * 5)
     q[:, 0] = np.linspace(-1, 1, 5)
     extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
@@ -245,7 +229,7 @@ def test_mujoco_refuses_what_no_body_can_have():
         mujoco.MjModel.from_xml_string(body.format("1 1 3"))
 
 
-def test_second_differences_of_an_encoder_are_off_as_predicted(model):
+def test_second_differences_of_an_encoder_are_off_as_predicted():
     dt, step = 0.002, 2.0 * np.pi / 2**16
     motion = secret.excitation(model, lab.SEED, 5000)
     q = np.round(motion.q / step) * step
