@@ -41,9 +41,8 @@ class Motion(NamedTuple):
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
     rng, secret = np.random.default_rng(seed), copy.copy(model)
-    joints = [secret.joint(name) for name in ARM_JOINTS]
-    links = [int(secret.jnt_bodyid[joint.id]) for joint in joints]
-    dofs = [int(joint.dofadr[0]) for joint in joints]
+    joints = [secret.joint(name).id for name in ARM_JOINTS]
+    links, dofs = secret.jnt_bodyid[joints], secret.jnt_dofadr[joints]
     secret.body_mass[links] *= rng.uniform(1.0 - MASS, 1.0 + MASS, 7)
     secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))
     secret.dof_damping[dofs] = rng.uniform(*DAMPING, 7)

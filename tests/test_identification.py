@@ -36,10 +36,10 @@ def columns(arm, q, qd, qdd):
     return Y, secret.numbers(arm)[:70]
 
 
-def deficient(shape=(30, 8), rank=5):
-    """Return a matrix of that rank and a vector beside it."""
-    left, right = rng.normal(size=(shape[0], rank)), rng.normal(size=(rank, shape[1]))
-    return left @ right, rng.normal(size=shape[0])
+def deficient():
+    """Return a matrix, (30, 8), of rank 5, and a vector beside it."""
+    left, right = rng.normal(size=(30, 5)), rng.normal(size=(5, 8))
+    return left @ right, rng.normal(size=30)
 
 
 def test_ten_numbers_are_day_4s_inertia_and_their_regressor_newton_and_eulers_wrench():
@@ -115,16 +115,15 @@ def test_points_make_a_body_and_a_positive_inertia_may_not():
 
 
 REFUSED = {
-    "phi has shape (9,)": lambda: identification.inertia_of(np.ones(9)),
-    "stack": lambda: identification.fit(np.ones((2, 3, 4)), np.ones(2), 0.1),
-    "nothing": lambda: identification.fit(np.zeros((3, 2)), np.ones(3), 0.1),
-    "2 rows leave no": lambda: identification.predict_with_sigma(
-        np.eye(2), [1, 1], np.eye(2), 0
-    ),
+    "phi has shape (9,)": (identification.inertia_of, np.ones(9)),
+    "stack": (identification.fit, np.ones((2, 3, 4)), np.ones(2), 0.1),
+    "nothing": (identification.fit, np.zeros((3, 2)), np.ones(3), 0.1),
+    "2 rows leave": (identification.predict_with_sigma, np.eye(2), [1, 1], [[1, 0]], 0),
 }
 
 
 @pytest.mark.parametrize("words", REFUSED)
 def test_a_wrong_argument_is_named(words):
+    function, *arguments = REFUSED[words]
     with pytest.raises(ValueError, match=re.escape(words)):
-        REFUSED[words]()
+        function(*arguments)

@@ -38,9 +38,9 @@ def walk(
 ):  # fmt: skip
     """Return Y by the walk out along the arm, with other parts.
 
-    `falls`, `own` and `turned` are factors of what the base and a joint add to the
-    acceleration; `into` makes X of a link's pose and `back` what the wrench comes back
-    with; `felt` says which joints feel link i.
+    `falls`, `own` and `turned` are factors of the base's and a joint's acceleration;
+    `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
+    which joints feel link i.
     """
     V, A, Y = np.zeros(6), falls * np.append(np.zeros(3), -g), np.zeros((7, 70))
     for i, S in enumerate(J.T):

@@ -50,12 +50,3 @@ def by_joint(qd, qdd):
     the right one with its columns by joint"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
-
-
-@row.right  # Joint by joint, without sign().
-def _(qd, qdd):
-    Y = np.zeros((7, 21))
-    for i in range(7):
-        Y[i, i], Y[i, 7 + i] = qdd[i], qd[i]
-        Y[i, 14 + i] = float(qd[i] > 0) - float(qd[i] < 0)
-    return Y

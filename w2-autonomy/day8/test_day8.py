@@ -1,8 +1,10 @@
 """Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
 
 import importlib.util
+import io
 import re
-from unittest.mock import MagicMock
+from contextlib import redirect_stdout
+from unittest.mock import MagicMock, patch
 
 import mujoco
 import numpy as np
@@ -21,8 +23,6 @@ OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
 SENTENCES = " ".join(OWN.replace("*", "").split())
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
-
-
 model = panda.load("panda_nohand", drive="torque")
 hung = panda.load("panda_nohand", drive="torque", edit=secret.load(lab.LOAD, lab.AT))
 arm, robot = panda.arm(model), secret.changed(model, lab.SEED)
@@ -40,6 +40,15 @@ def data():
         name: (lab.regressor(arm, m), secret.torques(robot, m), np.abs(m.qd) > lab.SLOW)
         for name, m in motions.items()
     }
+
+
+@pytest.fixture(scope="module")
+def printed():
+    """Return what the lab prints, 80 columns wide at most."""
+    with patch("sys.argv", ["lab", "--no-log"]), redirect_stdout(io.StringIO()) as out:
+        assert lab.main() == 0
+    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
+    return out.getvalue()
 
 
 def fitted(data, name, noise, rtol=lab.RTOL, known=0.0):
@@ -86,7 +95,7 @@ def test_without_noise_torques_are_right_and_masses_wrong(data):
     dof = np.concatenate([robot.dof_damping, robot.dof_frictionloss])
     assert_same(phi[77:], dof, 1e-13)
     true = robot.body_mass[[model.body(f"link{i}").id for i in range(1, 8)]]
-    for masses in (phi[:70:10] + 0.0, true):
+    for masses in (phi[:70:10], true):
         words = ", ".join("0" if abs(m) < 1e-9 else f"{m:.2f}" for m in masses)
         assert f"({words})" in SENTENCES
     assert max(fitted(data, name, 0.0)[0] for name in ("swing", "excited")) < 1e-12
@@ -103,31 +112,22 @@ def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
     assert f"In {smaller} of 8 the swing's is the smaller one" in SENTENCES
 
 
-def test_the_trap_of_the_lab_and_what_tells(data):
-    swing, excited = noises(lab.SEED)
-    small, off = fitted(data, "swing", swing)
-    large, good = fitted(data, "excited", excited)
-    assert f"{small:.4f} for {large:.4f}" in SENTENCES
-    assert f"of two fits be {off:,.0f} N m wrong" in SENTENCES
-    Y, tau, fast = data["swing"]
-    new = data["elsewhere"][0][data["elsewhere"][2]]
-    given = Y[fast], (tau + swing)[fast], new
-    _, sigma = identification.predict_with_sigma(*given, lab.RTOL)
-    assert f"sigma, which says {lab.rms(sigma):,.0f}" in SENTENCES
-    _, sigma = identification.predict_with_sigma(*given, 1e-3)
-    cut = fitted(data, "swing", swing, 1e-3)[1]
-    assert f"it is {cut:.1f} N m off" in SENTENCES
-    assert f"Sigma says {lab.rms(sigma):.1f}" in SENTENCES
-    near = fitted(data, "swing", swing, 1e-2, secret.numbers(arm))[1]
+def test_the_trap_of_the_lab_and_what_tells(data, printed):
+    numbers = r"^  .{20} +\d+ +([\d,]+) +([\d.]+) +([\d,.]+) +([\d,.]+) +\d+%$"
+    rows = re.findall(numbers, printed.replace(",", ""), re.M)
+    swing, cut, _, slow, excited = np.array(rows, dtype=float)
+    assert swing[0] == pytest.approx(1e8, rel=0.05)
+    assert f"{swing[1]:.4f} for {excited[1]:.4f}" in SENTENCES
+    assert f"of two fits be {swing[2]:,.0f} N m wrong" in SENTENCES
+    assert f"sigma, which says {swing[3]:,.0f}" in SENTENCES
+    assert f"it is {cut[2]:.1f} N m off" in SENTENCES
+    assert f"Sigma says {cut[3]:.1f}" in SENTENCES
+    assert f"half as wrong again, {slow[2]:.3f} for {excited[2]:.3f}" in SENTENCES
+    noise, known = noises(lab.SEED)[0], secret.numbers(arm)
+    near = fitted(data, "swing", noise, 1e-2, known)[1]
     assert f"as the file has it: {near:.2f} N m" in SENTENCES
-    s = np.linalg.svd(Y[fast], compute_uv=False)
-    assert s[0] / s[61] == pytest.approx(1e8, rel=0.05)
-    Y, tau, fast = data["excited"]
-    assert f"samples are {fast[::20].sum()} rows for 62 numbers" in SENTENCES
-    slow = identification.fit(Y.reshape(-1, 91), (tau + excited).ravel(), lab.RTOL)
-    Y_new, truth, fast = data["elsewhere"]
-    worse = lab.rms((Y_new @ slow - truth)[fast])
-    assert f"half as wrong again, {worse:.3f} for {good:.3f}" in SENTENCES
+    fast = data["excited"][2][::20]
+    assert f"samples are {fast.sum()} rows for 62 numbers" in SENTENCES
 
 
 def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
@@ -139,22 +139,19 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     assert (bad == (np.sign(turned) != np.sign(motion.qd))).all()
     assert f"{(~fast).sum()} of 1,400 have a speed below 0.1" in SENTENCES
     assert f"exactly the {bad.sum()} where" in SENTENCES
-    fastest = np.abs(motion.qd)[bad].max()
-    assert f"none is faster than {fastest:.3f} rad/s" in SENTENCES
+    assert f"none is faster than {np.abs(motion.qd)[bad].max():.3f} rad/s" in SENTENCES
     phi = identification.fit(Y.reshape(-1, 91), tau.ravel(), lab.RTOL)
-    worst = np.abs(Y @ phi - tau).max()
-    assert f"they cost {worst:.2f} N m at worst" in SENTENCES
+    assert f"they cost {np.abs(Y @ phi - tau).max():.2f} N m at worst" in SENTENCES
 
 
 def costs(code, motion):
     """Return the largest wrong torque of an arm_regressor at some states, N m."""
-    off = 0.0
+    off = []
     for q, qd, qdd in zip(*motion, strict=True):
         now = arm.at(q)
         given = now.J_space, now.T_links, qd, qdd, arm.gravity
-        wrong = np.asarray(code(*given)) - identification.arm_regressor(*given)
-        off = max(off, np.abs(wrong @ secret.numbers(arm)[:70]).max())
-    return off
+        off.append(code(*given) - identification.arm_regressor(*given))
+    return np.abs(off @ secret.numbers(arm)[:70]).max()
 
 
 def test_what_mistakes_cost_in_motion_and_at_rest():
@@ -196,15 +193,11 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     rows = identification.load_regressor(*secret.hands(arm, q), arm.gravity)
     assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
     m, *h = identification.payload_from_holds(*secret.hands(arm, q), extra, arm.gravity)
-    c = 1000 * np.array(h) / m
-    assert_same(c, [20, -30, 0], 1e-9)
+    assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
     assert "comes out as (20, -30, 0) mm" in SENTENCES
 
 
-def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(capsys, monkeypatch):
-    monkeypatch.setattr("sys.argv", ["lab", "--no-log"])
-    assert lab.main() == 0
-    printed = capsys.readouterr().out
+def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     grams = re.findall(r"([\d.]+) g at +(\S+) +(\S+) +(\S+) mm +(\S+) mm", printed)
     _, one, crossed, both = (np.array(row, dtype=float) for row in grams)
     assert f"{crossed[0] - 500:.0f} g, and the centre is" in SENTENCES
@@ -216,7 +209,6 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(capsys, monke
     assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
-    assert all(len(line) <= 80 for line in printed.splitlines())
 
 
 def test_mujoco_refuses_what_no_body_can_have():
