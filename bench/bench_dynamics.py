@@ -33,14 +33,11 @@ class Motion(NamedTuple):
 
 
 class Rival(NamedTuple):
-    """A way to answer the questions.
+    """A way to answer the questions."""
 
-    Attributes:
-        solve: question and motion to the answers, for the check.
-        time: the same work without collecting the answers.
-    """
-
+    # Question and motion to the answers, for the check.
     solve: Callable[[str, Motion], Array]
+    # The same work without collecting the answers.
     time: Callable[[str, Motion], object]
 
 

@@ -24,19 +24,13 @@ CHECKED = 200
 
 @dataclass
 class Rival:
-    """A way to compute forward kinematics.
+    """A way to compute forward kinematics."""
 
-    Attributes:
-        solve: configurations (n, 7) to poses (n, 4, 4), for the check.
-        time: the same work without collecting the answers.
-        n: how many configurations are timed.
-        model: of which robot; by default the Panda.
-    """
-
+    # Configurations (n, 7) to poses (n, 4, 4), for the check.
     solve: Callable[[Array], Array]
-    time: Callable[[Array], object]
-    n: int = N
-    model: mujoco.MjModel | None = None
+    time: Callable[[Array], object]  # the same work without collecting the answers
+    n: int = N  # how many configurations are timed
+    model: mujoco.MjModel | None = None  # of which robot; by default the Panda
 
 
 def ours() -> Rival:

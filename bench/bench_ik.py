@@ -27,15 +27,11 @@ SEED = 15
 
 @dataclass
 class Rival:
-    """A way to solve inverse kinematics.
+    """A way to solve inverse kinematics."""
 
-    Attributes:
-        solve: targets (n, 4, 4) to configurations (n, 7) and the steps that it took.
-        n: how many targets it is given.
-    """
-
+    # Targets (n, 4, 4) to configurations (n, 7) and the steps that it took.
     solve: Callable[[Array], tuple[Array, int]]
-    n: int = N
+    n: int = N  # how many targets it is given
 
 
 def ours() -> Rival:

@@ -2,11 +2,14 @@
 
 import importlib
 import statistics
+import subprocess
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from robo47.panda import files
+from robo47.paths import ROOT
 
 
 def take_turns(
@@ -32,6 +35,14 @@ def take_turns(
         name: {"median": statistics.median(t), "low": min(t), "high": max(t)}
         for name, t in took.items()
     }
+
+
+def programs(
+    commands: Mapping[str, list[str]], *, check: bool = True
+) -> dict[str, Callable[[], Any]]:
+    """Return candidates that are whole programs; `check` stops where one fails."""
+    run = partial(subprocess.run, cwd=ROOT, check=check, capture_output=True)
+    return {name: partial(run, command) for name, command in commands.items()}
 
 
 def microseconds(timed: Mapping[str, float], n: int) -> dict[str, float]:

@@ -85,15 +85,13 @@ def test_a_changed_list_is_installed_again_into_the_same_environment(
     assert len(call(setup, monkeypatch)) == 1
 
 
-def test_an_extra_is_installed_once_and_beside_the_core(setup, monkeypatch):
+def test_an_extra_is_installed_once_and_another_folder_is_another_environment(
+    setup, monkeypatch
+):
     call(setup, monkeypatch)
     (install,) = call(setup, monkeypatch, "test")
     assert install[-1] == ".[test]"
     assert call(setup, monkeypatch, "test") == []
-
-
-def test_another_folder_is_another_environment(setup, monkeypatch):
-    call(setup, monkeypatch)
     make, install = call(setup, monkeypatch, "--venv", ".venv-bench", "bench")
     assert make[-1].endswith(".venv-bench")
     assert install[-1] == ".[bench]"

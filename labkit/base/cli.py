@@ -64,13 +64,8 @@ def add_week(it: argparse.ArgumentParser) -> None:
 
 def add_log(it: argparse.ArgumentParser) -> None:
     """Add --file: which log."""
-    it.add_argument(
-        "--file",
-        type=Path,
-        default=METRICS_CSV,
-        metavar="CSV",
-        help="the log; default metrics/metrics.csv",
-    )
+    says = "the log; default metrics/metrics.csv"
+    it.add_argument("--file", type=Path, default=METRICS_CSV, metavar="CSV", help=says)
 
 
 def paint(text: str, mood: str, stream: TextIO | None = None) -> str:

@@ -44,20 +44,14 @@ class _SlowError(GitError):
 
 @dataclass(frozen=True)
 class History:
-    """The last commit of a clone.
+    """The last commit of a clone."""
 
-    Attributes:
-        readable: whether there is a repository that git can read.
-        commit: its hash; "" where there is no commit yet.
-        committed: the time that its author gave it, seconds since 1970, or None.
-        author: the name that its author gave; anybody can type any.
-        blobs: hash of each wanted file in it, by path.
-    """
-
-    readable: bool
-    commit: str = ""
+    readable: bool  # whether there is a repository that git can read
+    commit: str = ""  # its hash; "" where there is no commit yet
+    # The time that its author gave it, seconds since 1970, or None.
     committed: int | None = None
-    author: str = ""
+    author: str = ""  # the name that its author gave; anybody can type any
+    # Hash of each wanted file in it, by path.
     blobs: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, name: str, data: bytes | None) -> bool:

@@ -10,6 +10,7 @@ import os
 import pickle
 import sys
 from functools import lru_cache
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -116,37 +117,35 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
         body = model.geom_bodyid[original.objid]
         if body != carrier and (ghost.alone or not carries(model, carrier, body)):
             continue
-        copy = scene.geoms[scene.ngeom]
-        mujoco.mjv_initGeom(
-            copy, original.type, original.size, R @ original.pos + t,
-            (R @ original.mat).ravel(), WRONG_COLOUR if ghost.wrong else GHOST_COLOUR,
-        )  # fmt: skip
-        # What mjv_initGeom leaves as it was in memory, and drawing depends on.
-        copy.objtype, copy.objid, copy.segid = original.objtype, original.objid, -1
-        copy.category, copy.transparent = mujoco.mjtCatBit.mjCAT_DECOR, 1
+        colour = WRONG_COLOUR if ghost.wrong else GHOST_COLOUR
+        size, pos, mat = original.size, R @ original.pos + t, R @ original.mat
+        copy = _added(scene, original.type, size, pos, mat, colour)
+        copy.objtype, copy.objid = original.objtype, original.objid
         copy.dataid, copy.camdist = original.dataid, original.camdist
-        scene.ngeom += 1
+        copy.transparent = 1
 
 
 def add_box(scene: mujoco.MjvScene, box: Box) -> None:
     """Add a box to what is drawn."""
-    shape, R, t = (
-        scene.geoms[scene.ngeom],
-        box.T_world_box[:3, :3],
-        box.T_world_box[:3, 3],
-    )
-    mujoco.mjv_initGeom(
-        shape, mujoco.mjtGeom.mjGEOM_BOX, np.array(box.half), t, R.ravel(),
-        np.array(box.colour, dtype=np.float32),
-    )  # fmt: skip
-    # What mjv_initGeom leaves as it was in memory, and drawing depends on.
-    shape.objtype, shape.objid, shape.segid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1, -1
-    shape.category, shape.transparent, shape.dataid = (
-        mujoco.mjtCatBit.mjCAT_DECOR,
-        0,
-        -1,
-    )
+    R, t = box.T_world_box[:3, :3], box.T_world_box[:3, 3]
+    colour, kind = np.array(box.colour, dtype=np.float32), mujoco.mjtGeom.mjGEOM_BOX
+    shape = _added(scene, kind, np.array(box.half), t, R, colour)
+    shape.objtype, shape.objid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1
+    shape.dataid, shape.transparent = -1, 0
+
+
+def _added(
+    scene: mujoco.MjvScene, kind: int, size: Array, pos: Array, R: Array, colour: Any
+) -> mujoco.MjvGeom:
+    """Return a shape that is drawn besides.
+
+    What mjv_initGeom leaves as it was in memory, and drawing depends on, is to be set.
+    """
+    geom = scene.geoms[scene.ngeom]
+    mujoco.mjv_initGeom(geom, kind, size, pos, R.ravel(), colour)
+    geom.segid, geom.category = -1, mujoco.mjtCatBit.mjCAT_DECOR
     scene.ngeom += 1
+    return geom
 
 
 def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:

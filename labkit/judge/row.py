@@ -277,20 +277,18 @@ class Row:
         if self._draw is None:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
-        if "held_out" in more:
-            more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
-        kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+        more["held_out"] = [_one_by_one(held) for held in more.get("held_out", ())]
         if "accept" in more:
-            truth, more["accept"] = None, _told(more["accept"], self._fault)
+            more["accept"] = _told(more["accept"], self._fault)
         else:
-            truth = _Answered(self.truth, kinds, self._fault)
-        named = lambda: [  # noqa: E731 (made when an answer is wrong)
-            Mistake(way.slug, way.says, InTurn(way.code), way.redone, way.reached)
-            for way in self.named
-        ]
-        return Ask(
-            self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
-        )
+            kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+            more["truth"] = _Answered(self.truth, kinds, self._fault)
+
+        def named() -> list[Mistake]:  # made when an answer is wrong
+            ways = self.named
+            return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
+
+        return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
 
     def _fault(
         self, what: str, error: BaseException | None, says: str = ""
@@ -367,17 +365,18 @@ class _Answered(InTurn):
         super().__init__(function)
         self.kinds, self.fault = kinds, fault
 
-    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+    def each(self, columns: Sequence[Any]) -> list[Any]:
         try:
-            answer = super().nth(i, columns)
+            answers = super().each(columns)
         except ValueError as error:
             raise self.fault("truth", error.__cause__ or error) from None
-        found = answer if isinstance(answer, tuple) else (answer,)
-        for one, kind in zip(found, self.kinds, strict=False):
-            if len(found) != len(self.kinds) or not kind.fits(np.shape(one)):
-                says = f"returns shape {np.shape(one)}, and its kind is {kind.expected}"
-                raise self.fault("truth", None, says)
-        return answer
+        parts = [a if isinstance(a, tuple) else (a,) for a in answers]
+        for shapes in {tuple(map(np.shape, some)) for some in parts}:
+            for got, kind in zip(shapes, self.kinds, strict=False):
+                if len(shapes) != len(self.kinds) or not kind.fits(got):
+                    says = f"returns shape {got}, and its kind is {kind.expected}"
+                    raise self.fault("truth", None, says)
+        return answers
 
 
 def _told(accept: Code, fault: Code) -> Code:

@@ -20,21 +20,13 @@ _DEF = re.compile(r"^def (?P<name>\w+)\(")
 
 @dataclass(frozen=True)
 class Region:
-    """One stretch of a solution.
+    """One stretch of a solution."""
 
-    Attributes:
-        task: its id, such as "1.4".
-        function: the function it stands in.
-        start: index of the marker's line, counted from 0.
-        end: index of the end marker's line.
-        indent: the white space before the marker.
-    """
-
-    task: str
-    function: str
-    start: int
-    end: int
-    indent: str
+    task: str  # its id, such as "1.4"
+    function: str  # the function it stands in
+    start: int  # index of the marker's line, counted from 0
+    end: int  # index of the end marker's line
+    indent: str  # the white space before the marker
 
 
 def find_regions(text: str, name: str) -> list[Region]:

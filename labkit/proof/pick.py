@@ -19,19 +19,12 @@ CALLS, SECONDS = 200_000, 240.0  # of a pick; with all functions right it needs 
 
 
 class Picked(NamedTuple):
-    """What came of it.
+    """What came of it."""
 
-    Attributes:
-        result: None where the arm stopped.
-        stopped: why it did, in a line.
-        yours: how many of its functions are the student's.
-        total: of how many.
-    """
-
-    result: Result | None
-    stopped: str
-    yours: int
-    total: int
+    result: Result | None  # None where the arm stopped
+    stopped: str  # why it did, in a line
+    yours: int  # how many of its functions are the student's
+    total: int  # of how many
 
 
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:

@@ -48,15 +48,10 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Wall:
-    """What student code is kept behind.
+    """What student code is kept behind."""
 
-    Attributes:
-        name: "bubblewrap", "landlock" or "none".
-        says: a sentence for people, without a full stop.
-    """
-
-    name: str
-    says: str
+    name: str  # "bubblewrap", "landlock" or "none"
+    says: str  # a sentence for people, without a full stop
 
 
 @functools.cache

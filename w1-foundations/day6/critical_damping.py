@@ -20,7 +20,7 @@ def root(A):
 def _(rng):
     drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
-    light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
+    light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
     slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
@@ -115,13 +115,17 @@ def _(K, Lambda):
       both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
     cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
       Lambda => L sqrt(K) + sqrt(K) L^T
+    eigenvectors-transposed: the last transpose is missing: the root is V diag V^T =>
+      the right one with V diag V
     """
     k = np.sqrt(K)
+    values, V = np.linalg.eigh(Lambda)
     half = np.linalg.cholesky(Lambda) * k
     return {
         "entries-square-rooted": total(np.sqrt(np.abs(Lambda)), k),
         "one-order-only": 2.0 * k[:, None] * root(Lambda),
         "cholesky": half + half.T,
+        "eigenvectors-transposed": total(V @ np.diag(np.sqrt(values)) @ V, k),
     }
 
 

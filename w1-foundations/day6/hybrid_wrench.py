@@ -50,6 +50,8 @@ def _(e, V_err, K, D, force):
     spring-couples-into-z: the other five directions of the spring still pull along z:
       the push there is the wanted force and the damper's part, and nothing of K => the
       right one with K[5, :5] @ e[:5] along z
+    column-in-place-of-row: the error along z is left out, and with it K's last column;
+      what is to go is what K makes along z, its last row => the right one with e[5] = 0
     """
     spring, damper = K @ e, D @ V_err
     both, push = spring + damper, damper - force
@@ -63,6 +65,7 @@ def _(e, V_err, K, D, force):
         "spring-everywhere": both,
         "along-x": at(3, push[3], both),
         "spring-couples-into-z": at(Z, K[Z, :5] @ e[:5] + push[Z], both),
+        "column-in-place-of-row": K @ at(Z, 0.0, e) + at(Z, push[Z], damper),
     }
 
 
@@ -72,10 +75,16 @@ def _(e, V_err, K, D, force):
       one without any damper
     moment-in-place-of-force: entry 2 is replaced, and the damper with it: that is
       the moment about z => the right one with entry 2 replaced
+    column-in-place-of-row: K's last column is gone with its last row; what an error
+      along z makes in the other five directions stays => the right one with row and
+      column 5 of K at 0
     """
     return {
         "damper-left-out": at(Z, -force, K @ e),
         "moment-in-place-of-force": at(MOMENT_Z, -force, K @ e + D @ V_err),
+        "column-in-place-of-row": (
+            at(Z, 0.0, K @ at(Z, 0.0, e)) + at(Z, D[Z] @ V_err - force, D @ V_err)
+        ),
     }
 
 

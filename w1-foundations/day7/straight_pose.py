@@ -13,8 +13,15 @@ from robo47.trajectory import straight_pose
 
 from .turns import TURNS
 
+
+def one_way(T0, T1, s):
+    """Return whether the shorter turn is one: after half a turn there are two."""
+    return np.trace(T0[:3, :3].T @ T1[:3, :3]) > -1.0 + 1e-6
+
+
 # One thing with two names: the whole rotation at once is that of the last pose.
-row = Row(Pose(), held_out=TURNS, alike=[{"whole-turn", "turned-at-once"}])
+ALIKE = [{"whole-turn", "turned-at-once"}]
+row = Row(Pose(), held_out=TURNS, alike=ALIKE, at_edge=one_way)
 
 
 @row.inputs

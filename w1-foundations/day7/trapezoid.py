@@ -6,7 +6,15 @@ from labkit.judge import Vector, draw
 from labkit.judge.row import Row
 from robo47.trajectory import trapezoid
 
-row = Row(Vector((3,), names=("the position", "the speed", "the acceleration")))
+
+def between_ends(t, L, v, a):
+    """Return whether t is a moment at which no piece ends."""
+    _, ramp, T = timing(L, v, a)
+    return min(abs(t - end) for end in (0.0, ramp, T - ramp, T)) > 1e-6
+
+
+NAMES = ("the position", "the speed", "the acceleration")
+row = Row(Vector((3,), names=NAMES), at_edge=between_ends)
 
 
 @row.inputs
