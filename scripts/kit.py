@@ -22,9 +22,9 @@ def here():
         return False
     from importlib.util import find_spec
 
-    found = [find_spec(name) for name in NEEDED]
+    found = [spec.origin or "" for spec in map(find_spec, NEEDED) if spec]
     top = os.path.realpath(ROOT) + os.sep
-    return all(found) and os.path.realpath(found[0].origin).startswith(top)
+    return len(found) == len(NEEDED) and os.path.realpath(found[0]).startswith(top)
 
 
 def go_on():

@@ -86,10 +86,11 @@ def run_in(student):
 def lacks(student, tmp_path):
     """Return what a clone of the student's last commit lacks."""
 
-    def look():
+    def look(*later):
         sha, into = cloning.head_of(student), tmp_path / "fresh"
-        cloning.clone_commit(sha, into, student)
-        return findings([find_day(1, into)], into, student)
+        if not into.exists():
+            cloning.clone_commit(sha, into, student)
+        return findings([find_day(1, into), *later], into, student)
 
     return look
 
@@ -196,6 +197,15 @@ class TestWhatIsMissing:
         diary = student / WEEK / "docs" / "RETRO_w1.md"
         diary.write_text(DIARY.format("| 2 |") + "mine\n", "utf-8")
         assert lacks() == []
+
+    def test_is_the_weeks_numbers_at_its_end_alone(self, student, lacks):
+        diary = student / WEEK / "docs" / "RETRO_w1.md"
+        diary.write_text(DIARY.format("") + "mine\n", "utf-8")
+        commit(student)
+        diary.write_text(DIARY.format("| 1 |") + "mine\n", "utf-8")
+        said = f"{WEEK}/docs/RETRO_w1.md: its numbers are not committed yet"
+        assert lacks() == [said]
+        assert lacks(find_day(2)) == []  # a day is still to come
 
     def test_is_no_sheet_of_a_day_that_is_not_begun(self, student, lacks):
         git(student, "rm", "-rq", f"{WEEK}/work", f"{WEEK}/docs/day1.md")
