@@ -94,8 +94,7 @@ def arm_regressor(
     Args:
         J_space: space Jacobian, (..., 6, n).
         T_links: `T_world_link`, (..., n, 4, 4).
-        qd: joint velocities, rad/s, (..., n).
-        qdd: joint accelerations, rad/s^2, (..., n).
+        qd, qdd: joint velocities, rad/s, and accelerations, rad/s^2, (..., n).
         g: gravity, m/s^2, (3,).
 
     Returns:
@@ -121,8 +120,7 @@ def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
     """Return the columns of rotors, viscous and dry friction: qdd, qd, sign(qd).
 
     Args:
-        qd: joint velocities, rad/s, (..., n).
-        qdd: joint accelerations, rad/s^2, (..., n).
+        qd, qdd: joint velocities, rad/s, and accelerations, rad/s^2, (..., n).
 
     Returns:
         (..., n, 3 n): times (armature, damping, dry friction) it is a torque.

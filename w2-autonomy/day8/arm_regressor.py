@@ -22,8 +22,7 @@ row = Row(Matrix((7, 70), rows=ROWS, scale=10.0))
 def _(rng):
     drawn = moving(rng)
     J, T, qd, qdd, g = drawn[0]
-    hinge, still = np.zeros((6, 7)), np.zeros(7)
-    hinge[1, 0] = 1.0
+    hinge, still = np.outer(np.eye(6)[1], np.eye(7)[0]), np.zeros(7)
     case = (hinge, np.array([np.eye(4)] * 7), still, np.eye(7)[0], g)
     alone = [(still, still, g), (still, qdd, 0 * g), (qd, still, 0 * g)]
     tipped = (J, T, qd, qdd, np.array([3.0, -5.0, 7.0]))

@@ -13,8 +13,7 @@ FIRST = np.eye(7)[0]
 def _(rng):
     # The middle of a range is asked, too, and 0 is where a sign jumps.
     qd, qdd = draw.numbers(rng, -2, 3, 6, 7), draw.numbers(rng, -9, 9, 6, 7)
-    qd[0, 2], qd[1, 5] = 0.0, 0.01  # a joint at rest; one that hardly moves
-    qd[2, 3] = 1e-4
+    qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
 

@@ -199,13 +199,13 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
 
 def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     grams = re.findall(r"([\d.]+) g at +(\S+) +(\S+) +(\S+) mm +(\S+) mm", printed)
-    _, one, crossed, both = (np.array(row, dtype=float) for row in grams)
+    untold, one, crossed, both = np.array(grams, dtype=float)
     assert f"{crossed[0] - 500:.0f} g, and the centre is" in SENTENCES
     away = np.linalg.norm(crossed[1:4] - 1000 * lab.AT)
     assert f"the centre is {away:.0f} mm off" in SENTENCES
-    assert f"sinks by {-float(grams[0][4]):.0f} mm" in SENTENCES
+    assert f"sinks by {-untold[4]:.0f} mm" in SENTENCES
     assert f"the {crossed[0]:.0f} g, it rises by {crossed[4]:.0f}" in SENTENCES
-    assert f"the {one[0]} g are {one[0] - 500:.1f} g wrong" in SENTENCES
+    assert f"the {one[0]:.1f} g are {one[0] - 500:.1f} g wrong" in SENTENCES
     assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
