@@ -96,24 +96,12 @@ def _(J, M):
     return np.linalg.inv(A.T @ A)
 
 
-@row.right  # One unit acceleration after the other.
-def _(J, M):
-    A = J @ np.linalg.inv(M) @ J.T
-    columns = [np.linalg.solve(A, unit) for unit in np.eye(6)]
-    return np.array(columns).T
-
-
 @row.right  # By the singular values of J M^-1/2.
 def _(J, M):
     values, V = np.linalg.eigh(M)
     half = V / np.sqrt(values) @ V.T
     U, s, _ = np.linalg.svd(J @ half, full_matrices=False)
     return U / s**2 @ U.T
-
-
-@row.right  # A pseudo-inverse, which away from singularities is the inverse.
-def _(J, M):
-    return np.linalg.pinv(J @ np.linalg.pinv(M) @ J.T)
 
 
 @row.close("rounded-somewhere")  # float32 inside.
