@@ -66,7 +66,7 @@ class Answers:
     there, version, problem = True, 1, ""
 
     def __init__(self, functions):
-        from labkit.inspector.checker_calls import describe
+        from labkit.inspector.student import describe
 
         self.functions, self.source = functions, SimpleNamespace()
         self.source.describe = partial(describe, {})
@@ -181,14 +181,12 @@ def kits_worksheet(day) -> str:
     return text
 
 
-@pytest.fixture
-def clone(tmp_path):
-    """Return a copy of the kit that a test may work in, with nothing done in it.
+def copy_kit(copy: Path) -> Path:
+    """Return a new folder with a copy of the kit, and nothing done in it.
 
     A student's clone holds rows, a worksheet and pictures of their own: `make test`
     must pass on it as well.
     """
-    copy = tmp_path / "clone"
     copy.mkdir()
     skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
     for name in kit_folders():
@@ -200,9 +198,8 @@ def clone(tmp_path):
     return copy
 
 
-@pytest.fixture
-def one_day(clone):
-    """Return that copy with its first day alone: the labs of a week take seconds."""
+def keep_first_day(clone: Path) -> Path:
+    """Return a copy of the kit, now with its first day alone: it is run in seconds."""
     first, *others = weeks(clone)
     for week in others:
         shutil.rmtree(week.folder)
@@ -210,6 +207,18 @@ def one_day(clone):
         shutil.rmtree(first.folder / f"day{number}")
     write_week(first.folder, first.days[0])
     return clone
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of the kit that a test may work in."""
+    return copy_kit(tmp_path / "clone")
+
+
+@pytest.fixture
+def one_day(clone):
+    """Return that copy with its first day alone."""
+    return keep_first_day(clone)
 
 
 @pytest.fixture

@@ -82,10 +82,24 @@ def lab(tmp_path):
 
 def test_a_lab_goes_on_in_the_kits_own_python(bare, lab):
     need((ROOT / ".venv").exists(), "the kit's own .venv: make day1")
-    (lab.parents[2] / ".venv").symlink_to(ROOT / ".venv")
+    own = lab.parents[2] / ".venv" / "bin" / "python"
+    for path in (own, lab.parents[2] / "robo47" / "__init__.py"):
+        path.parent.mkdir(parents=True)
+        path.write_text("")
+    path = f"PYTHONPATH={lab.parents[2]} {ROOT}/.venv/bin/python"
+    own.write_text(f'#!/bin/sh\n{path} "$@"\n')
+    own.chmod(0o755)
     done = bare(lab)
     assert (done.returncode, done.stderr) == (0, "")
     assert ".venv" in done.stdout
+
+
+def test_the_python_of_another_clone_is_not_used(clone):
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    command = [sys.executable, clone / "scripts" / "start_day.py", "1"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "the kit is not set up. Run `make setup`" in done.stderr
 
 
 def test_a_lab_outside_a_clone_needs_no_help(lab, run):

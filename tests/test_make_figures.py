@@ -14,7 +14,10 @@ if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
 from PIL import Image
 
-from labkit.figures import overlay, portrait
+from labkit.figures import overlay, portrait, sheet
+from labkit.figures.lessons import lesson_figures
+from labkit.lesson import folder
+from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
 
@@ -34,6 +37,16 @@ def test_the_committed_pictures_are_there(name):
         )
 
 
+@pytest.mark.parametrize("day", all_days(), ids="day{0.number}".format)
+def test_a_weeks_table_shows_the_days_picture_as_it_is_now(day):
+    lesson_figures(day.number)  # makes the lab importable
+    name, *part = folder.load(day, "figures").SMALL
+    figures = day.folder / "figures"
+    kept = Image.open(figures / f"day{day.number}_small.png").convert("RGB")
+    whole = Image.open(figures / f"day{day.number}_{name}.png").convert("RGB")
+    assert differing(sheet.thumbnail(whole, *part), kept) < 0.05
+
+
 @pytest.mark.gl
 @pytest.mark.meshes
 @pytest.mark.usefixtures("gl", "real_panda")
@@ -51,8 +64,6 @@ def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
-    from labkit.figures.lessons import lesson_figures
-
     draw = lesson_figures(1)["day1_order"]
     from day1_transforms import READY_Q, compose_fk
 
