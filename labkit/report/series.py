@@ -40,8 +40,7 @@ class Series:
     @property
     def values(self) -> list[float]:
         """The finite values, oldest first."""
-        found = (value_of(row) for row in self.rows)
-        return [value for value in found if value is not None and math.isfinite(value)]
+        return [value for value in map(float_of, self.rows) if math.isfinite(value)]
 
     @property
     def status(self) -> str:
@@ -119,6 +118,12 @@ def value_of(row: Row) -> float | None:
     """Return a row's number."""
     value = row["value"]
     return value if isinstance(value, int | float) else None
+
+
+def float_of(row: Row) -> float:
+    """Return a row's number, NaN where it has none."""
+    value = value_of(row)
+    return math.nan if value is None else float(value)
 
 
 def collect(
