@@ -12,8 +12,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conftest import empty_worksheet, write_week
+from conftest import write_week
 from labkit import log as metrics
+from labkit.author.sheet import worksheet_of
 from labkit.handin import check_deliverables, item_names
 from labkit.handin.figure import PORTRAIT, FlawError, check_figure, read_png
 from labkit.handin.handin import Handin, read_handin
@@ -72,7 +73,7 @@ def fresh_clone(copy):
     (copy / "metrics").mkdir()
     (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
     (week / kit.figure).unlink(missing_ok=True)
-    (week / kit.worksheet).write_text(empty_worksheet(kit), "utf-8")
+    (week / kit.worksheet).write_text(worksheet_of(kit), "utf-8")
 
 
 @pytest.fixture(scope="module")

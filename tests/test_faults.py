@@ -56,7 +56,7 @@ def kill(monkeypatch):
     return first
 
 
-def _no_process():
+def _no_process(*_):
     raise FaultError("this machine starts no process")
 
 

@@ -79,9 +79,10 @@ class Report:
         if self.problem:
             return "fix that line, then check again."
         for result in self.left:
-            if not result.task.optional:
+            if result in self.counted:
                 task = result.task
-                return f"{_named(task)}. Stuck? make hint TASK={task.id}"
+                named = f"task {task.id}, {' and '.join(task.functions)}"
+                return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
                 return f"the {item.name}."
@@ -91,10 +92,6 @@ class Report:
             says = "nothing is left to do here. Well done. Your numbers: make report; "
             return f"{says}then: {then}."
         return f"the whole day: make check DAY={self.day.number}"
-
-
-def _named(task: Task) -> str:
-    return f"task {task.id}, {' and '.join(task.functions)}"
 
 
 def as_json(report: Report) -> dict[str, Any]:
@@ -109,30 +106,13 @@ def as_json(report: Report) -> dict[str, Any]:
         of a task also "follows" and "call".
     """
     tasks = [
-        {
-            "id": result.task.id,
-            "kind": "task",
-            "title": result.task.title,
-            "status": result.verdict.status,
-            "mistake": result.verdict.mistake,
-            "message": result.verdict.message,
-            "follows": result.verdict.follows,
-            "call": result.verdict.call,
-            "measured": list(result.verdict.measured),
-        }
+        _entry("task", result.task.id, result.task.title, result.verdict)
+        | {"follows": result.verdict.follows, "call": result.verdict.call}
         for result in report.tasks
     ]
     items = [
-        {
-            "id": item.name,
-            "kind": "deliverable",
-            "title": item.name,
-            "status": item.status,
-            "mistake": "",
-            "message": item.message,
-            "measured": [],
-        }
-        for item in report.items
+        _entry("deliverable", i.name, i.name, Verdict(i.status, message=i.message))
+        for i in report.items
     ]
     return {
         "day": report.day.number,
@@ -142,6 +122,18 @@ def as_json(report: Report) -> dict[str, Any]:
         "problem": report.problem,
         "next": report.next_step(),
         "entries": tasks + items,
+    }
+
+
+def _entry(kind: str, name: str, title: str, verdict: Verdict) -> dict[str, Any]:
+    return {
+        "id": name,
+        "kind": kind,
+        "title": title,
+        "status": verdict.status,
+        "mistake": verdict.mistake,
+        "message": verdict.message,
+        "measured": list(verdict.measured),
     }
 
 
@@ -163,7 +155,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         verdict = result.verdict
         status = "unjudged" if report.problem else state_of(verdict)
         lines.append(_line(name, status, colour, width))
-        if not report.problem and verdict.mistake != "unwritten":
+        begun = verdict.function not in ("", result.task.functions[0])
+        if not report.problem and (begun or verdict.mistake != "unwritten"):
             says = _said(report, result, explain)
             lines += _wrapped(says, _INDENT)
             if verdict.call and verdict.message in says:

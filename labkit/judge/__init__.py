@@ -19,7 +19,7 @@ The student's code is never run here, and nothing it computed is used as the tru
 What is special about a day stands in the day's own folder.
 """
 
-from labkit.judge.ask import Ask, Case, HeldOut, Probe, Robot, Slip
+from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
 from labkit.judge.kinds import Points, Scalar, Twist, Vector, Wrench
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
@@ -41,7 +41,6 @@ __all__ = [
     "Pixels",
     "Points",
     "Pose",
-    "Probe",
     "Robot",
     "Rotation",
     "Scalar",

@@ -67,6 +67,32 @@ class Kind:
         pairs = zip(shape, self.shape, strict=False)
         return len(shape) == len(self.shape) and all(n in (m, None) for m, n in pairs)
 
+    def read(self, values: Sequence[object]) -> list[Array] | Finding:
+        """Return answers as arrays, or what keeps one of them from it."""
+        found = []
+        for value in values:
+            try:
+                array = np.asarray(value)
+            except ValueError:  # parts of different shapes
+                some = value if isinstance(value, tuple | list) else ()
+                shapes = ", ".join(str(np.shape(part)) for part in some)
+                says = f"It returns parts of shapes {shapes}"
+                return Finding("shape", f"{says}; expected is {self.expected}.")
+            if array.dtype.kind not in "fiub":
+                says = f"It returns {array.dtype} values; expected is {self.expected}"
+                return Finding("not-numbers", f"{says} of real numbers.")
+            if not self.fits(array.shape):
+                return self._misfit(array.shape)
+            found.append(self.plain(array))
+        return found
+
+    def _misfit(self, got: tuple[int, ...]) -> Finding:
+        text = f"It returns shape {got}; expected is {self.expected}"
+        if None not in self.shape and str(self.shape) not in text.partition(";")[2]:
+            text += f", shape {self.shape}"
+        reason = self.why_shape(got)
+        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
         return answer
@@ -102,9 +128,7 @@ class Kind:
 class Scalar(Kind):
     """One number. `Scalar(unit="J", scale=10.0)`."""
 
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "one number"
+    expected = "one number"
 
 
 @dataclass(frozen=True)
@@ -168,21 +192,15 @@ class _Halves(Kind):
         )
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        first, second = (
-            float((np.abs(S - T) / self.scale)[:, half].max())
-            for half in (slice(0, 3), slice(3, 6))
-        )
+        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
         if found := one_factor(self, S, T):
             return found
-        if first <= NEAR:
-            says = f"{self.halves[0]} is right; {self.halves[1]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("second-half-off", says)
-        if second <= NEAR:
-            says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("first-half-off", says)
-        return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
+        for i, slug in enumerate(("second-half-off", "first-half-off")):
+            if off[i] <= NEAR:
+                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
+                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
+        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
+        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)

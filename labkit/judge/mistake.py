@@ -60,14 +60,12 @@ class Mistake:
             stacked, one array (n, ...) per argument (a `Robot` as its model), and
             returns (n, ...), or a tuple of such where the function returns several.
         redone: what to call that answer, as in "0 from its transpose".
-        reached: whether it is one of a smaller function, which this one calls.
     """
 
     slug: str
     says: str
     redo: Callable[..., Any]
     redone: str = "the answer with this mistake"
-    reached: bool = False
 
 
 def capitalised(clause: str) -> str:
@@ -79,7 +77,7 @@ def capitalised(clause: str) -> str:
     return clause[0].upper() + clause[1:]
 
 
-def _own(argument: Any) -> Any:
+def own(argument: Any) -> Any:
     """Return a copy of an array or a number; a model or a path is as it is."""
     plain = isinstance(argument, np.ndarray | np.generic)
     return np.copy(argument)[()] if plain else argument
@@ -102,16 +100,24 @@ class InTurn:
         Raises:
             ValueError: the function has no answer to one of them.
         """
-        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
-        answers = [self.nth(i, columns) for i in range(n)]
+        answers = self.each(columns)
         if isinstance(answers[0], tuple):
             return tuple(map(as_one, zip(*answers, strict=True)))
         return as_one(answers)
 
-    def nth(self, i: int, columns: Sequence[Any]) -> Any:
-        """Return the answer to one question; it gets arrays of its own."""
-        args = [_own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the answers one by one; every call gets arrays of its own."""
+        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
+        calls = [
+            [own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+            for i in range(n)
+        ]
         try:
-            return self.function(*args)
+            return [self.function(*args) for args in calls]
         except Exception as error:  # a mistake may stop, as a student's may
             raise ValueError(str(error)) from error
+
+    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+        """Return the answer to one question."""
+        one = [c[[i]] if isinstance(c, np.ndarray) else c for c in columns]
+        return self.each(one)[0]

@@ -29,10 +29,7 @@ class Rotation(Kind):
     """A rotation matrix, (3, 3)."""
 
     shape: tuple[int, ...] = (3, 3)
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a 3x3 matrix"
+    expected = "a 3x3 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         known: dict[tuple[int, ...], str] = {
@@ -72,10 +69,7 @@ class Pose(Kind):
 
     shape: tuple[int, ...] = (4, 4)
     wrong_way: str = "turns the other way"
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a 4x4 matrix"
+    expected = "a 4x4 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         known: dict[tuple[int, ...], str] = {

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.judge import HeldOut, Pose, Probe
+from labkit.judge import HeldOut, Pose
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
 from labkit.judge.row import Row
@@ -55,7 +55,7 @@ row = Row(
         ),
         places.TYPED_IN,
     ],
-    probe=Probe(_prefixes),
+    probe=_prefixes,
     unnamed=places.along(PATH),
     near_miss=places.flange,
     measured=places.measured,

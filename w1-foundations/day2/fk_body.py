@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Pose, Probe
+from labkit.judge import Pose
 from labkit.judge.row import Row
 from robo47 import screws
 
@@ -21,7 +21,7 @@ row = Row(
     Pose(wrong_way="maps the world to the end effector"),
     truth=quick(screws.fk_body),
     alike=ALIKE,
-    probe=Probe(places.alone(seen_by_the_hand)),
+    probe=places.alone(seen_by_the_hand),
     unnamed=places.unnamed,
     measured=places.measured,
 )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Pose, Probe
+from labkit.judge import Pose
 from labkit.judge.row import Row
 from robo47 import screws, se3
 from robo47.screws import adjoint
@@ -16,7 +16,7 @@ row = Row(
     Pose(wrong_way="maps the world to the end effector"),
     truth=quick(screws.fk_space),
     alike=ALIKE,
-    probe=Probe(places.alone(arms)),
+    probe=places.alone(arms),
     unnamed=places.unnamed,
     measured=places.measured,
 )
