@@ -154,7 +154,9 @@ def collect(
         if row is None:
             report.unread.append(line)
             continue
-        if not _wanted(row, since, day, check):
+        if str(row["date"]) < since or day not in (None, row["day"]):
+            continue
+        if check not in ("", row["check"]):
             continue
         report.rows += 1
         if line.problem:
@@ -167,19 +169,7 @@ def collect(
     return report
 
 
-def _wanted(row: Row, since: str, day: int | None, check: str) -> bool:
-    return (
-        str(row["date"]) >= since
-        and day in (None, row["day"])
-        and check in ("", row["check"])
-    )
-
-
-def _add(
-    found: dict[Key, Series],
-    thresholds: Mapping[Key, Metric],
-    row: Row,
-) -> None:
+def _add(found: dict[Key, Series], thresholds: Mapping[Key, Metric], row: Row) -> None:
     name, metric = str(row["check"]), str(row["metric"])
     day = row["day"] if isinstance(row["day"], int) else None
     if day is None:  # a row without its day belongs to the only day that asks for it
