@@ -99,7 +99,8 @@ class Kind:
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
-        return "it has one axis too many" if got in _with_an_axis(self.shape) else ""
+        thicker = got in ((*self.shape, 1), (1, *self.shape))
+        return "it has one axis too many" if thicker else ""
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
@@ -278,7 +279,3 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
         f"It is {say_factor(factor)} times the right one, in every entry and every "
         "time.",
     )
-
-
-def _with_an_axis(shape: tuple[int | None, ...]) -> set[tuple[int | None, ...]]:
-    return {(*shape, 1), (1, *shape)}
