@@ -286,3 +286,17 @@ def test_a_side_quest_that_nobody_wrote_keeps_no_row_from_counting():
     assert required_pass(results)
     results[0] = TaskResult(day.tasks[0], Verdict("wrong"))
     assert not required_pass(results)
+
+
+def test_a_side_quest_is_next_only_where_it_alone_was_checked():
+    from labkit.check.report import Report
+    from labkit.check.tasks import TaskResult
+    from labkit.judge import Verdict
+
+    day = find_day(3)
+    *others, quest = (TaskResult(task, Verdict("wrong")) for task in day.tasks)
+    assert quest.task.optional
+    hint = f"Stuck? make hint TASK={quest.task.id}"
+    assert hint in Report(day, [quest]).next_step()
+    passed = [TaskResult(other.task, Verdict("passed")) for other in others]
+    assert hint not in Report(day, [*passed, quest]).next_step()

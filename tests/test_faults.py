@@ -56,7 +56,7 @@ def kill(monkeypatch):
     return first
 
 
-def _no_process():
+def _no_process(*_):
     raise FaultError("this machine starts no process")
 
 
@@ -242,12 +242,12 @@ class TestAMachineThatStartsNoProcess:
             raise MemoryError
 
         monkeypatch.setattr(classroom, "collect", fails)
-        journal = Journal(tmp_path / "j", [DAY], 0, deadline=False)
-        room = classroom.Classroom([Student("A", "a", tmp_path)], [DAY], journal)
+        journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
+        room = classroom.Classroom([Student("A", "a", tmp_path)], DAY, journal)
         with engine.local(1) as here:
-            (course,) = room.grade(here, tmp_path)
+            course = room.grade(here, tmp_path)
         journal.close()
-        assert (room.faults, room.graded_now) == (1, 0)
+        assert (room.tally.faults, room.tally.graded_now) == (1, 0)
         assert "this machine failed (MemoryError)" in course.class_[0].error
         assert (tmp_path / "j").read_text().count("\n") == 1  # its head
 

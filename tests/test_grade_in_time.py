@@ -175,7 +175,7 @@ def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:
 
 def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
     def open_journal():
-        return Journal(tmp_path / "j", [DAY], DEADLINE, deadline=True, seed=4711)
+        return Journal(tmp_path / "j", DAY, DEADLINE, deadline=True, seed=4711)
 
     journal = open_journal()
     packages = []
@@ -194,7 +194,7 @@ def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
 
 
 def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
-    journal = Journal(tmp_path / "j", [DAY], 0, deadline=False)
+    journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
     save(clone, "x = 1", DEADLINE)
     package = collected(clone)[0]
     journal.keep("mia", package, result(8, kit="0.1.0"))
@@ -219,7 +219,7 @@ def test_a_table_for_handing_on_says_nothing_of_who_it_is():
     mia = Graded(
         Student("Mia M", "mia", Path(), id="m@x.org"), told, "abc123", 5, "mia"
     )
-    text = sheet.as_csv(DAY, sheet.nameless([mia], 4711)).decode("utf-8-sig")
+    text = sheet.as_csv(sheet.nameless([mia], 4711)).decode("utf-8-sig")
     head, row = text.splitlines()
     assert "mia" not in row.lower()
     assert "abc123" not in row

@@ -25,10 +25,15 @@ def edited(tmp_path, *changes):
     for old, new in changes:
         assert old in text
         text = text.replace(old, new, 1)
-    path = tmp_path / "w1-x" / "day1" / "day.toml"
-    path.parent.mkdir(parents=True, exist_ok=True)
+    return written(tmp_path / "w1-x", 1, text)
+
+
+def written(week, number, text):
+    """Add a day's manifest to a week."""
+    path = week / f"day{number}" / "day.toml"
+    path.parent.mkdir(parents=True)
     path.write_text(text, "utf-8")
-    write_week(tmp_path / "w1-x", 1)
+    write_week(week, *range(1, number + 1))
     return path
 
 
@@ -72,9 +77,7 @@ def test_figure_worksheet_and_metrics_are_optional(tmp_path):
 
 def test_a_broken_manifest_costs_its_own_day_alone(tmp_path):
     edited(tmp_path)
-    (tmp_path / "w1-x" / "day2").mkdir()
-    (tmp_path / "w1-x" / "day2" / "day.toml").write_text("number = ")
-    write_week(tmp_path / "w1-x", 1, 2)
+    written(tmp_path / "w1-x", 2, "number = ")
     assert find_day(1, tmp_path).title == DAY.title
     with pytest.raises(Robo47Error, match=r"day2/day\.toml cannot be read"):
         find_day(2, tmp_path)
@@ -82,10 +85,7 @@ def test_a_broken_manifest_costs_its_own_day_alone(tmp_path):
 
 def test_two_weeks_may_not_have_the_same_day(tmp_path):
     edited(tmp_path)
-    other = tmp_path / "w2-y" / "day1" / "day.toml"
-    other.parent.mkdir(parents=True)
-    other.write_text(TEXT)
-    write_week(tmp_path / "w2-y", 1)
+    written(tmp_path / "w2-y", 1, TEXT)
     with pytest.raises(Robo47Error, match="two days 1"):
         find_day(1, tmp_path)
 
@@ -93,10 +93,7 @@ def test_two_weeks_may_not_have_the_same_day(tmp_path):
 def test_the_day_begun_last_is_the_default(tmp_path):
     edited(tmp_path)
     assert started_day(tmp_path) == 1
-    second = tmp_path / "w1-x" / "day2" / "day.toml"
-    second.parent.mkdir()
-    second.write_text("")
-    write_week(tmp_path / "w1-x", 1, 2)
+    written(tmp_path / "w1-x", 2, "")
     assert day_numbers(tmp_path) == [1, 2]
     assert started_day(tmp_path) == 1
     work = tmp_path / "w1-x" / "work"

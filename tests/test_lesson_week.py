@@ -31,11 +31,8 @@ def course(tmp_path):
 
 def test_weeks_and_days_come_in_order_whatever_the_folders_are_called(course):
     made(course, "w10-j", 60)
-    assert [week.heading for week in weeks(course)] == [
-        "Week 1: a",
-        "Week 2: b",
-        "Week 10: j",
-    ]
+    headings = [week.heading for week in weeks(course)]
+    assert headings == ["Week 1: a", "Week 2: b", "Week 10: j"]
     assert day_numbers(course) == [1, 2, 3, 4, 5, 60]
 
 

@@ -79,7 +79,7 @@ class Report:
         if self.problem:
             return "fix that line, then check again."
         for result in self.left:
-            if not result.task.optional:
+            if result in self.counted:
                 task = result.task
                 named = f"task {task.id}, {' and '.join(task.functions)}"
                 return f"{named}. Stuck? make hint TASK={task.id}"

@@ -29,15 +29,13 @@ import re
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, git, store
-from labkit.grade import engine, overview, week_page
-from labkit.grade.classroom import Classroom, write_all
+from labkit.grade import engine, week_page
+from labkit.grade.classroom import Classroom, Tally, write_all
 from labkit.grade.journal import Journal
-from labkit.grade.overview import Course
 from labkit.grade.package import version
 from labkit.grade.platforms import PLATFORMS, known
 from labkit.grade.platforms import as_csv as platforms_csv
@@ -180,32 +178,6 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     return found
 
 
-@dataclass
-class Tally:
-    """What is said at the end of all days."""
-
-    results: int = 0
-    graded_now: int = 0
-    faults: int = 0
-    outdated: int = 0
-    ungraded: bool = False
-    odd: list[str] = field(default_factory=list)
-    notes: dict[str, str] = field(default_factory=dict)
-
-    def add(self, room: Classroom, course: Course) -> None:
-        """Take over a day's."""
-        self.results += len(course.class_)
-        self.graded_now += room.graded_now
-        self.faults += room.faults
-        self.outdated += room.journal.outdated
-        self.ungraded |= any(overview.state(g) == "ungraded" for g in course.class_)
-        if room.journal.odd:
-            where = shown(room.journal.path.absolute())
-            self.odd.append(
-                f"{where}: lines that are no result, left out: {room.journal.odd:,}"
-            )
-
-
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
@@ -286,7 +258,7 @@ def grade_day(
     given = options.deadline is not None
     since = options.deadline if given else int(time.time())
     journal = Journal(
-        out.parent / "grading.jsonl", [day], since, deadline=given, seed=options.seed
+        out.parent / "grading.jsonl", day, since, deadline=given, seed=options.seed
     )
     with contextlib.closing(journal):
         if not week.days:
@@ -296,16 +268,17 @@ def grade_day(
             )
         again = options.again and options.again.split(",")
         again = () if again is None else (again or None)
-        room = Classroom(
-            week.students, [day], journal, again, options.frozen, options.keep
-        )
-        room.notes = tally.notes
+        how = (again, options.frozen, options.keep)
+        room = Classroom(week.students, day, journal, *how, tally)
         if options.pull and not week.days:
             room.pull()
-        (course,) = room.grade(where, out.parent / "feedback")
+        course = room.grade(where, out.parent / "feedback")
         write_all(course, out, anonymous=options.anonymous)
     week.add(course)
-    tally.add(room, course)
+    tally.outdated += journal.outdated
+    if journal.odd:
+        path = shown(journal.path.absolute())
+        tally.odd.append(f"{path}: lines that are no result, left out: {journal.odd:,}")
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
@@ -322,7 +295,7 @@ def prove(week: Week, folder: Path, at_once: int) -> None:
 
 def tell(tally: Tally, week: Week, out: Path) -> None:
     """Print what came out of all days."""
-    kept = tally.results - tally.graded_now - tally.faults
+    kept = len(week.graded) - tally.graded_now - tally.faults
     print(f"graded now: {tally.graded_now:,}; unchanged since: {kept:,}")
     several = len(week.days) > 1  # then the page has them, day by day
     for task, mistake, number in [] if several else week.mistakes[week.days[0].number]:
@@ -331,7 +304,7 @@ def tell(tally: Tally, week: Week, out: Path) -> None:
         print(f"not pulled: {len(tally.notes):,}; the column error says why")
     if tally.faults:
         print(f"this machine failed: {tally.faults:,}; run the same command again")
-    if tally.ungraded:
+    if any(one.percent is None for one in week.graded.values()):
         print("ungraded: the column error says why")
     if tally.outdated:
         print(f"another version of the kit had graded: {tally.outdated:,}; done anew")

@@ -267,8 +267,10 @@ def named_mistake(
             says += "" if says.endswith("?") else "."
             if T is not None:
                 i = worst_part(kinds, S, T, near)
-                says += f" (Off by up to {kinds[i].apart(S[i], T[i])}; "
-                says += f"{mistake.redone} gives your numbers exactly.)"
+                how = mistake.redone
+                if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
+                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
+                says += f" ({capitalised(how)} gives your numbers exactly.)"
             return Finding(mistake.slug, says)
     return None
 

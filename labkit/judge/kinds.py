@@ -200,7 +200,8 @@ class _Halves(Kind):
             if off[i] <= NEAR:
                 says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
                 return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
-        return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
+        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
+        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)

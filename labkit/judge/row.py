@@ -19,10 +19,11 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
+import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, update_wrapper
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
@@ -134,6 +135,27 @@ class Row:
             )
 
         return keep
+
+    def wrongs(self, code: Code) -> Code:
+        """Take the mistakes of one function that returns {slug: answer}.
+
+        Its docstring has a line of each, "slug: sentence => what to call the answer";
+        an indented line goes on with the one above. An answer that costs much, or may
+        stop, is a function without arguments.
+        """
+        text = re.sub(r"\n +", " ", inspect.getdoc(code) or "")
+        said = dict(line.split(": ", 1) for line in text.splitlines())
+        for slug, says in said.items():
+
+            def one(*args: Any, slug: str = slug) -> Any:
+                if (answers := code(*args)).keys() != said.keys():
+                    raise KeyError(*answers.keys() ^ said.keys())
+                answer = answers[slug]
+                return answer() if callable(answer) else answer
+
+            update_wrapper(one, code, (), ())  # its arguments' names
+            self.wrong(slug, *says.split(" => "))(one)
+        return code
 
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""

@@ -17,12 +17,6 @@ KIT = ROOT / "robo47"
 def library_of(day: Day) -> dict[str, str]:
     """Return the sources of what days before this one brought, by module name.
 
-    Args:
-        day: the one that is checked.
-
-    Returns:
-        {"robo47.se3": "...", ...}, with what those modules import themselves.
-
     Raises:
         Robo47Error: a manifest names a module that is not there, or one that imports an
             answer of this day. (A test looks at later days.)

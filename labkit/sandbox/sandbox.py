@@ -123,17 +123,7 @@ class Sandbox:
         added: str = "",
         limits: Limits | None = None,
     ) -> "Session":
-        """Return the student's file, loaded, for many rounds of questions.
-
-        Args:
-            script: the file.
-            robots: those that questions will hold.
-            library, added, limits: see `run`.
-
-        Raises:
-            LoadError: the file does not load.
-            Robo47Error: there is no such file, it is no script, or no process starts.
-        """
+        """Return a student's file, loaded, for many rounds of questions; see `run`."""
         limits = limits or Limits()
         request = messages.request(
             script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
@@ -148,7 +138,7 @@ class Sandbox:
         alive = [session for session in self._sessions if session.alive]
         self._sessions = [*alive, Session(process, robots, limits)]
         with contextlib.suppress(FaultError):  # a spare, for the next save
-            self._warm = self._new(limits.extras)
+            self._warm = Process(limits.extras)
         return self._sessions[-1]
 
     def _take(self, extras: tuple[str, ...]) -> Process:
@@ -157,10 +147,7 @@ class Sandbox:
         if process and extras and process.extras != extras:
             process.close()
             process = None
-        return process or self._new(extras)
-
-    def _new(self, extras: tuple[str, ...]) -> Process:
-        return Process(extras) if extras else Process()
+        return process or Process(extras)
 
 
 class Session:

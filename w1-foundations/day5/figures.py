@@ -69,3 +69,4 @@ def error_curves(figure: Figure) -> None:
 
 
 FIGURES = {"error_curves": error_curves}
+SMALL = ("error_curves", 0, 0, 1)  # its left, top and width, in parts of its width

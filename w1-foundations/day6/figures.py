@@ -100,7 +100,7 @@ def press(figure: Figure) -> None:
 
 
 BOXES = {  # what stands in each, its middle, and its colour
-    "target\n$T, V$": ((1.0, 5.0), INK),
+    "target\nminus hand": ((1.0, 5.0), INK),
     "spring\n$K e$": ((3.4, 5.6), BLUE),
     "damper\n$D \\dot e$": ((3.4, 4.2), BLUE),
     "$J^T F$": ((5.7, 5.0), BLUE),
@@ -138,6 +138,7 @@ def loop(figure: Figure) -> None:
     axes.text(6.5, 3.75, r"$\tau$", va="center")
     axes.text(4.6, 5.95, "$F$", ha="center")
     axes.text(2.1, 5.95, "$e$", ha="center")
+    axes.text(2.1, 3.65, r"$\dot e$", ha="center")
     axes.text(4.3, 0.25, r"measured $q$, $\dot q$", ha="center", fontsize=chart.SMALL)
     axes.set(xlim=(0.0, 8.6), ylim=(-0.1, 6.4))
     chart.blank(axes)
@@ -174,3 +175,4 @@ def cone(figure: Figure) -> None:
 
 
 FIGURES = {"push": push, "press": press, "loop": loop, "cone": cone}
+SMALL = ("press", 0, 0.03, 1)  # its left, top and width, in parts of its width

@@ -269,8 +269,12 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
     assert f"{stretched[0]:,.0f} instead of {ready[0]:.1f}" in SENTENCES
     assert f"that of D {stretched[1]:,.0f} instead of {ready[1]:.0f}" in SENTENCES
     assert max(stretched[2] / ready[2], stretched[3] / ready[3]) < 2.0
-    now = motors[1].at(np.zeros(7))  # "q = 0 itself is a singularity"
-    assert np.linalg.svd(now.J_site, compute_uv=False)[-1] < 1e-12
+    assert f"at a fifth, too? There $\\Lambda$ has {terms(0.2)[0]:,.0f}" in SENTENCES
+    assert "q = 0 itself is a singularity" in SENTENCES
+    assert "at 0.198 you pass another one" in SENTENCES
+    for share, least in ((0.0, 1e-12), (0.198218344, 1e-8)):
+        J = motors[1].at(share * lab.READY_Q).J_site
+        assert np.linalg.svd(J, compute_uv=False)[-1] < least
 
 
 def circled(motors, project=None, **instead):
