@@ -66,7 +66,7 @@ class Answers:
     there, version, problem = True, 1, ""
 
     def __init__(self, functions):
-        from labkit.inspector.checker_calls import describe
+        from labkit.inspector.student import describe
 
         self.functions, self.source = functions, SimpleNamespace()
         self.source.describe = partial(describe, {})

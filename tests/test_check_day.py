@@ -90,6 +90,12 @@ class TestCheck:
         assert "0 of 14 done, 0 % of the day." in done.stdout
         assert "Next: task 1.1, make_T. Stuck? make hint TASK=1.1" in done.stdout
 
+    def test_of_half_a_task_says_which_half_is_to_do(self, run_in, work, day):
+        says = "joint_T: Not written yet: "
+        assert says not in run_in(CHECK, "--task", "1.5").stdout
+        solve(day, work, "make_T", "quat_to_R", "link_T")
+        assert says in run_in(CHECK, "--task", "1.5").stdout
+
     def test_of_the_reference_solution_passes_every_task(self, run_in, work, day):
         work.write_text(day.source.read_text("utf-8"))
         found = json.loads(run_in(CHECK, 1, "--json").stdout)

@@ -39,7 +39,6 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
-        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
         draw.arrows([[[0, 0, 0], [0, 0, 1]]])
@@ -99,7 +98,7 @@ def page(server):
     made = on_loop(server, lambda: Inspector(server, arm, "a robot", day))
     server.door.receive = made.receive
     yield made
-    on_loop(server, made.opened.leave)
+    on_loop(server, made.leave)
 
 
 BROWSER = 7  # the number of one that is connected
@@ -151,7 +150,7 @@ def settle(page):
 
 
 def joint(page, i):
-    return page.opened.tab.sliders[i]
+    return page.tab.sliders[i]
 
 
 def contents(page):
@@ -180,7 +179,7 @@ READY = "0, -pi/4, 0, -2.356, 0, 1.571, 0.785"
 
 
 def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say):
-    box = page.opened.tab.box
+    box = page.tab.box
     say((box, READY))
     assert page.arm.q[1] == -np.pi / 4
     assert joint(page, 1).value == -np.pi / 4
@@ -194,7 +193,7 @@ def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say
 
 
 def test_the_exact_configuration_can_be_copied(page, say):
-    say((page.opened.tab.box, READY))
+    say((page.tab.box, READY))
     assert repr(-np.pi / 4) in contents(page)
     assert repr(-np.pi / 4) in page.panel.state.content
 
@@ -203,17 +202,17 @@ def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
     say(("go", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
     np.testing.assert_array_equal(page.arm.q, [0.1, 0.2, 0.3, -1, 0.5, 0.6, 0.7])
     assert page.panel.frame.value == "link4"
-    assert page.opened.kind.title == "Chain"
+    assert page.kind.title == "Chain"
     say(("go", "?q=1,2&frame=nope&tab=nope"))
-    assert page.opened.kind.title == "Chain"
+    assert page.kind.title == "Chain"
 
 
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
-    monkeypatch.setattr("labkit.inspector.history.SECONDS", 20.0)
+    monkeypatch.setattr("labkit.inspector.app.DRAG", 20.0)
     start = page.arm.q.copy()
     for x in np.linspace(0, 0.5, 10):
         say((joint(page, 0), float(x)))
-    say((page.opened.tab.buttons, "undo"))
+    say((page.tab.buttons, "undo"))
     np.testing.assert_array_equal(page.arm.q, start)
 
 
@@ -239,12 +238,11 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
     say(tab("Noisy"))
     noisy, before = Noisy.last, set(page.panel._children())
     say((joint(page, 0), 0.3), (joint(page, 0), "none"), tab("Noisy"))
-    assert page.opened.tab is noisy
+    assert page.tab is noisy
     assert set(page.panel._children()) == before
 
 
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
-    from labkit.inspector.app import Meshes
     from labkit.inspector.serve import on_loop
     from labkit.inspector.shapes import Shape
 
@@ -253,9 +251,8 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     noisy.ghost.pose({"link1": np.eye(4)})
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
-    meshes = Meshes([triangle], ghosts=True)
-    on_loop(page.server, lambda: page.dress(page.arm.model, meshes))
-    assert page.opened.tab is noisy
+    on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
+    assert page.tab is noisy
     assert set(page.panel._children()) == before
     assert len(noisy.ghost.meshes) == 1
     assert noisy.ghost.bodies["link1"].visible
@@ -314,7 +311,7 @@ def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
 def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
     say(tab("Chain"))
     assert len(page.arm.steps()) == 16
-    say((page.opened.tab.buttons, "next"))
+    say((page.tab.buttons, "next"))
     assert "factor 4 of 16, T_link1_link2" in contents(page)
     assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
     say(tab("Joints"))
@@ -337,6 +334,21 @@ def test_the_students_poses_are_judged_in_their_name(page):
     on_loop(page.server, lambda: page.hear(None))
     settle(page)
     assert "robo47.kinematics" in contents(page)
+
+
+def test_a_page_without_a_file_asks_once_and_rests(page):
+    from labkit.inspector.serve import on_loop
+
+    asked = []
+    soon = page.on_loop(page.hear)
+    page.student = SimpleNamespace(want=lambda q: (asked.append(q), soon(None)))
+    on_loop(page.server, page.ask)
+    time.sleep(0.3)
+    settle(page)
+    assert len(asked) == 1
+    on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
+    settle(page)
+    assert len(asked) == 2
 
 
 def test_a_call_from_another_thread_reaches_the_event_loop(page):
@@ -376,17 +388,7 @@ def test_the_order_tab_says_what_the_lab_says(server):
     apart = np.linalg.norm((T @ x - x @ T)[:3, 3])
     assert f"end {apart:.4f} m apart" in contents(page)
     with contextlib.suppress(KeyError):
-        on_loop(server, page.opened.leave)
-
-
-def test_an_image_of_depths_goes_from_black_to_white():
-    from labkit.inspector.widgets import as_bytes
-
-    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
-    assert shown.shape == (2, 2, 3)
-    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
-    colours = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
-    assert as_bytes(colours) is colours
+        on_loop(server, page.leave)
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])
@@ -400,9 +402,7 @@ def test_a_click_that_no_browser_makes_meets_nothing(page, start, way):
 def test_a_text_that_is_far_too_long_is_answered_at_once(page, say):
     before = page.arm.q.copy()
     started = time.monotonic()
-    say(
-        (page.opened.tab.box, "9, " * 1_000_000), (page.opened.tab.box, "(" * 1_000_000)
-    )
+    say((page.tab.box, "9, " * 1_000_000), (page.tab.box, "(" * 1_000_000))
     assert time.monotonic() - started < SECONDS
     np.testing.assert_array_equal(page.arm.q, before)
 
@@ -444,10 +444,10 @@ def test_every_tab_of_every_day_opens_moves_and_closes(server, number):
     arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
     day = day_tabs(find_day(number))
     page = on_loop(server, lambda: Inspector(server, arm, "", day, simple=True))
-    for title in page.opened.kinds:
+    for title in page.kinds:
         on_loop(server, lambda title=title: page.open_tab(title))
         on_loop(server, lambda: page.move(page.arm.q + 0.01))
         settle(page)
-        assert page.opened.kind.title == title
+        assert page.kind.title == title
         assert "stopped with" not in contents(page)
-    on_loop(server, page.opened.leave)
+    on_loop(server, page.leave)

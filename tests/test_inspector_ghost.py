@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from labkit.inspector.ghost import Ghost, Seen, compare, is_rigid, nearest_pose, no_pose
+from labkit.inspector.ghost import Ghost, Seen, compare, nearest_pose, no_pose
 from robo47 import se3
 
 pytestmark = pytest.mark.kit
@@ -59,7 +59,7 @@ def test_a_matrix_without_a_rotation_is_drawn_as_the_nearest_one_and_said():
     bent[:3, :3] *= 1.3
     apart = said(ee=bent)
     assert "ee has no rotation in it" in apart.sentence
-    assert is_rigid(apart.drawn["ee"])
+    assert se3.is_pose(apart.drawn["ee"])
 
 
 def test_without_the_last_frame_the_reason_is_said_and_nothing_agrees():
@@ -79,7 +79,7 @@ def test_an_end_alone_agrees_here_and_not_everywhere():
 
 @given(st.lists(st.floats(-5, 5), min_size=16, max_size=16))
 def test_whatever_the_matrix_what_is_drawn_is_rigid(entries):
-    assert is_rigid(nearest_pose(np.reshape(entries, (4, 4))))
+    assert se3.is_pose(nearest_pose(np.reshape(entries, (4, 4))))
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 1.0, np.pi])

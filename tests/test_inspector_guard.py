@@ -286,19 +286,19 @@ def compose_fk(model, q, path=None):
 
 def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_path):
     from labkit.base.exchange import Question
-    from labkit.inspector import checker_calls
+    from labkit.inspector import student
     from labkit.lesson.day import find_day
     from labkit.sandbox.sandbox import Sandbox
     from labkit.sandbox.wall import wall
     from robo47 import panda
 
     need(wall().name != "none", "bubblewrap or Landlock")
-    file, pid = checker_calls.__file__, served.process.pid
+    file, pid = student.__file__, served.process.pid
     script = tmp_path / "day1_transforms.py"
     script.write_text(REACHING.format(port=served.port, pid=pid, file=file))
     connect(served, origin=f"http://127.0.0.1:{served.port}")  # from here it is reached
     with Sandbox() as sandbox:
-        source = checker_calls.source_of(find_day(1), panda.load(), sandbox)
+        source = student.source_of(find_day(1), panda.load(), sandbox)
         (reply,) = source.open(script).ask([Question("ghost", "compose_fk", (1, 2))], 9)
     assert reply.error == "reached []", (reply.kind, reply.error)
 

@@ -101,16 +101,16 @@ def test_a_function_with_many_right_answers_is_not_compared():
 
 
 def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
-    from labkit.inspector import week
+    from labkit.inspector import own
     from labkit.lesson.day import Day, find_day
 
     monkeypatch.setattr(Day, "work", find_day(5).source)
-    monkeypatch.setattr(week, "all_days", lambda: [find_day(5)])
-    monkeypatch.setattr(week, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
+    monkeypatch.setattr(own, "all_days", lambda: [find_day(5)])
+    monkeypatch.setattr(own, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
         [task.id for task in day.tasks if task.id != "5.2"], "wrong"
     ))  # fmt: skip
     library = {"gains": None, "pd_torque": LIBRARY["double"]}
-    with week.week(library) as fns:
+    with own.week(library) as fns:
         np.testing.assert_array_equal(fns.gains(20.0, 1.0), [400.0, 40.0])
         assert fns.pd_torque is LIBRARY["double"]  # the file's is wrong
         assert (fns.yours, fns.total) == (1, 2)

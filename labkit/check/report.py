@@ -155,7 +155,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         verdict = result.verdict
         status = "unjudged" if report.problem else state_of(verdict)
         lines.append(_line(name, status, colour, width))
-        if not report.problem and verdict.mistake != "unwritten":
+        begun = verdict.function not in ("", result.task.functions[0])
+        if not report.problem and (begun or verdict.mistake != "unwritten"):
             says = _said(report, result, explain)
             lines += _wrapped(says, _INDENT)
             if verdict.call and verdict.message in says:

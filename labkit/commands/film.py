@@ -1,17 +1,16 @@
 """A clip of the arm and of the student's own, drawn headless as the figures are."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from labkit.base.exchange import LoadError
 from labkit.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
-from labkit.inspector import checker_calls
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Difference, Ghost, Seen, compare
-from labkit.inspector.student import poses_of
+from labkit.inspector.student import poses_of, source_of
 from labkit.inspector.tab import day_tabs
+from labkit.judge.problems import not_loaded
 from labkit.lesson.day import Day
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
@@ -71,13 +70,11 @@ def _differences(
     """Return how the student's arm differs at each configuration."""
     found = {}
     with Sandbox() as sandbox:
-        source = replace(
-            checker_calls.source_of(day, arm.model, sandbox), script=script
-        )
+        source = source_of(day, arm.model, sandbox)
         try:
             asker = source.open(script)
         except LoadError as error:
-            raise Robo47Error(source.explain(script, error.reply)) from None
+            raise Robo47Error(not_loaded(script, error.reply)) from None
         for q in qs:
             poses, problem = poses_of(asker, source, ghost, arm.model, q)
             seen = Seen(q, poses, problem)

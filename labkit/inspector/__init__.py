@@ -45,7 +45,6 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
     slider, buttons, choice, tick    viser's own, each with a callback
     html, say, matrix, legend   text, a line, a pose, what the colours mean
     bars, plot                  numbers per joint against limits; curves over time
-    image                       what a camera sees, in colours or in depths
     light(chosen, shown)        which frames are drawn, and which one stands out
     hide_arm()                  no arm but the tab's own
     gui, scene                  viser's own, for what is missing here
@@ -58,22 +57,16 @@ and never wait in one. `wide = True` on the class hides the two matrices at the 
 
 The modules, from the numbers to the page:
 
-    arm       MuJoCo's pose, the library's, the chain's factors
-    ghost     the student's poses against MuJoCo's, as one sentence
-    student   the student's file in the checker's sandbox, reloaded on save
-    own       the student's functions for a tab, beside the library's
-    checks    the verdicts of `make check`, in the background
-    words     numbers as HTML;  typed  numbers as people type them
-    shapes    what MuJoCo's model looks like, as triangle meshes
-    triad, meshes, scene, draw, pointed    what is in the picture
-    history   the wanted configuration, and the way back;  address  it, in the URL
-    widgets, instruments        viser's sliders and buttons; bars and plots
-    page, tab, animate          what a tab gets, what it is, its loops and jobs
-    joints, chain, tasks        the tabs that every day has
+    arm, ghost                  MuJoCo's poses and the library's; the student's
+    student, own                the student's files in the checker's sandbox
+    checks                      the verdicts of `make check`, in the background
+    words, typed, address       numbers as HTML, as people type them, in the URL
+    shapes, meshes, draw, scene, pointed    what is in the picture
+    page, instruments, animate, robot       what a tab gets
+    tab, common_tabs            what a tab is; the tabs that every day has
     app, panel                  the page as a whole
-    guard, client               who may talk to it; our part of viser's page
-    serve     listens until Ctrl-C
+    guard                       who may talk to it; our part of viser's page
+    serve, recording            listens until Ctrl-C; a film without a server
 
-`arm`, `ghost`, `words` and `typed` need nothing new, `shapes` needs trimesh, and the
-rest viser, which brings trimesh (the extra `view`).
+`arm`, `ghost`, `words` and `typed` need nothing new, the rest viser (the extra `view`).
 """

@@ -10,13 +10,7 @@ FARTHEST = 100.0  # radians or metres; no address leads further
 
 
 def write(q: Array, frame: str, tab: str) -> str:
-    """Return the query behind the page's address.
-
-    Args:
-        q: configuration, (nq,); every digit of it is kept.
-        frame: short name of the frame that is looked at.
-        tab: title of the open tab.
-    """
+    """Return the query behind the page's address; every digit of q, (nq,), is kept."""
     numbers = ",".join(f"{float(x)!r}".removesuffix(".0") for x in q)
     query = {"q": numbers, "frame": frame, "tab": tab}
     return "?" + urllib.parse.urlencode(query, safe=",")

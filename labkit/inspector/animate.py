@@ -51,6 +51,10 @@ class Animation:
             self.task = None
             self.changed(None)
 
+    def toggle(self) -> None:
+        """Start or stop."""
+        (self.stop if self.running else self.start)()
+
     async def _run(self) -> None:
         start, calls, stopped = time.perf_counter(), 0, None
         began = start
@@ -77,11 +81,7 @@ class Jobs:
     """Calls on another thread, one after the other; of those that wait the newest."""
 
     def __init__(self, ended: Callable[[Exception | None], None]) -> None:
-        """Begin without any.
-
-        Args:
-            ended: called after each, with what stopped it.
-        """
+        """Begin without any; `ended` is called after each, with what stopped it."""
         self.ended = ended
         self.next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
         self.task: asyncio.Task[None] | None = None

@@ -4,6 +4,7 @@ Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
 `robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robo47 import panda
 from robo47.checks import Array, array
-from robo47.kinematics import Chain, Joint, Link, chain_to, fk, fk_all, frame_names
+from robo47.kinematics import Chain, Link, chain_to, fk, fk_all, frame_names
 from robo47.verify import mujoco_poses, random_q
 
 AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
@@ -22,27 +23,16 @@ END = "ee"  # what the end effector's frame is called in T_world_ee
 
 
 class Step(NamedTuple):
-    """One factor of the chain: after = before @ factor.
+    """One factor of the chain: after = before @ factor; matrices are (4, 4)."""
 
-    Attributes:
-        link: the body that the factor leads to, or turns; short name.
-        joint: the joint that turns it; "" for the pose that the file gives.
-        name: of the factor.
-        q: the joint's value; 0 for a pose of the file.
-        before: T_world_... so far, (4, 4).
-        factor: (4, 4).
-        after: (4, 4); T_world_link once the link's own joint is in.
-        moves: which entries of the factor depend on q, (4, 4) of bool.
-    """
-
-    link: str
-    joint: str
+    link: str  # that the factor leads to, or turns; short name
+    joint: str  # that turns it; "" for the pose that the file gives
     name: str
-    q: float
-    before: Array
+    q: float  # the joint's value; 0 for a pose of the file
+    before: Array  # T_world_... so far
     factor: Array
-    after: Array
-    moves: NDArray[np.bool_]
+    after: Array  # T_world_link once the link's own joint is in
+    moves: NDArray[np.bool_]  # which entries of the factor depend on q
 
 
 class Arm:
@@ -83,19 +73,11 @@ class Arm:
         self.by_library = fk_all(self.model, self.q)
 
     def pose(self, name: str) -> Array:
-        """Return MuJoCo's T_world_NAME, (4, 4).
-
-        Args:
-            name: short name of the frame, a key of `names`.
-        """
+        """Return MuJoCo's T_world_NAME, (4, 4); the name is a key of `names`."""
         return self.by_mujoco[self.names[name]]
 
     def poses_at(self, q: Array) -> dict[str, Array]:
-        """Return MuJoCo's pose of every frame at a configuration, by short name.
-
-        Args:
-            q: (nq,); the arm stays where it is.
-        """
+        """Return MuJoCo's poses at a configuration, (nq,), as {short name: (4, 4)}."""
         if np.array_equal(q, self.q):
             return {name: self.pose(name) for name in self.names}
         poses = mujoco_poses(self.model, np.asarray(q)[None])
@@ -106,11 +88,7 @@ class Arm:
         return self.by_mujoco[f"body:{body}"]
 
     def random_q(self, seed: int) -> Array:
-        """Return a configuration within the limits, to the sliders' four decimals.
-
-        Args:
-            seed: the same seed gives the same configuration.
-        """
+        """Return a configuration within the limits, to the sliders' four decimals."""
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
     def difference(self, name: str, T: Array | None = None) -> float:
@@ -125,11 +103,7 @@ class Arm:
         return float(np.abs(self.by_mujoco[full] - ours).max())
 
     def limits(self, joint: str) -> tuple[float, float]:
-        """Return a joint's lowest and highest value.
-
-        Args:
-            joint: its name.
-        """
+        """Return a joint's lowest and highest value, radians or metres."""
         low, high = self.model.joint(joint).range
         return float(low), float(high)
 
@@ -149,35 +123,29 @@ class Arm:
         joint (what q adds).
         """
         so_far, steps = np.eye(4), []
-        previous = "world"
-        for i, link in enumerate(self.chain.links):
-            last = i == len(self.chain.links) - 1
-            name = END if last else link.name.partition(":")[2]
-            T_link = link.T_parent_link
-            if last:  # the last body leads on to the frame
-                T_link = T_link @ self.chain.T_link_frame
-            fixed = Step(
-                name, "", f"T_{previous}_{name}", 0.0, so_far, T_link,
-                so_far @ T_link, np.zeros((4, 4), dtype=bool),
-            )  # fmt: skip
-            steps.append(fixed)
-            so_far, previous = fixed.after, name
-            for joint in link.joints:
-                steps.append(self._joint_step(link, joint, name, so_far))
-                so_far = steps[-1].after
+        for link, joint, name, q, T, elsewhere in self._factors():
+            after = so_far @ T
+            moves = elsewhere != T
+            steps.append(Step(link, joint, name, q, so_far, T, after, moves))
+            so_far = after
         return steps
 
-    def _joint_step(self, link: Link, joint: Joint, name: str, before: Array) -> Step:
-        """Return the factor of one joint."""
-        one = Link(link.name, np.eye(4), (joint,))
-        alone = replace(self.chain, links=(one,), T_link_frame=np.eye(4))
-        elsewhere = self.q.copy()
-        elsewhere[joint.qpos_adr] += 0.3
-        factor = fk(alone, self.q)
-        return Step(
-            name, joint.name, f"T(q of {joint.name})", float(self.q[joint.qpos_adr]),
-            before, factor, before @ factor, factor != fk(alone, elsewhere),
-        )  # fmt: skip
+    def _factors(self) -> Iterator[tuple[str, str, str, float, Array, Array]]:
+        """Yield of each factor what `Step` has, T, and T with the joint elsewhere."""
+        previous = "world"
+        for link in self.chain.links:
+            name, T = link.name.partition(":")[2], link.T_parent_link
+            if link is self.chain.links[-1]:  # the last body leads on to the frame
+                name, T = END, T @ self.chain.T_link_frame
+            yield name, "", f"T_{previous}_{name}", 0.0, T, T
+            previous = name
+            for joint in link.joints:
+                one = Link(link.name, np.eye(4), (joint,))
+                alone = replace(self.chain, links=(one,), T_link_frame=np.eye(4))
+                q, says = self.q.copy(), f"T(q of {joint.name})"
+                q[joint.qpos_adr] += 0.3
+                at = float(self.q[joint.qpos_adr])
+                yield name, joint.name, says, at, fk(alone, self.q), fk(alone, q)
 
 
 def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:

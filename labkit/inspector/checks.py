@@ -12,25 +12,15 @@ LEAVE_SECONDS = 5.0  # a check takes one or two
 
 @dataclass(frozen=True)
 class Standing:
-    """How the day's tasks stand.
+    """How the day's tasks stand."""
 
-    Attributes:
-        headline: one line about all of them.
-        kind: "good", "bad" or "quiet".
-        tasks: in the day's order; () where nothing is known.
-    """
-
-    headline: str
-    kind: str = "quiet"
-    tasks: tuple[TaskResult, ...] = ()
+    headline: str  # about all of them
+    kind: str = "quiet"  # or "good" or "bad"
+    tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
 
 
 def standing(results: Sequence[TaskResult]) -> Standing:
-    """Return the tasks with one line about all of them.
-
-    Args:
-        results: the checker's, in the day's order.
-    """
+    """Return the tasks, in the day's order, with one line about all of them."""
     first = results[0].verdict if results else Verdict("passed")
     if first.mistake == "does-not-load":  # one reason, for all of them
         todo = Verdict(first.status)
@@ -57,12 +47,7 @@ class Checks:
         check: Callable[[], Sequence[TaskResult]],
         deliver: Callable[[Standing], None],
     ) -> None:
-        """Take the checker and who is told; no thread runs yet.
-
-        Args:
-            check: asks the checker; takes a second or two.
-            deliver: is given how the tasks stand, on the thread.
-        """
+        """Take the checker and who is told, on the thread; none runs yet."""
         self.check, self.deliver = check, deliver
         self.wanted = threading.Event()
         self.ended = False

@@ -1,27 +1,28 @@
-"""Drawings of a tab in the scene; all of them go when the tab is left.
+"""Drawings in the scene; those of a tab go when the tab is left.
 
-Points are in the world, metres, unless `on` names a pose to draw in. A colour is a name
-of `COLOURS` or (r, g, b), 0 to 255. What is returned is viser's handle: `visible`,
-`position`, `points`, ... can be set, and the scene follows.
+Points are in the world, metres. A colour is a name of `COLOURS` or (r, g, b), 0 to 255.
+What is returned is viser's handle: `visible`, `position`, `points`, ... can be set, and
+the scene follows.
 """
 
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import count
+from typing import Any, Literal
 
 import numpy as np
 import viser
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from labkit.inspector.meshes import Skin
+from labkit.inspector.meshes import Skin, place
 from labkit.inspector.shapes import Shape
-from labkit.inspector.triad import Triad, place
 from robo47 import se3
 from robo47.checks import Array
 
 ROOT = "/tab"
 FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
+PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
 # The browser remembers the pose of a node that is gone: a name is never given again.
 _NUMBERS = count()
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
@@ -37,21 +38,19 @@ COLOURS = {
     "grey": (110, 118, 128),
     "black": (30, 34, 40),
 }
+Points = NDArray[np.float32]
 Colour = str | tuple[int, int, int]
+Anchor = Literal["bottom-left", "center-left", "center-right", "top-right"]
 
 
 class Sketch:
     """Draws for one tab."""
 
     def __init__(self, server: viser.ViserServer, coarse: Sequence[Shape]) -> None:
-        """Make the node of the scene tree that everything drawn hangs from.
-
-        Args:
-            server: where to draw.
-            coarse: the arm's simple meshes, for ghosts.
-        """
+        """Begin with the arm's simple meshes, for ghosts."""
         self.server, self.coarse = server, list(coarse)
         self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
+        # Everything drawn hangs from it.
         self.root = server.scene.add_frame(ROOT, show_axes=False)
 
     def clear(self) -> None:
@@ -65,13 +64,7 @@ class Sketch:
     def arrows(
         self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
     ) -> viser.ArrowsHandle:
-        """Draw arrows; setting `points` moves them.
-
-        Args:
-            points: start and end of each, (n, 2, 3).
-            colour: of all.
-            radius: of the shafts.
-        """
+        """Draw arrows from start to end, (n, 2, 3); the radius is the shafts'."""
         return self.server.scene.add_arrows(
             self.path(), np.asarray(points, dtype=np.float32), rgb(colour),
             shaft_radius=radius, head_radius=2.4 * radius, head_length=6 * radius,
@@ -80,63 +73,37 @@ class Sketch:
     def lines(
         self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
     ) -> viser.LineSegmentsHandle:
-        """Draw line segments; setting `points` moves them.
-
-        Args:
-            points: the ends of each, (n, 2, 3).
-            colour: of all.
-            width: pixels.
-        """
-        return self.server.scene.add_line_segments(
-            self.path(), np.asarray(points, dtype=np.float32), rgb(colour),
-            thickness=width, thickness_units="screen",
-        )  # fmt: skip
+        """Draw line segments by their ends, (n, 2, 3); the width is in pixels."""
+        return lines(self.server, self.path(), points, colour, width)
 
     def curve(
         self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
     ) -> viser.LineSegmentsHandle:
-        """Draw a line through points, (n, 3); see `lines`."""
-        p = np.asarray(points)
-        return self.lines(np.stack([p[:-1], p[1:]], axis=1), colour, width)
+        """Draw a line through points, (n, 3); see `lines` and `joined`."""
+        return self.lines(joined(points), colour, width)
 
     def sphere(
         self, at: ArrayLike, radius: float, colour: Colour = "grey", opacity: float = 1
     ) -> viser.IcosphereHandle:
-        """Draw a ball; setting `position` moves it.
-
-        Args:
-            at: its middle, (3,).
-            radius: metres.
-            colour: of it.
-            opacity: 0 to 1.
-        """
+        """Draw a ball around a point, (3,), with a radius in metres."""
         return self.server.scene.add_icosphere(
             self.path(), radius, rgb(colour), opacity=opacity,
             position=np.asarray(at, dtype=np.float64),
         )  # fmt: skip
 
     def ellipsoid(self, colour: Colour = "purple", opacity: float = 0.4) -> "Ellipsoid":
-        """Draw an ellipsoid; `show(matrix, at, scale)` gives it its shape.
-
-        Args:
-            colour: of it.
-            opacity: 0 to 1.
-        """
-        ball = self.server.scene.add_icosphere(
-            self.path(), 1.0, rgb(colour), opacity=opacity, visible=False
-        )
+        """Draw an ellipsoid; `show(matrix, at, scale)` gives it its shape."""
+        ball = self.sphere(np.zeros(3), 1.0, colour, opacity)
+        ball.visible = False
         return Ellipsoid(ball)
 
-    def frame(self, name: str, T: Array | None = None) -> Triad:
-        """Draw a frame with its name; `place(T)` moves it, `show(...)` hides it.
+    def frame(self, name: str, T: Array | None = None) -> "Triad":
+        """Draw a frame, named unless "", at a pose, (4, 4).
 
-        Args:
-            name: beside it; "" for none.
-            T: its pose, (4, 4).
+        `place(T)` moves it, `show(...)` hides it.
         """
         triad = Triad(self.server, self.path(), name)
-        if T is not None:
-            triad.place(T)
+        triad.place(np.eye(4) if T is None else T)
         return triad
 
     def label(self, text: str, at: ArrayLike) -> viser.LabelHandle:
@@ -151,12 +118,7 @@ class Sketch:
         return Labels([self.label(text, np.zeros(3)) for text in texts])
 
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
-        """Draw another arm; `pose({body: T_world_body})` puts its links somewhere.
-
-        Args:
-            colour: of it.
-            opacity: 0 to 1.
-        """
+        """Draw another arm; `pose({body: T_world_body})` puts its links somewhere."""
         skin = Skin(self.server, self.path())
         skin.put_on(self.coarse, rgb(colour), opacity)
         if not self.coarse:
@@ -170,7 +132,7 @@ class Sketch:
             self._bare.pop()(self.coarse)
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
-        """Draw a handle that can be dragged and turned with the mouse.
+        """Draw a handle at a pose that the mouse drags and turns.
 
         Args:
             T: where it is at first, (4, 4).
@@ -254,6 +216,80 @@ class Target:
     def place(self, T: Array) -> None:
         """Put it somewhere, (4, 4)."""
         place(self.handle, T)
+
+
+class Triad:
+    """A frame as three arrows; one of them may stand out, with letters on its axes."""
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        path: str,
+        text: str,
+        anchor: Anchor = "bottom-left",
+        letters: bool = False,
+    ) -> None:
+        """Draw it at the world's origin, under a name in the scene tree.
+
+        The label is a text or "", with its anchor at the frame; letters name the axes
+        even while it does not stand out.
+        """
+        scene, self.always = server.scene, letters
+        self.frame = scene.add_frame(path, show_axes=False)
+        colours = np.array([COLOURS[axis] for axis in "xyz"], dtype=np.uint8)
+        self.arrows = scene.add_arrows(f"{path}/axes", _ends(PLAIN), colours)
+        small: dict[str, Any] = {"font_screen_scale": 0.75}
+        self.letters = [
+            scene.add_label(f"{path}/{name}", name, anchor="center-center", **small)
+            for name in "xyz"
+        ]
+        if text:
+            scene.add_label(f"{path}/name", text, anchor=anchor, **small)
+        self.state: tuple[bool, bool] | None = None
+        self.show(visible=True, chosen=False)
+
+    def place(self, T: Array) -> None:
+        """Move it to a pose, (4, 4)."""
+        place(self.frame, T)
+
+    def show(self, visible: bool, chosen: bool) -> None:
+        """Show or hide it; the chosen one is larger and has letters."""
+        if self.state == (visible, chosen):
+            return
+        self.state = visible, chosen
+        length = CHOSEN if chosen else PLAIN
+        self.frame.visible = visible
+        self.arrows.points = _ends(length)
+        self.arrows.shaft_radius = 0.03 * length
+        self.arrows.head_radius, self.arrows.head_length = 0.09 * length, 0.2 * length
+        for axis, letter in zip(np.eye(3), self.letters, strict=True):
+            letter.position = 1.12 * length * axis
+            letter.visible = chosen or self.always
+
+
+def _ends(length: float) -> Points:
+    """Return the axes' ends, (3, 2, 3)."""
+    return np.stack([np.zeros((3, 3)), length * np.eye(3)], axis=1).astype(np.float32)
+
+
+def lines(
+    server: viser.ViserServer,
+    path: str,
+    points: ArrayLike,
+    colour: Colour,
+    width: float = 2.5,
+) -> viser.LineSegmentsHandle:
+    """Draw line segments under a name in the scene tree; see `Sketch.lines`."""
+    return server.scene.add_line_segments(
+        path, np.asarray(points, dtype=np.float32), rgb(colour),
+        thickness=width, thickness_units="screen",
+    )  # fmt: skip
+
+
+def joined(points: ArrayLike) -> Points:
+    """Return the segments of a line through points, (n, 3), as `lines` takes them."""
+    p = np.asarray(points, dtype=np.float32)
+    return np.stack([p[:-1], p[1:]], axis=1)
 
 
 def rgb(colour: Colour) -> tuple[int, int, int]:

@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 
 from labkit.inspector.arm import AGREES
+from robo47 import se3
 from robo47.checks import Array
 
 Arguments = tuple[Any, ...]
@@ -43,32 +44,20 @@ class Ghost:
 
 @dataclass(frozen=True)
 class Seen:
-    """What the student's function said of one configuration.
-
-    Attributes:
-        q: the configuration, (nq,).
-        poses: {short name: T_world_frame (4, 4)}, as far as there are any.
-        problem: why there are none, or fewer than asked for; "".
-    """
+    """What the student's function said of a configuration q, (nq,)."""
 
     q: Array
-    poses: Mapping[str, Array] = field(default_factory=dict)
-    problem: str = ""
+    poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
+    problem: str = ""  # why there are none, or fewer than asked for
 
 
 @dataclass(frozen=True)
 class Difference:
-    """How the student's poses differ from MuJoCo's.
+    """How the student's poses differ from MuJoCo's."""
 
-    Attributes:
-        sentence: in the student's name.
-        good: whether they agree everywhere.
-        drawn: {short name: a rigid pose, (4, 4)} of the frames that differ.
-    """
-
-    sentence: str
-    good: bool
-    drawn: Mapping[str, Array]
+    sentence: str  # in the student's name
+    good: bool  # whether they agree everywhere
+    drawn: Mapping[str, Array]  # {short name: a rigid pose, (4, 4)} where they differ
 
     @property
     def kind(self) -> str:
@@ -78,12 +67,9 @@ class Difference:
 
 
 def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
-    """Return how the student's arm differs from MuJoCo's.
+    """Return how what a ghost's function said differs from MuJoCo.
 
-    Args:
-        ghost: whose function.
-        seen: its poses.
-        truth: {short name: MuJoCo's pose (4, 4)}, of the same configuration.
+    The truth is {short name: MuJoCo's pose (4, 4)}, of the same configuration.
     """
     whose = f"YOUR {ghost.function}"
     apart = {
@@ -97,7 +83,7 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
         end = ghost.frames[-1] if ghost.frames[-1] in wrong else wrong[-1]
         how = _how_far(seen.poses[end], truth[end])
         says = f"{whose} is off by {how} at {end}; first frame that differs: {wrong[0]}"
-        if bent := [name for name in wrong if not is_rigid(seen.poses[name])]:
+        if bent := [name for name in wrong if not se3.is_pose(seen.poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
         return Difference(f"{says}. {seen.problem}".strip(), False, drawn)
     if ghost.frames[-1] not in apart:
@@ -110,31 +96,18 @@ def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
 
 def _how_far(T: Array, truth: Array) -> str:
     """Return a distance, or an angle where the place is right."""
-    metres = float(np.linalg.norm(T[:3, 3] - truth[:3, 3]))
+    metres, radians = se3.pose_distance(nearest_pose(T), truth)
     if metres >= 1e-3:
         return f"{1000 * metres:.0f} mm"
-    R = nearest_pose(T)[:3, :3].T @ truth[:3, :3]
-    sine = np.linalg.norm([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
-    degrees = float(np.degrees(np.arctan2(sine, (np.trace(R) - 1) / 2)))
-    if degrees >= 0.05:
+    if (degrees := np.degrees(radians)) >= 0.05:
         return f"{degrees:.1f} degrees"
     return f"{float(np.abs(T - truth).max()):.1e} (largest entry)"
 
 
-def is_rigid(T: Array) -> bool:
-    """Return whether a matrix is a rigid transform, to six decimals."""
-    R = T[:3, :3]
-    rigid = np.allclose(R @ R.T, np.eye(3), atol=1e-6) and np.linalg.det(R) > 0
-    return bool(rigid and np.allclose(T[3], [0, 0, 0, 1], atol=1e-6))
-
-
 def nearest_pose(T: Array) -> Array:
-    """Return the rigid transform nearest to a matrix, for drawing it.
+    """Return the rigid transform nearest to a finite matrix, (4, 4), for drawing it.
 
     The rotation is the nearest in the least-squares sense (Kabsch 1976).
-
-    Args:
-        T: finite, (4, 4).
     """
     U, _, Vt = np.linalg.svd(T[:3, :3])
     U[:, 2] *= np.sign(np.linalg.det(U @ Vt)) or 1.0
@@ -144,12 +117,7 @@ def nearest_pose(T: Array) -> Array:
 
 
 def no_pose(function: str, value: Any) -> str:
-    """Return why a value cannot be drawn as a pose; "" where it can.
-
-    Args:
-        function: whose value.
-        value: as the sandbox gives it.
-    """
+    """Return why a function's value cannot be drawn as a pose; "" where it can."""
     if not isinstance(value, np.ndarray):
         got = "nothing" if value is None else type(value).__name__
         return f"{function} returned {got}; a pose is an array of shape (4, 4)."

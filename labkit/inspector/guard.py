@@ -13,6 +13,9 @@ arm), and opens a public share tunnel for whichever client asks. Here:
   that this server served (same origin);
 - share requests are refused;
 - a client sets a widget's value and nothing else of it (viser sets any attribute).
+
+viser's page gets our style and script (`client.css`, `client.js`): tabs that the server
+opens, the pose in the address, buttons that copy.
 """
 
 import contextlib
@@ -24,7 +27,8 @@ import secrets
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import wraps
+from functools import cache, wraps
+from pathlib import Path
 from typing import Any
 
 import rich
@@ -35,13 +39,13 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from labkit.inspector.client import with_client
 from robo47.errors import Robo47Error
 
 LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
+HERE, TITLE = Path(__file__).parent, "robo47 inspector"
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
     "X-Frame-Options": "DENY",
@@ -102,11 +106,7 @@ class Door:
         self.first: Callable[[], str] = str  # what a page shows before viser does
 
     def refusal(self, request: Request) -> str | None:
-        """Return why a request is refused, or None for one that may pass.
-
-        Args:
-            request: its path and headers.
-        """
+        """Return why a request is refused, or None for one that may pass."""
         if why := foreign(request.headers):
             return why
         given = request.path.partition("?")[0].strip("/").partition("/")[0]
@@ -122,12 +122,9 @@ class Door:
         request: Request,
         viser_answers: Callable[[ServerConnection, Request], Response | None],
     ) -> Response | None:
-        """Return the answer to a request; None opens a WebSocket.
+        """Return the answer to a request, viser's own once it passed.
 
-        Args:
-            connection: whose request.
-            request: what is asked for.
-            viser_answers: viser's own way.
+        None opens a WebSocket.
         """
         if why := self.refusal(request):
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
@@ -145,11 +142,7 @@ class Door:
 
 
 def foreign(headers: Headers) -> str | None:
-    """Return why headers cannot be those of the inspector's own page, or None.
-
-    Args:
-        headers: of the request.
-    """
+    """Return why headers cannot be those of the inspector's own page, or None."""
     hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
     if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
         return "this address is not the inspector's; open http://127.0.0.1:PORT"
@@ -159,6 +152,32 @@ def foreign(headers: Headers) -> str | None:
     if origins != wanted and (origins or headers.get_all("Upgrade")):
         return "only the inspector's own page may connect to it"
     return None
+
+
+def with_client(page: bytes, first: str) -> bytes:
+    """Return viser's `index.html` with our style and script at its head.
+
+    Args:
+        page: viser's.
+        first: HTML that stands there until viser has drawn something: seconds later.
+
+    Raises:
+        Robo47Error: it has no head or body where it is expected.
+    """
+    if page.count(b"<head>") != 1 or page.count(b"<body>") != 1:
+        raise Robo47Error(
+            "viser's page is not as expected. Install the pinned one: "
+            "python3 scripts/setup_env.py view"
+        )
+    there = f'<body><div id="r47-first">{first}</div>'.encode()
+    titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
+    return titled.replace(b"<head>", _head()).replace(b"<body>", there)
+
+
+@cache
+def _head() -> bytes:
+    style, script = ((HERE / f"client.{kind}").read_bytes() for kind in ("css", "js"))
+    return b"<head><style>%s</style><script>%s</script>" % (style, script)
 
 
 def _protected(response: Response, first: str | None) -> Response:

@@ -1,6 +1,7 @@
 """Numbers as bars and as curves, for a tab."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -15,22 +16,20 @@ STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b
            "#1e2228")  # fmt: skip
 
 
+@dataclass
 class Bars:
-    """A bar per number; over its limit it is red and says so."""
+    """A bar per number, see `Page.bars`; over its limit it is red and says so."""
 
-    def __init__(
-        self,
-        handle: viser.GuiHtmlHandle,
-        labels: Sequence[str],
-        full: Array,
-        unit: str,
-        title: str,
-        kind: str,
-    ) -> None:
-        """Start at zero; see `Page.bars`."""
-        self.handle, self.labels, self.full = handle, labels, full
-        self.unit, self.title, self.kind = unit, title, kind
-        self.show(np.zeros(len(labels)))
+    handle: viser.GuiHtmlHandle
+    labels: Sequence[str]
+    full: Array
+    unit: str
+    title: str
+    kind: str
+
+    def __post_init__(self) -> None:
+        """Start at zero."""
+        self.show(np.zeros(len(self.labels)))
 
     def show(self, values: ArrayLike, wanted: ArrayLike | None = None) -> None:
         """Set every bar, (n,), and the marks of what they should be, (n,)."""
@@ -75,7 +74,6 @@ class Plot:
         self,
         gui: viser.GuiApi,
         curves: Sequence[str],
-        x: str,
         y: str,
         height: int,
         least: float,
@@ -83,7 +81,7 @@ class Plot:
         """Start empty; see `Page.plot`."""
         self.count, self.least = len(curves), least
         self.points: list[list[float]] = []
-        series = [uplot.Series(label=x)] + [
+        series = [uplot.Series(label="t (s)")] + [
             uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)
             for i, name in enumerate(curves)
         ]

@@ -1,27 +1,27 @@
 """The meshes of one arm in the scene: the real one, the student's, a tab's ghost."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+import mujoco
 import numpy as np
 import viser
+from numpy.typing import ArrayLike
 
 from labkit.inspector.shapes import Shape
-from labkit.inspector.triad import place
+from robo47 import se3
 from robo47.checks import Array
 
-Colour = tuple[int, int, int]
+
+def place(node: viser.SceneNodeHandle, T: Array) -> None:
+    """Put a node of the scene at a pose, (4, 4)."""
+    node.wxyz, node.position = se3.R_to_quat(T[:3, :3]), T[:3, 3]
 
 
 class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
     def __init__(self, server: viser.ViserServer, path: str) -> None:
-        """Begin a bare arm; `put_on` brings the meshes.
-
-        Args:
-            server: where to draw.
-            path: its name in the scene tree.
-        """
+        """Begin a bare arm under a name in the scene tree."""
         self.server, self.path = server, path
         self.bodies: dict[str, viser.FrameHandle] = {}
         self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
@@ -29,43 +29,27 @@ class Skin:
 
     def put_on(
         self,
-        shapes: list[Shape],
-        colour: Colour | None = None,
+        shapes: Sequence[Shape],
+        colour: tuple[int, int, int] | None = None,
         opacity: float | None = None,
     ) -> None:
-        """Replace its meshes.
-
-        Args:
-            shapes: what to draw.
-            colour: of all of them; None for their own.
-            opacity: 0 to 1; None for solid.
-        """
-        old, self.meshes = self.meshes, []
+        """Replace its meshes; without a colour they have their own, or are solid."""
+        scene, old, self.meshes = self.server.scene, self.meshes, []
         for i, shape in enumerate(shapes):
             path = f"{self.path}/{shape.body}"
             if shape.body not in self.bodies:
-                self.bodies[shape.body] = self.server.scene.add_frame(
-                    path, show_axes=False
-                )
-            r, g, b = (int(255 * c) for c in shape.rgba[:3])
-            mesh = self.server.scene.add_mesh_simple(
-                f"{path}/{len(shapes)}_{i}",
-                shape.vertices.astype(np.float32),
-                shape.faces,
-                color=colour or (r, g, b),
-                opacity=opacity,
-            )
+                self.bodies[shape.body] = scene.add_frame(path, show_axes=False)
+            mesh = scene.add_mesh_simple(
+                f"{path}/{len(shapes)}_{i}", shape.vertices.astype(np.float32),
+                shape.faces, color=colour or _rgb(shape), opacity=opacity,
+            )  # fmt: skip
             self.meshes.append((mesh, shape))
         self.pose(self.posed)
         for mesh, _ in old:  # after the new ones: no moment without an arm
             mesh.remove()
 
     def pose(self, poses: Mapping[str, Array | None]) -> None:
-        """Move its bodies; one without a pose is hidden.
-
-        Args:
-            poses: {body: T_world_body (4, 4)}.
-        """
+        """Move its bodies, {body: T_world_body (4, 4)}; no pose hides one."""
         self.posed = poses
         for name, body in self.bodies.items():
             T = poses.get(name)
@@ -73,22 +57,31 @@ class Skin:
             if T is not None:
                 place(body, T)
 
+    def poses(self, data: mujoco.MjData, qpos: ArrayLike) -> dict[str, Array]:
+        """Return where its bodies are, {body: T_world_body (4, 4)}.
+
+        Args:
+            data: of the model whose bodies these are.
+            qpos: a configuration; a shorter one is that of the first joints, (n,).
+        """
+        data.qpos[: len(np.asarray(qpos))] = qpos
+        mujoco.mj_kinematics(data.model, data)
+        found = {name: data.body(name) for name in self.bodies}
+        return {
+            name: se3.make_T(body.xmat.reshape(3, 3), body.xpos)
+            for name, body in found.items()
+        }
+
     def look(
         self, opacity: float | None, shade: tuple[float, float, float] = (1, 1, 1)
     ) -> None:
-        """Make it see-through, and darker.
-
-        Args:
-            opacity: 0 to 1; None for solid.
-            shade: its colours (r, g, b) are multiplied by it.
-        """
+        """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
-            rgb = zip(shape.rgba[:3], shade, strict=True)
-            r, g, b = (int(255 * c * s) for c, s in rgb)
-            mesh.color, mesh.opacity = (r, g, b), opacity
+            mesh.color, mesh.opacity = _rgb(shape, shade), opacity
 
-    def remove(self) -> None:
-        """Take it off the scene."""
-        for body in self.bodies.values():
-            body.remove()
-        self.bodies, self.meshes = {}, []
+
+def _rgb(
+    shape: Shape, shade: tuple[float, float, float] = (1, 1, 1)
+) -> tuple[int, int, int]:
+    r, g, b = (int(255 * c * s) for c, s in zip(shape.rgba[:3], shade, strict=True))
+    return r, g, b

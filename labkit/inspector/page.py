@@ -1,42 +1,46 @@
-"""The page as a tab sees it: it makes widgets and drawings, which go with the tab."""
+"""The page as a tab sees it: it makes widgets and drawings, which go with the tab.
 
-from collections.abc import Callable, Collection, Mapping
+The widgets are viser's own. Where a callback fails the page says so and goes on.
+"""
+
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
+import viser
 from numpy.typing import ArrayLike
 
 from labkit.inspector import words
 from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
+from labkit.inspector.instruments import Bars, Plot
 from labkit.inspector.own import NoAnswerError, Own
-from labkit.inspector.widgets import Widgets
 from robo47 import kinematics
 from robo47.checks import Array
-
-SLOW = 1.5  # times slower than real time, which is said
 
 if TYPE_CHECKING:
     from labkit.inspector.app import Inspector
 
+SLOW = 1.5  # times slower than real time, which is said
+NARROW = "\u202f"  # a space that no line breaks at
+DIGITS = 4  # shown behind the point in a slider's box
 
-class Page(Widgets):
+
+class Page:
     """One opened tab's view of the page."""
 
     def __init__(self, host: "Inspector", sketch: Sketch) -> None:
-        """Begin a tab without widgets, drawings or animations.
-
-        Args:
-            host: the page as a whole.
-            sketch: what to draw with.
-        """
-        super().__init__(host)
-        self.draw, self.scene, self.arm = sketch, host.server.scene, host.arm
+        """Begin a tab without widgets or loops; the sketch draws for it."""
+        self.host, self.gui, self.draw = host, host.server.gui, sketch
+        self.scene, self.arm = host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
+        self.said: viser.GuiHtmlHandle | None = None
         self.running: list[Animation | Jobs] = []  # what ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
+
+    # The arm
 
     @property
     def q(self) -> Array:
@@ -67,11 +71,7 @@ class Page(Widgets):
         }
 
     def move(self, q: ArrayLike) -> None:
-        """Move the arm, in every browser.
-
-        Args:
-            q: radians and metres, (nq,).
-        """
+        """Move the arm, in every browser; q in radians and metres, (nq,)."""
         self.host.move(q)
 
     def light(
@@ -91,12 +91,10 @@ class Page(Widgets):
         self.host.panel.solid.visible = False
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
-        """Say at the end of the panel what the colours in the scene mean.
-
-        Args:
-            colours: {what is drawn: its colour, see `draw.COLOURS`}.
-        """
+        """Say at the panel's end what colours mean: {what is drawn: its colour}."""
         self.host.panel.explain({what: rgb(colour) for what, colour in colours.items()})
+
+    # The student's functions, and what takes time
 
     def own(self, library: Any, free: Collection[str] = ()) -> Own:
         """Return the student's functions; a line of the panel says how they compare.
@@ -152,18 +150,133 @@ class Page(Widgets):
     def _ended(self, error: Exception | None) -> None:
         """Say what stopped a job or a loop, and how the student's functions compare."""
         if isinstance(error, NoAnswerError):
-            self.show_whose(str(error), "bad")
-            if self.host.opened.tab is not None:
-                self.host.opened.guarded(self.host.opened.tab.lost)
+            self._show_whose(str(error), "bad")
+            if self.host.tab is not None:
+                self.host.guarded(self.host.tab.lost)
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
         elif self._own is not None:
-            self.show_whose(*self._own.says())
+            self._show_whose(*self._own.says())
         self.host.schedule()
 
-    def show_whose(self, text: str, kind: str) -> None:
-        """Say whose functions are at work, and how they compare."""
+    def _show_whose(self, text: str, kind: str) -> None:
         self._whose.content = words.judged(text, "whose", kind)
+
+    # The widgets
+
+    def html(self, text: str = "") -> viser.GuiHtmlHandle:
+        """Add HTML; setting `content` changes it. `words` makes lines and matrices."""
+        return self.gui.add_html(text)
+
+    def say(self, text: str, kind: str = "") -> None:
+        """Show a line at the tab's end, instead of the one before.
+
+        Args:
+            text: plain text; "" for none.
+            kind: "", "good", "bad" or "quiet".
+        """
+        self.end().content = words.line(text, "tab", kind) if text else ""
+
+    def end(self) -> viser.GuiHtmlHandle:
+        """Return the line of `say`, made once.
+
+        A widget that comes later has viser draw all the others anew: a slider that is
+        being dragged is then lost to the mouse.
+        """
+        self.said = self.said or self.html()
+        return self.said
+
+    def matrix(self, handle: viser.GuiHtmlHandle, name: str, T: Array) -> None:
+        """Show a pose, (4, 4), under its name in a handle of `html`."""
+        handle.content = words.matrix(name, T, f"tab-{handle._impl.uuid[:6]}")
+
+    def slider(
+        self,
+        label: str,
+        low: float,
+        high: float,
+        start: float,
+        on_change: Callable[[float], None],
+        *,
+        unit: str = "rad",
+        step: float = 0.01,
+    ) -> viser.GuiSliderHandle[float]:
+        """Add a slider from low to high with a box; setting `value` moves it.
+
+        Args:
+            label: what a person reads.
+            low: the least value.
+            high: the greatest.
+            start: at first.
+            on_change: is given the new value.
+            unit: behind the label; "" for none.
+            step: between values, and of an arrow key.
+        """
+        # What the mouse gives are whole steps: from a whole step on, they are round.
+        least = float(np.ceil(low / step) * step)
+        most = float(np.floor(high / step) * step)
+        text = f"{label} ({unit.replace(' ', NARROW)})" if unit else label
+        start = float(np.clip(start, least, most))
+        handle = self.gui.add_slider(text, least, most, float(step), start, marks=())
+        handle.precision = DIGITS
+
+        def changed(value: float) -> None:
+            if low <= value <= high:  # viser believes any number
+                on_change(round(value, 6))
+
+        return self.host.listen(handle, changed)
+
+    def buttons(
+        self, options: Sequence[str], on_press: Callable[[str], None]
+    ) -> viser.GuiButtonGroupHandle:
+        """Add a row of buttons; `on_press` is given the text of the one pressed."""
+        return self.host.listen(self.gui.add_button_group("", options), on_press)
+
+    def choice(
+        self, label: str, options: Sequence[str], on_change: Callable[[str], None]
+    ) -> viser.GuiDropdownHandle[str]:
+        """Add a drop-down, its first option chosen."""
+        return self.host.listen(self.gui.add_dropdown(label, tuple(options)), on_change)
+
+    def tick(
+        self, label: str, on_change: Callable[[bool], None]
+    ) -> viser.GuiCheckboxHandle:
+        """Add a check box, unticked."""
+        return self.host.listen(self.gui.add_checkbox(label, False), on_change)
+
+    def bars(
+        self,
+        labels: Sequence[str],
+        limits: ArrayLike,
+        unit: str,
+        title: str = "",
+        kind: str = "both",
+    ) -> Bars:
+        """Add a bar per number; `show(values, wanted)` sets them, and marks.
+
+        Args:
+            labels: one per bar.
+            limits: the absolute value at which a bar is full, (n,) or one for all.
+            unit: behind the numbers.
+            title: above.
+            kind: "both" from zero to both sides; "up" from the left, for what is never
+                negative; "scale" too, and its end is no limit: nothing turns red.
+        """
+        full = np.broadcast_to(np.asarray(limits, dtype=float), (len(labels),))
+        return Bars(self.html(), labels, full, unit, title, kind)
+
+    def plot(
+        self, curves: Sequence[str], *, y: str = "", height: int = 150, least: float = 0
+    ) -> Plot:
+        """Add a plot over t in seconds; `show(x, ys)` or `add(x, values)` fills it.
+
+        Args:
+            curves: one name per curve.
+            y: the title: what is drawn, with its unit.
+            height: pixels.
+            least: the lowest value of a logarithmic axis; 0 for a plain one.
+        """
+        return Plot(self.gui, curves, y, height, least)
 
     def close(self) -> None:
         """Stop the loops, remove the drawings."""

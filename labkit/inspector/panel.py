@@ -8,8 +8,8 @@ from labkit.inspector import words
 from labkit.inspector.arm import Arm
 from labkit.inspector.checks import Standing
 from labkit.inspector.ghost import Difference, Seen
+from labkit.inspector.guard import TITLE
 
-TITLE = "robo47 inspector"
 LAST = 1e15  # below whatever a tab adds
 
 
@@ -17,13 +17,7 @@ class Panel:
     """What stands above the open tab."""
 
     def __init__(self, gui: viser.GuiApi, arm: Arm, about: str) -> None:
-        """Put the panel at the top of the page.
-
-        Args:
-            gui: the page's sidebar.
-            arm: what the numbers are of.
-            about: what to say of the robot, below all; "" for nothing.
-        """
+        """Put the panel at the top of the page; what `about` says stands below all."""
         self.gui, self.arm = gui, arm
         self.no_file = ""
         gui.set_panel_label(TITLE)
@@ -43,12 +37,9 @@ class Panel:
         return self.gui._container_handle_from_uuid["root"]._children  # type: ignore[return-value]
 
     def open(self, titles: list[str], chosen: str, wide: bool) -> None:
-        """Remove what a tab put into the panel, and mark another tab as open.
+        """Remove what a tab put into the panel, and mark another of them as open.
 
-        Args:
-            titles: of all the tabs.
-            chosen: the one that is about to be built.
-            wide: without the two matrices; the tab needs the room.
+        A wide one needs the room of the two matrices.
         """
         for uuid, child in list(self._children().items()):
             if uuid not in self.fixed:
@@ -68,13 +59,7 @@ class Panel:
     def show(
         self, seen: Seen | None, apart: Difference | None, standing: Standing
     ) -> None:
-        """Show the present numbers.
-
-        Args:
-            seen: what the student's function said last, or None.
-            apart: how that differs from MuJoCo.
-            standing: how the tasks stand.
-        """
+        """Show what the student's function said last, and how the tasks stand."""
         if apart is not None:
             text, kind = apart.sentence, apart.kind
         elif seen is None:

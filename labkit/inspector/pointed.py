@@ -6,10 +6,10 @@ import viser
 from numpy.typing import ArrayLike
 
 from labkit.inspector.arm import Arm
+from labkit.inspector.draw import joined, lines
 from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS
 
 AXIS = 0.3  # metres, to both sides
-COLOUR = (150, 70, 150)
 SHORT, FAR = 1e-6, 1e6  # metres of a ray
 
 
@@ -21,10 +21,9 @@ class Pointed:
         self.server, self.arm = server, arm
         self.model: mujoco.MjModel | None = None
         self.body = 0
-        self.line = server.scene.add_line_segments(
-            "/pointed/axis", np.zeros((1, 2, 3), np.float32), COLOUR,
-            thickness=3, thickness_units="screen", visible=False,
-        )  # fmt: skip
+        nowhere = np.zeros((1, 2, 3))
+        self.line = lines(server, "/pointed/axis", nowhere, "purple", 3.0)
+        self.line.visible = False
         self.label = server.scene.add_label(
             "/pointed/name", "", visible=False, font_screen_scale=0.9
         )
@@ -35,13 +34,8 @@ class Pointed:
             self.show()
 
     def watch(self, model: mujoco.MjModel) -> None:
-        """Look for links from now on.
-
-        Args:
-            model: the arm's, with its shapes.
-        """
-        self.data = mujoco.MjData(model)
-        self.model = model
+        """Look for links from now on, in the arm's model with its shapes."""
+        self.model, self.data = model, mujoco.MjData(model)
 
     def show(self) -> None:
         """Name what was clicked, where it is now; or nothing."""
@@ -60,14 +54,13 @@ class Pointed:
         does = "slides along" if kind == mujoco.mjtJoint.mjJNT_SLIDE else "turns about"
         self.label.text = f"{name}: {self.model.joint(joint).name} {does} this axis"
         anchor, axis = self.data.xanchor[joint], self.data.xaxis[joint]
-        ends = [anchor - AXIS * axis, anchor + AXIS * axis]
-        self.line.points = np.array([ends], dtype=np.float32)
+        self.line.points = joined([anchor - AXIS * axis, anchor + AXIS * axis])
 
     def find(self, origin: ArrayLike, direction: ArrayLike) -> int:
         """Return the id of the body that a ray meets first; 0 for none.
 
         Args:
-            origin: metres, (3,).
+            origin: metres, (3,); it may be anything.
             direction: (3,).
         """
         start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)

@@ -71,19 +71,8 @@ class Recording:
         self.skin.pose(self.poses(qpos))
 
     def poses(self, qpos: ArrayLike) -> dict[str, Array]:
-        """Return {body: T_world_body (4, 4)} of what is seen, for a ghost.
-
-        Args:
-            qpos: a configuration; a shorter one is that of the first joints, (n,).
-        """
-        q = np.asarray(qpos, dtype=float)
-        self.data.qpos[: len(q)] = q
-        mujoco.mj_kinematics(self.model, self.data)
-        found = {name: self.data.body(name) for name in self.skin.bodies}
-        return {
-            name: se3.make_T(body.xmat.reshape(3, 3), body.xpos)
-            for name, body in found.items()
-        }
+        """Return {body: T_world_body (4, 4)} of what is seen, see `Skin.poses`."""
+        return self.skin.poses(self.data, qpos)
 
     def wait(self, seconds: float = 1 / FRAMES) -> None:
         """Let time go by; what was drawn so far is there from the beginning."""

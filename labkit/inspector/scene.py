@@ -12,10 +12,10 @@ import numpy as np
 import viser
 
 from labkit.inspector.arm import Arm
-from labkit.inspector.meshes import Colour, Skin
+from labkit.inspector.draw import Anchor, Triad, joined, lines
+from labkit.inspector.meshes import Skin
 from labkit.inspector.shapes import Shape
 from labkit.inspector.tab import View
-from labkit.inspector.triad import Anchor, Triad
 from robo47.checks import Array
 
 FOV = 0.72  # vertical, radians
@@ -37,12 +37,7 @@ class ArmScene:
     """The arm on its floor with a triad per frame, and the student's as a ghost."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        """Draw everything but the meshes; `update` only moves it.
-
-        Args:
-            server: where to draw.
-            arm: what to draw.
-        """
+        """Draw everything but the meshes; `update` only moves it."""
         self.arm, self.server, self.hidden = arm, server, False
         self.view: View = PHONE
         set_stage(server)
@@ -60,19 +55,15 @@ class ArmScene:
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
-        self.way = _lines(server, "/way", HIGHLIGHT)
-        self.gap = _lines(server, "/gap", GHOST_COLOUR)
+        self.way = lines(server, "/way", np.zeros((1, 2, 3)), HIGHLIGHT)
+        self.gap = lines(server, "/gap", np.zeros((1, 2, 3)), GHOST_COLOUR)
+        self.way.visible = self.gap.visible = False
         self.opaque, self.agrees = False, False
         self.coarse: list[Shape] = []
         self.update()
 
     def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
-        """Put meshes on the arm.
-
-        Args:
-            shapes: of every body.
-            ghosts: draw the ghost with them, too.
-        """
+        """Put meshes on the arm, and on the ghosts, too."""
         self.skin.put_on(shapes)
         self.paint()
         if ghosts:
@@ -111,11 +102,9 @@ class ArmScene:
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
-        """Draw the student's arm where it is not the real one.
+        """Draw the student's arm where it is not the real one, {short name: (4, 4)}.
 
-        Args:
-            poses: {short name of a frame: its pose, where it differs}.
-            end: the frame from whose true place a line leads to the student's.
+        A line leads to its end from where that should be.
         """
         self.ghost.pose(poses)
         there = poses.get(end)
@@ -123,33 +112,21 @@ class ArmScene:
         self.gap.visible = there is not None
         if there is not None:
             self.yours.place(there)
-            ends = [self.arm.pose(end)[:3, 3], there[:3, 3]]
-            self.gap.points = np.array([ends], dtype=np.float32)
+            self.gap.points = joined([self.arm.pose(end)[:3, 3], there[:3, 3]])
 
     def light(self, chosen: str | None, shown: Collection[str] | None) -> None:
-        """Make one frame stand out.
-
-        Args:
-            chosen: its short name; None for no one.
-            shown: the frames that are drawn at all; None for every one.
-        """
+        """Make one frame stand out; see `Page.light`."""
         for name, triad in self.triads.items():
             triad.show(shown is None or name in shown, name == chosen)
 
     def trace(self, origins: Array) -> None:
         """Draw the way from the world through these origins, (n, 3); n = 0: none."""
-        joined = np.array([[0.0, 0.0, 0.0], *origins], dtype=np.float32)
         self.way.visible = len(origins) > 0
         if self.way.visible:
-            self.way.points = np.stack([joined[:-1], joined[1:]], axis=1)
+            self.way.points = joined([[0.0, 0.0, 0.0], *origins])
 
     def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
-        """Make the arm solid or see-through, and green or not.
-
-        Args:
-            opaque: None leaves it as it is.
-            agrees: whether the student's code puts every link here.
-        """
+        """Make the arm solid or see-through, and green or not; None leaves it so."""
         before = self.opaque, self.agrees
         self.opaque = self.opaque if opaque is None else opaque
         self.agrees = self.agrees if agrees is None else agrees
@@ -174,26 +151,6 @@ def set_stage(server: viser.ViserServer) -> None:
     backdrop = np.full((2, 2, 3), BACKDROP, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(
-        "/floor",
-        2.0,
-        2.0,
-        cell_size=0.1,
-        section_size=0.5,
-        cell_thickness=0.5,
-        cell_color=(180, 187, 196),
-        section_thickness=0.8,
-    )
-
-
-def _lines(
-    server: viser.ViserServer, path: str, colour: Colour
-) -> viser.LineSegmentsHandle:
-    """Add line segments that have their points yet to come."""
-    return server.scene.add_line_segments(
-        path,
-        np.zeros((1, 2, 3), dtype=np.float32),
-        colour,
-        thickness=2.5,
-        thickness_units="screen",
-        visible=False,
-    )
+        "/floor", 2.0, 2.0, cell_size=0.1, section_size=0.5, cell_thickness=0.5,
+        cell_color=(180, 187, 196), section_thickness=0.8,
+    )  # fmt: skip

@@ -12,7 +12,7 @@ import signal
 import socket
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar
@@ -21,13 +21,13 @@ import mujoco
 import viser
 
 from labkit.base import cli, store
-from labkit.inspector import checker_calls
-from labkit.inspector.app import Inspector, Meshes
+from labkit.check.tasks import TaskResult, check_tasks
+from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
 from labkit.inspector.checks import Checks
 from labkit.inspector.guard import LOOPBACK, LocalServer
-from labkit.inspector.shapes import COLLISION_GROUPS, shapes
-from labkit.inspector.student import Student
+from labkit.inspector.shapes import shapes, simple_links
+from labkit.inspector.student import Student, source_of
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day
 from labkit.sandbox.sandbox import Sandbox
@@ -36,7 +36,6 @@ from robo47.paths import shown
 
 MEMORY = "view.json"  # where each day's page was
 PORTS_TRIED = 100
-WHITE = (0.92, 0.92, 0.92, 1.0)  # the links; collision shapes have no colour
 T = TypeVar("T")
 PATIENCE = 30.0  # seconds
 WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
@@ -44,34 +43,18 @@ WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numb
 
 @dataclass(frozen=True)
 class Show:
-    """What to show.
+    """What to show."""
 
-    Attributes:
-        day: whose tabs and whose file.
-        arm: without its looks; the numbers need none.
-        about: what to say of the robot on the page; "" for nothing.
-        dressed: loads the same model with its meshes; takes seconds.
-        simple: leave the fine meshes out, for a computer that draws without a GPU.
-        back: begin in the tab and the pose where the day's last page ended.
-    """
-
-    day: Day
-    arm: Arm
-    about: str
-    dressed: Callable[[], mujoco.MjModel]
-    simple: bool = False
-    back: bool = True
+    day: Day  # whose tabs and whose file
+    arm: Arm  # without its looks; the numbers need none
+    about: str  # what to say of the robot on the page; "" for nothing
+    dressed: Callable[[], mujoco.MjModel]  # the same with its meshes; takes seconds
+    simple: bool = False  # without the fine meshes, for a computer without a GPU
+    back: bool = True  # begin in the tab and the pose where the day's last page ended
 
 
 def serve(show: Show, port: int) -> int:
-    """Serve the page until Ctrl-C.
-
-    Args:
-        show: what to show.
-        port: the wish; the next free one is taken where it is busy.
-
-    Returns:
-        The exit code.
+    """Serve the page until Ctrl-C, at this port or the next free one.
 
     Raises:
         Robo47Error: no port is free, or the day's tabs do not load.
@@ -93,7 +76,7 @@ def serve(show: Show, port: int) -> int:
             before = store.read(MEMORY).get(str(show.day.number), "")
             if show.back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
-            ends.callback(on_loop, server, page.opened.leave)
+            ends.callback(on_loop, server, page.leave)
             print("\n".join(where_to_look(port, server)), flush=True)
             ends.callback(watch(page, show, ends).close)
             dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
@@ -125,36 +108,33 @@ def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:
 
 
 def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
-    """Start the thread that asks the student's file, and the checks after a save.
-
-    Args:
-        page: where it is shown.
-        show: the day and the arm.
-        ends: what is to be closed in the end.
-    """
+    """Start the thread that asks the student's file, and the checks after a save."""
+    day, model = show.day, show.arm.model
     sandbox = ends.enter_context(Sandbox())
-    checks = Checks(partial(checker_calls.verdicts, show.day), page.on_loop(page.judge))
-    ends.callback(checks.close)
 
+    def verdicts() -> Sequence[TaskResult]:
+        with Sandbox() as another:
+            return check_tasks(day, day.work, another)
+
+    checks = Checks(verdicts, page.on_loop(page.judge))
+    ends.callback(checks.close)
     reload = page.on_loop(page.reload)
 
     def saved() -> None:
-        reload(None)
-        if show.day.work.is_file():
+        reload()
+        if day.work.is_file():
             checks.again()
 
-    student = Student(
-        checker_calls.source_of(show.day, show.arm.model, sandbox), page.day.ghost,
-        show.arm.model, page.on_loop(page.hear), saved,
-    )  # fmt: skip
+    source = source_of(day, model, sandbox)
+    student = Student(source, page.day.ghost, model, page.on_loop(page.hear), saved)
 
     def begin() -> None:
         page.panel.no_file = (
-            f"No {shown(show.day.work)} yet: make start DAY={show.day.number}. "
+            f"No {shown(day.work)} yet: make start DAY={day.number}. "
             "Shown is the kit's library."
         )
         page.student = student
-        page.update()
+        page.ask()
 
     on_loop(page.server, begin)
     student.start()
@@ -169,50 +149,33 @@ def dress(page: Inspector, show: Show) -> None:
         print(f"the arm stays without its meshes: {error}", flush=True)
         return
     put_on = page.on_loop(partial(page.dress, model))
-    coarse = [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
+    coarse = simple_links(model)
     if coarse:
-        put_on(Meshes(coarse, True))
+        put_on(coarse, True)
     if not (coarse and show.simple):
-        put_on(Meshes(shapes(model), not coarse))
+        put_on(shapes(model), not coarse)
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:
-    """Return the lines that tell a person where the page is.
-
-    Args:
-        wish: the port that was asked for; 0 for any.
-        server: listening.
-    """
+    """Return the lines that tell where the page is, and if the wished port is not."""
     port = server.get_port()
     moved = [f"port {wish} is taken; using {port}"] if wish not in (0, port) else []
-    return [
-        *moved,
-        f"inspector: {server.url}   (Ctrl-C here ends it)",
-        "From another computer: run this on it, then open the same address there.",
-        f"  {ssh_line(port)}",
-    ]
-
-
-def ssh_line(port: int) -> str:
-    """Return the command that makes the page reachable from another machine.
-
-    Args:
-        port: where it is on this one, and will be on the other.
-    """
     try:
         user = getpass.getuser()
     except (OSError, KeyError, ImportError):  # a container's user without a name
         user = "USER"
-    return f"ssh -L {port}:{LOOPBACK}:{port} {user}@{socket.gethostname()}"
+    return [
+        *moved,
+        f"inspector: {server.url}   (Ctrl-C here ends it)",
+        "From another computer: run this on it, then open the same address there.",
+        f"  ssh -L {port}:{LOOPBACK}:{port} {user}@{socket.gethostname()}",
+    ]
 
 
 def free_port(wish: int) -> int:
-    """Return the first free port from the wish on.
+    """Return the first free port from the wish on; 0 for whichever the system picks.
 
     viser would look for one too, but in silence, and past the last port for ever.
-
-    Args:
-        wish: 0 for whichever the system picks.
 
     Raises:
         Robo47Error: none of a hundred is free.

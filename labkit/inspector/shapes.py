@@ -16,24 +16,18 @@ from robo47 import se3
 from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
+WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
 Faces = NDArray[np.int32]
 Rgba = tuple[float, float, float, float]
 
 
 class Shape(NamedTuple):
-    """Everything of one body that has one colour.
+    """Everything of one body that has one colour."""
 
-    Attributes:
-        body: its name.
-        rgba: colour and opacity, 0 to 1.
-        vertices: in the body's frame, metres, (n, 3).
-        faces: indices into vertices, (m, 3).
-    """
-
-    body: str
-    rgba: Rgba
-    vertices: Array
-    faces: Faces
+    body: str  # its name
+    rgba: Rgba  # colour and opacity, 0 to 1
+    vertices: Array  # in the body's frame, metres, (n, 3)
+    faces: Faces  # indices into vertices, (m, 3)
 
 
 def shapes(
@@ -55,6 +49,11 @@ def shapes(
                 key = body, _colour(model, geom)
                 parts.setdefault(key, []).append((placed, faces))
     return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
+
+
+def simple_links(model: mujoco.MjModel) -> list[Shape]:
+    """Return the shapes that a model collides with, in the colour of the links."""
+    return [s._replace(rgba=WHITE) for s in shapes(model, COLLISION_GROUPS)]
 
 
 def thinned(shape: Shape, grid: float) -> Shape:

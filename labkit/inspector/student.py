@@ -5,10 +5,10 @@ saved, and asks it for the newest configuration; what comes back is delivered on
 server's event loop. Nothing of the student's runs in this process.
 """
 
-import contextlib
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,10 @@ import numpy as np
 
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
-from labkit.sandbox.sandbox import Session
+from labkit.judge.problems import no_answer, not_loaded, stops_with
+from labkit.lesson.day import Day
+from labkit.sandbox.library import library_of
+from labkit.sandbox.sandbox import Sandbox, Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
@@ -26,19 +29,36 @@ POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
 
 @dataclass(frozen=True)
 class Source:
-    """The file, and how it is opened.
+    """The student's file, and how it is opened."""
 
-    Attributes:
-        script: the student's file; it need not be there.
-        open: opens it in the sandbox; raises LoadError.
-        explain: says in a line why it does not load.
-        describe: says in a line what a reply that is no answer means.
+    script: Path  # it need not be there
+    open: Callable[[Path], Session]  # in the sandbox; raises LoadError
+    describe: Callable[[str, Reply], str]  # what a reply that is no answer means
+
+
+def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
+    """Return the student's file of a day, to be opened in a sandbox.
+
+    The model is the robot that the page shows, as it is in questions.
     """
 
-    script: Path
-    open: Callable[[Path], Session]
-    explain: Callable[[Path, Reply], str]
-    describe: Callable[[str, Reply], str]
+    def opened(script: Path) -> Session:
+        return sandbox.session(script, [model], library_of(day), limits=day.limits)
+
+    tasks = {name: task.id for task in day.tasks for name in task.functions}
+    return Source(day.work, opened, partial(describe, tasks))
+
+
+def describe(tasks: Mapping[str, str], function: str, reply: Reply) -> str:
+    """Return in the checker's words what a function's reply that is no answer means.
+
+    "" where it is one. The tasks are {function: the task whose it is}.
+    """
+    if not reply.kind:
+        return ""
+    verdict = no_answer(reply, function, tasks.get(function, ""))
+    says = verdict.message if verdict else stops_with(reply)
+    return says if function in says else f"{function}: {says}"
 
 
 class Student(threading.Thread):
@@ -56,8 +76,7 @@ class Student(threading.Thread):
 
         Args:
             source: the file.
-            ghost: which function to ask for the arm's poses, and what; None where a
-                day has none: then only its tabs ask.
+            ghost: what to ask for the arm's poses; None where only the day's tabs ask.
             model: the robot.
             deliver: is given what the function said; None where there is no file.
             saved: called when the file was opened anew.
@@ -69,17 +88,13 @@ class Student(threading.Thread):
         self.q: Array | None = None
         self.ended = False
         self.version = 0  # of the file: another one after each save
+        self.problem = ""  # why the file is not asked, in a sentence
         self._lock = threading.RLock()  # a session answers one thread at a time
         self._asker: Session | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
-        self._problem = ""
 
     def want(self, q: Array) -> None:
-        """Ask for a configuration, instead of any that waits.
-
-        Args:
-            q: (nq,).
-        """
+        """Ask for a configuration, (nq,), instead of any that waits."""
         with self.news:
             self.q = q.copy()
             self.news.notify()
@@ -89,17 +104,8 @@ class Student(threading.Thread):
         """Whether there is a file."""
         return bool(self._stamp)
 
-    @property
-    def problem(self) -> str:
-        """Why the file is not asked, in a sentence; "" where it is."""
-        return self._problem
-
     def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions, now, on the caller's thread; see `problem` afterwards.
-
-        Args:
-            questions: what to call.
-        """
+        """Ask any functions, now, on the caller's thread; see `problem` afterwards."""
         with self._lock:
             if self._asker is None:
                 ended = Reply(kind="stopped", error="it is not asked")
@@ -143,12 +149,12 @@ class Student(threading.Thread):
 
     def _look(self) -> bool:
         """Open the file anew where it changed; return whether it did."""
-        stamp = stamp_of(self.source.script)
+        stamp = _stamp_of(self.source.script)
         if stamp == self._stamp:
             return False
         self._stamp = stamp
         self._shut()
-        self._problem = self._open() if stamp else ""
+        self.problem = self._open() if stamp else ""
         self.version += 1
         return True
 
@@ -156,7 +162,7 @@ class Student(threading.Thread):
         try:
             self._asker = self.source.open(self.source.script)
         except LoadError as error:
-            return self.source.explain(self.source.script, error.reply)
+            return not_loaded(self.source.script, error.reply)
         except (Robo47Error, OSError) as error:
             return str(error)
         return ""
@@ -170,15 +176,13 @@ class Student(threading.Thread):
         """Return the student's poses at a configuration."""
         if self._stamp is None:
             return None
-        if self._asker is None or self.ghost is None:
-            return Seen(q, problem=self._problem)
         with self._lock:
-            asker = self._asker
+            if (asker := self._asker) is None or self.ghost is None:
+                return Seen(q, problem=self.problem)
             try:
-                found = poses_of(asker, self.source, self.ghost, self.model, q)
+                poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
             except Exception as error:  # ours, or the day's: the page goes on
                 return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
-            poses, problem = found
             if not asker.alive:
                 problem = self._give_up(problem)
         return Seen(q, poses, problem)
@@ -186,21 +190,16 @@ class Student(threading.Thread):
     def _give_up(self, why: str) -> str:
         """Ask nothing more before the file is saved; return what to say meanwhile."""
         self._shut()
-        self._problem = f"{why} Save the file to have it asked again."
-        return self._problem
+        self.problem = f"{why} Save the file to have it asked again."
+        return self.problem
 
 
 def poses_of(
     asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
-    """Return the poses that a student's function gives, and the first problem or "".
+    """Return the poses that the ghost's function gives at q, (nq,), and "" or why not.
 
-    Args:
-        asker: the file, loaded.
-        source: says what a reply that is no answer means.
-        ghost: which function, and what to ask it.
-        model: the robot.
-        q: (nq,).
+    The asker is the file, loaded; the source says what other replies mean.
     """
 
     def asked(
@@ -224,10 +223,10 @@ def poses_of(
     return poses, problem
 
 
-def stamp_of(script: Path) -> tuple[int, ...] | None:
+def _stamp_of(script: Path) -> tuple[int, ...] | None:
     """Return what changes when a file is saved; None where there is no file."""
-    if not script.is_file():
+    try:
+        status = script.stat()
+    except OSError:
         return None
-    with contextlib.suppress(OSError):  # it went away just now
-        return script.stat().st_mtime_ns, script.stat().st_size
-    return None
+    return (status.st_mtime_ns, status.st_size) if script.is_file() else None

@@ -1,7 +1,5 @@
 """A tab of the page, and the tabs of a day, found in its own folder."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from labkit.inspector.ghost import Ghost
@@ -19,33 +17,20 @@ View = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 class Tab:
-    """One tab of the page; see `labkit.inspector` for what to write in it.
-
-    Attributes:
-        title: on the tab.
-        wide: the tab needs the room of the two matrices above it.
-        camera: from where one looks, and at what, metres; aimed beside the arm, since
-            the panel covers the right third of the page.
-    """
+    """One tab of the page; see `labkit.inspector` for what to write in it."""
 
     title = "a tab"
-    wide = False
+    wide = False  # whether it needs the room of the two matrices above it
+    # From where one looks, and at what, metres; aimed beside the arm, since the panel
+    # covers the right third of the page.
     camera: View = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
 
     def __init__(self, page: "Page") -> None:
-        """Open the tab: make its widgets and drawings.
-
-        Args:
-            page: what it makes them with.
-        """
+        """Open the tab: make its widgets and drawings."""
         self.page = page
 
     def on_move(self, q: Array) -> None:
-        """Show the configuration that the arm has now.
-
-        Args:
-            q: radians and metres, (nq,).
-        """
+        """Show the configuration that the arm has now; radians and metres, (nq,)."""
 
     def lost(self) -> None:
         """Show no numbers: the student's function gave none."""
@@ -55,79 +40,14 @@ class Tab:
 
 
 class DayTabs(NamedTuple):
-    """What a day brings to the page.
+    """What a day brings to the page."""
 
-    Attributes:
-        ghost: which function draws the student's arm; None for none.
-        tabs: in the day's order.
-    """
-
-    ghost: Ghost | None
-    tabs: list[type[Tab]]
-
-
-class Opened:
-    """The one tab that is open, among those that can be.
-
-    Attributes:
-        kinds: {title: class}, in the order of the row of tabs.
-        kind: of the open one.
-        tab: the open one; None where it failed to open.
-        page: what it made its widgets with.
-    """
-
-    def __init__(self, kinds: Sequence[type[Tab]]) -> None:
-        """Take the classes of the tabs, in the order of the row; open none yet."""
-        self.kinds = {kind.title: kind for kind in kinds}
-        self.kind = kinds[0]
-        self.tab: Tab | None = None
-        self.page: Page | None = None
-
-    def enter(self, title: str, page: "Page") -> None:
-        """Open a tab.
-
-        Args:
-            title: a key of `kinds`.
-            page: what it makes its widgets and drawings with.
-        """
-        self.kind, self.page = self.kinds[title], page
-
-        def make() -> None:
-            self.tab = self.kind(page)
-
-        self.guarded(make)
-        self.tell(page.q)
-        page.end()
-
-    def leave(self) -> None:
-        """Close the open tab, and remove all that it made."""
-        if self.tab is not None:
-            self.guarded(self.tab.close)
-        if self.page is not None:
-            self.page.close()
-        self.tab = self.page = None
-
-    def tell(self, q: Array) -> None:
-        """Tell the open tab where the arm is."""
-        if self.tab is not None:
-            self.guarded(partial(self.tab.on_move, q.copy()))
-
-    def guarded(self, call: Callable[[], None]) -> None:
-        """Call a day's code; where it fails the page says so and goes on."""
-        try:
-            call()
-        except Exception as error:
-            if self.page is None:  # nobody to tell: the tab is gone
-                return
-            what = f"{type(error).__name__}: {error}"
-            self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
+    ghost: Ghost | None  # which function draws the student's arm
+    tabs: list[type[Tab]]  # in the day's order
 
 
 def day_tabs(day: Day) -> DayTabs:
     """Return what the `inspector.py` of a day's folder brings; nothing where none is.
-
-    Args:
-        day: from its manifest.
 
     Raises:
         Robo47Error: it does not load, or TABS and GHOST are not what they should be.
@@ -138,9 +58,8 @@ def day_tabs(day: Day) -> DayTabs:
     try:
         module = folder.load(day, FILE)
     except Exception as error:
-        raise Robo47Error(
-            f"{where} does not load: {type(error).__name__}: {error}"
-        ) from error
+        why = f"{type(error).__name__}: {error}"
+        raise Robo47Error(f"{where} does not load: {why}") from error
     ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
     if not isinstance(tabs, list | tuple):
         raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")

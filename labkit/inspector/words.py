@@ -1,7 +1,8 @@
 """Numbers as HTML for the panel: aligned, in one type width, readable without colour.
 
 A matrix has its columns named x, y, z (the frame's axes in the world) and p (where its
-origin is); the colours are those of the triad. The style is in `client.css`.
+origin is); the colours are those of the triad. The style is in `client.css`. A key is
+unique in the page, for who looks a line or a matrix up there.
 """
 
 import json
@@ -11,7 +12,7 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from labkit.inspector.arm import AGREES, Arm, Step
+from labkit.inspector.arm import AGREES, Arm
 from labkit.inspector.ghost import Seen
 from robo47.checks import Array
 
@@ -30,7 +31,7 @@ def matrix(
     Args:
         name: such as "T_world_ee".
         T: (4, 4).
-        key: unique in the page, for who looks a matrix up there.
+        key: unique in the page.
         marked: entries to mark, (4, 4) of bool.
         mark: how: "off" for wrong ones, "moves" for what q changes.
     """
@@ -54,13 +55,7 @@ def _entry(value: float, column: str, mark: str) -> str:
 
 
 def line(text: str, key: str, kind: str = "") -> str:
-    """Return one line of text.
-
-    Args:
-        text: plain text.
-        key: unique in the page, for who looks the line up there.
-        kind: "", "good", "bad", or "quiet".
-    """
+    """Return one line of plain text; the kind is "", "good", "bad", or "quiet"."""
     style = f" r47-{kind}" if kind else ""
     return f'<div class="r47{style}" data-line="{escape(key)}">{escape(text)}</div>'
 
@@ -77,17 +72,11 @@ def judged(text: str, key: str, kind: str) -> str:
 
 
 def verdict(difference: float, whose: str = "the library") -> str:
-    """Return how far a pose is from MuJoCo's.
-
-    Args:
-        difference: the largest of any entry.
-        whose: the other pose.
-    """
-    if difference < AGREES:
-        text = f"{whose}: largest difference {difference:.1e}, they agree"
-        return line(f"✓ {text}", "difference", "good")
-    text = f"{whose}: largest difference {difference:.1e}, THEY DIFFER"
-    return line(f"✗ {text}", "difference", "bad")
+    """Return how far someone's pose is from MuJoCo's, by the largest of any entry."""
+    agrees = difference < AGREES
+    sign, end = ("✓", "they agree") if agrees else ("✗", "THEY DIFFER")
+    text = f"{sign} {whose}: largest difference {difference:.1e}, {end}"
+    return line(text, "difference", "good" if agrees else "bad")
 
 
 def proof(arm: Arm, name: str, seen: Seen | None) -> str:
@@ -100,17 +89,15 @@ def proof(arm: Arm, name: str, seen: Seen | None) -> str:
         name: short name of the frame.
         seen: what the student's function said, with a pose of this frame; or None.
     """
-    parts = [matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")]
+    truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
     if seen is None:
         library = arm.by_library[arm.names[name]]
-        parts.append(matrix(f"T_world_{name}, robo47.kinematics", library, "library"))
-        parts.append(verdict(arm.difference(name)))
-        return "".join(parts)
-    yours, truth = seen.poses[name], arm.poses_at(seen.q)[name]
-    off = ~(np.abs(yours - truth) < AGREES)
-    parts.append(matrix(f"T_world_{name}, YOURS", yours, "yours", off))
-    parts.append(verdict(float(np.abs(yours - truth).max()), "yours"))
-    return "".join(parts)
+        pose = matrix(f"T_world_{name}, robo47.kinematics", library, "library")
+        return truth + pose + verdict(arm.difference(name))
+    yours = seen.poses[name]
+    apart = np.abs(yours - arm.poses_at(seen.q)[name])
+    pose = matrix(f"T_world_{name}, YOURS", yours, "yours", ~(apart < AGREES))
+    return truth + pose + verdict(float(apart.max()), "yours")
 
 
 def limits(arm: Arm) -> str:
@@ -124,48 +111,19 @@ def limits(arm: Arm) -> str:
 
 def numpy_q(q: Array) -> str:
     """Return a configuration as NumPy reads it, every digit of it."""
-    return f"np.array({[float(x) for x in q]!r})"
+    return f"np.array({q.tolist()!r})"
 
 
 def numpy_T(T: Array) -> str:
     """Return a matrix as NumPy reads it, every digit of it."""
-    rows = ",\n    ".join(repr([float(x) for x in row]) for row in T)
+    rows = ",\n    ".join(map(repr, T.tolist()))
     return f"np.array([\n    {rows},\n])"
 
 
-def step(this: Step, number: int, of: int, whole: bool) -> str:
-    """Return one factor of the chain: what it is, and the three matrices.
-
-    Args:
-        this: the step.
-        number: its place in the chain, from 1.
-        of: how many there are.
-        whole: whether the link has no factor after this one.
-    """
-    if this.joint:
-        about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"
-    else:
-        about = f"pos and quat of {this.link} in the file, the same for every q"
-    product = f"T_world_{this.link}"
-    if not whole:
-        product += " with its joint still at 0"
-    parts = [
-        line(f"factor {number} of {of}, {this.name}: {about}", "step"),
-        matrix("so far", this.before, "before"),
-        matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves"),
-        matrix(f"= {product}", this.after, "product"),
-    ]
-    return "".join(parts)
-
-
 def tab_row(names: Iterable[str], chosen: str) -> str:
-    """Return the row of tabs; a click sends the address of the tab.
+    """Return the row of tabs, one of them open; a click sends the address of the tab.
 
     viser's own tabs tell the server nothing, and the server cannot open one.
-
-    Args:
-        names: of the tabs.
-        chosen: the open one.
     """
     made = "".join(
         f'<button type="button" role="tab" data-r47-go="?tab={escape(name)}" '
@@ -176,12 +134,7 @@ def tab_row(names: Iterable[str], chosen: str) -> str:
 
 
 def copy_button(label: str, text: str) -> str:
-    """Return a button that copies a text.
-
-    Args:
-        label: on the button.
-        text: what is copied.
-    """
+    """Return a button with a label that copies a text."""
     return (
         f'<button type="button" class="r47-copy" data-r47-copy="{escape(text)}">'
         f"{escape(label)}</button>"
@@ -189,22 +142,16 @@ def copy_button(label: str, text: str) -> str:
 
 
 def state(address: str, heard: int) -> str:
-    """Return the hidden element that tells every browser where the page is.
+    """Return the hidden element that tells every browser the page's query, "?q=...".
 
-    Args:
-        address: the query behind the page's address, "?q=...".
-        heard: the number of the last word from a browser that it knows of.
+    It knows of the word from a browser with that number, and of those before.
     """
     told = escape(json.dumps({"address": address, "heard": heard}))
     return f'<div hidden data-r47-state="{told}"></div>'
 
 
 def legend(colours: Mapping[str, tuple[int, int, int]]) -> str:
-    """Return what the colours in the scene mean.
-
-    Args:
-        colours: {what is drawn: its colour}.
-    """
+    """Return what the colours in the scene mean, {what is drawn: its colour}."""
     made = "".join(
         f'<span><i style="background:rgb{rgb}"></i>{escape(what)}</span>'
         for what, rgb in colours.items()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Case, Finding, Vector, draw
+from labkit.judge import Case, Finding, Slip, Vector, draw
 from labkit.judge.compare import difference
 from labkit.judge.kinds import one_factor
 from labkit.judge.matrices import times
@@ -36,7 +36,16 @@ def what_the_hand_feels(case: Case) -> Finding | None:
     )
 
 
-row = Row(Vector((7,), "rad", names=JOINTS), unnamed=what_the_hand_feels)
+NO_INVERSE = Slip(
+    "LinAlgError: Singular",
+    "",
+    "no-inverse",
+    "J may be singular, and J J^T has no inverse then: J^+ is numpy.linalg.pinv(J) "
+    "there, too.",
+)
+row = Row(
+    Vector((7,), "rad", names=JOINTS), unnamed=what_the_hand_feels, slips=[NO_INVERSE]
+)
 
 
 @row.inputs

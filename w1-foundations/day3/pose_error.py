@@ -144,7 +144,7 @@ def screw_for_translation(T, T_goal):
 row.reached_by(
     "log_rotation",
     "in the rotation, ",
-    but=("textbook-formula", "nan-at-0", "arccosine-beyond-1"),
+    but=("textbook-formula", "nan-at-0", "arccosine-beyond-1", "fixed-column"),
 )
 
 

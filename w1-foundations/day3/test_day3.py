@@ -289,3 +289,4 @@ def test_joint4_after_a_quarter_turn_of_joint1(arm):
     assert "(0, -1, 0, 0.649, 0, -0.0825)" in GUIDE
     assert_same(arm[0][3], [0, -1, 0, 0.649, 0, -0.0825], 1e-4)
     assert_same(J[:, 3], [1, 0, 0, 0, 0.649, -0.0825], 1e-4)
+    assert "(1, 0, 0, 0, 0.649, -0.0825): both halves have turned" in GUIDE

@@ -12,10 +12,10 @@ import mujoco
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.own import week
 from labkit.inspector.page import Page
 from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
-from labkit.inspector.week import week
 from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
 from robo47.checks import Array

@@ -1,0 +1,210 @@
+"""The tabs that every day has: Joints, Chain and Tasks."""
+
+import math
+import secrets
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+
+from labkit.inspector import typed, words
+from labkit.inspector.arm import Step
+from labkit.inspector.checks import Standing
+from labkit.inspector.page import Page
+from labkit.inspector.tab import Tab
+from robo47.checks import Array
+
+RANDOM, UNDO = "random", "undo"
+BACK, NEXT, PLAY = "back", "next", "play / stop"
+SECONDS_PER_STEP = 0.9
+MARKS = {"passed": ("✓", "good"), "todo": ("·", "quiet"), "close": ("~", "bad")}
+# "home" is two things in this course; the text under the buttons says which is which.
+ABOUT = (
+    "ready is READY_Q of the labs, home the model's own key. In q you can type pi/2 "
+    "or 90 deg, and paste an array. Click a link to see its axis."
+)
+
+
+def mover(page: Page, i: int) -> Callable[[float], None]:
+    """Return what sets one number of the configuration and leaves the others."""
+
+    def set_joint(value: float) -> None:
+        q = page.q
+        q[i] = value
+        page.move(q)
+
+    return set_joint
+
+
+class Joints(Tab):
+    """Sliders and buttons that move the arm."""
+
+    title = "Joints"
+
+    def __init__(self, page: Page) -> None:
+        """Make a slider for every joint, the buttons, and a box for all of q."""
+        super().__init__(page)
+        self.buttons = page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
+        self.units = ["m" if self.slides(joint) else "" for joint in page.arm.joints]
+        self.sliders = [
+            page.slider(
+                joint, *page.arm.limits(joint), float(page.q[i]), mover(page, i),
+                unit=self.units[i],
+            )
+            for i, joint in enumerate(page.arm.joints)
+        ]  # fmt: skip
+        self.box = page.gui.add_text("q", "")
+        page.host.listen(self.box, self.type)
+        self.exact = page.html()
+
+    def slides(self, joint: str) -> bool:
+        """Return whether a joint's number is in metres."""
+        return self.page.model.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
+
+    def type(self, text: str) -> None:
+        """Take the arm where the box says, once that is a configuration."""
+        try:
+            self.page.move(typed.configuration(text, self.page.model.nq))
+            self.page.say("")
+        except ValueError as error:
+            self.page.say(str(error), "bad")
+
+    def go_to(self, name: str) -> None:
+        """Take the arm to a configuration with a name, or anywhere."""
+        if name == UNDO:
+            self.page.host.undo()
+        elif name == RANDOM:
+            self.page.move(self.page.arm.random_q(secrets.randbits(32)))
+        else:
+            self.page.move(self.page.arm.named_q[name])
+
+    def on_move(self, q: Array) -> None:
+        """Set every slider, and the box that says q with all its digits."""
+        for slider, value in zip(self.sliders, q, strict=True):
+            slider.value = float(value)  # type: ignore[misc]
+        if not self._says(q):  # nothing is taken from under somebody's hand
+            text = ", ".join(f"{x:.10g}" for x in q)
+            self.box.value = text  # type: ignore[misc]
+            self.page.say("")
+        degrees = ", ".join(
+            f"{x:.4g} m" if unit else f"{math.degrees(x):.4g}°"
+            for unit, x in zip(self.units, q, strict=True)
+        )
+        self.exact.content = (
+            words.line(degrees, "degrees", "quiet")
+            + '<div class="r47-row">'
+            + words.copy_button("copy q as NumPy", words.numpy_q(q))
+            + words.copy_button("copy T_world_ee", words.numpy_T(self.page.pose("ee")))
+            + "</div>"
+            + words.line(ABOUT, "about-buttons", "quiet")
+        )
+
+    def _says(self, q: Array) -> bool:
+        """Return whether the box says this already, in whatever words."""
+        try:
+            said = typed.configuration(self.box.value, len(q))
+        except ValueError:
+            return False
+        return np.allclose(said, q, rtol=0.0, atol=1e-9)
+
+
+class Chain(Tab):
+    """The chain's product, one factor at a time, one more frame lit."""
+
+    title = "Chain"
+    wide = True  # three matrices of its own
+
+    def __init__(self, page: Page) -> None:
+        """Start at the first joint."""
+        super().__init__(page)
+        steps = page.arm.steps()
+        self.at = next(i for i, step in enumerate(steps) if step.joint)
+        self.buttons = page.buttons([BACK, NEXT, PLAY], self.press)
+        self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
+        self.product = page.html()
+        self.place = {
+            step.joint: int(page.model.joint(step.joint).qposadr[0])
+            for step in steps
+            if step.joint
+        }
+        self.sliders = {
+            joint: page.slider(
+                joint, *page.arm.limits(joint), float(page.q[i]), mover(page, i)
+            )
+            for joint, i in self.place.items()
+        }
+
+    def press(self, name: str) -> None:
+        """Go one factor back or on, or play them all."""
+        if name == PLAY:
+            self.playing.toggle()
+        else:
+            self.playing.stop()
+            self.go(self.at + (1 if name == NEXT else -1))
+
+    def play(self, seconds: float) -> bool:
+        """Show the next factor; return whether there is one more."""
+        self.go(round(seconds / SECONDS_PER_STEP))
+        return self.at < len(self.page.arm.steps()) - 1
+
+    def go(self, at: int) -> None:
+        """Show a factor by its place in the product."""
+        self.at = min(max(at, 0), len(self.page.arm.steps()) - 1)
+        self.on_move(self.page.q)
+
+    def on_move(self, q: Array) -> None:
+        """Show the factor in the arm's present configuration."""
+        steps = self.page.arm.steps()
+        this, done = steps[self.at], steps[: self.at + 1]
+        whole = len(done) == len(steps) or steps[self.at + 1].link != this.link
+        says = says_of(this, self.at + 1, len(steps), whole)
+        if whole:  # every factor of this link is in: MuJoCo has that pose, too
+            says += words.verdict(self.page.arm.difference(this.link, this.after))
+        self.product.content = says
+        for joint, slider in self.sliders.items():
+            slider.visible = joint == this.joint
+            slider.value = float(q[self.place[joint]])  # type: ignore[misc]
+        self.page.light(this.link, {step.link for step in done})
+        self.page.host.scene.trace(np.array([step.after[:3, 3] for step in done]))
+
+
+def says_of(this: Step, number: int, of: int, whole: bool) -> str:
+    """Return one factor of the chain: what it is, and the three matrices, as HTML.
+
+    It is whole where the link has no factor after this one.
+    """
+    if this.joint:
+        about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"
+    else:
+        about = f"pos and quat of {this.link} in the file, the same for every q"
+    product = f"T_world_{this.link}" + ("" if whole else " with its joint still at 0")
+    return (
+        words.line(f"factor {number} of {of}, {this.name}: {about}", "step")
+        + words.matrix("so far", this.before, "before")
+        + words.matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves")
+        + words.matrix(f"= {product}", this.after, "product")
+    )
+
+
+class Tasks(Tab):
+    """Pass, or the named mistake, for each task of the day, as `make check` says it."""
+
+    title = "Tasks"
+
+    def __init__(self, page: Page) -> None:
+        """Show what is known so far."""
+        super().__init__(page)
+        self.list = page.html()
+        self.show(page.host.standing)
+
+    def show(self, standing: Standing) -> None:
+        """Show the verdicts; the line about all of them stands on top of the panel."""
+        parts = []
+        for result in standing.tasks:
+            task, verdict = result.task, result.verdict
+            mark, kind = MARKS.get(verdict.status, ("✗", "bad"))
+            text = f"{mark} {task.id} {task.title}"
+            parts.append(words.line(text, f"task-{task.id}", kind))
+            if verdict.message:
+                parts.append(words.line(verdict.message, f"why-{task.id}", "quiet"))
+        self.list.content = "".join(parts)
