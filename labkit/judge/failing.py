@@ -16,15 +16,11 @@ from robo47.checks import Array
 
 @dataclass(frozen=True)
 class Failing:
-    """One call whose answer is not right.
+    """One call whose answer is not right."""
 
-    Attributes:
-        says: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
-        whole: the same with every argument and entry, in lines.
-    """
-
+    # In a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
     says: str = ""
-    whole: tuple[str, ...] = ()
+    whole: tuple[str, ...] = ()  # the same with every argument and entry, in lines
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:

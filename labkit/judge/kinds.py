@@ -41,19 +41,15 @@ TRUNCATED = Mistake(
 
 @dataclass(frozen=True)
 class Kind:
-    """Any array of numbers; the base of the others.
+    """Any array of numbers; the base of the others."""
 
-    Attributes:
-        shape: of one answer; None is a size that the question decides.
-        unit: of its entries, "" where they have none.
-        scale: what an entry is like; errors are judged in units of it. An array, (m, n)
-            say, gives each entry a weight of its own.
-        called: what it is in a sentence, "the torque"; used where a tuple has several.
-    """
-
+    # Of one answer; None is a size that the question decides.
     shape: tuple[int | None, ...] = ()
-    unit: str = ""
+    unit: str = ""  # of its entries, "" where they have none
+    # What an entry is like; errors are judged in units of it. An array, (m, n) say,
+    # gives each entry a weight of its own.
     scale: Any = 1.0
+    # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
 
@@ -134,12 +130,9 @@ class Scalar(Kind):
 
 @dataclass(frozen=True)
 class Vector(Kind):
-    """A vector. `Vector((7,), "Nm", names=JOINTS)`.
+    """A vector. `Vector((7,), "Nm", names=JOINTS)`."""
 
-    Attributes:
-        names: of its entries, "joint1" and so on; else they are counted from 0.
-    """
-
+    # Of its entries, "joint1" and so on; else they are counted from 0.
     names: tuple[str, ...] = ()
 
     @property
@@ -220,14 +213,11 @@ class Wrench(_Halves):
 
 @dataclass(frozen=True)
 class Points(Kind):
-    """Points in metres, (m, 3), that may come as a tuple of vectors. `Points((2, 3))`.
-
-    Attributes:
-        names: what each is called, "first" and so on.
-    """
+    """Points in metres, (m, 3), or a tuple of vectors. `Points((2, 3))`."""
 
     shape: tuple[int, ...] = (2, 3)
     unit: str = "m"
+    # What each is called, "first" and so on.
     names: tuple[str, ...] = ("first", "second")
 
     @property

@@ -18,15 +18,11 @@ TRANSPOSED = Mistake(
 
 @dataclass(frozen=True)
 class Matrix(Kind):
-    """Any matrix. `Matrix((6, 6), rows=..., columns=...)`.
+    """Any matrix. `Matrix((6, 6), rows=..., columns=...)`."""
 
-    Attributes:
-        rows: what its rows are called, "omega x" and so on; else they are counted.
-        columns: likewise.
-    """
-
+    # What its rows are called, "omega x" and so on; else they are counted.
     rows: tuple[str, ...] = ()
-    columns: tuple[str, ...] = ()
+    columns: tuple[str, ...] = ()  # likewise
 
     @property
     def expected(self) -> str:  # noqa: D102
