@@ -92,9 +92,6 @@ class Report:
 def as_json(report: Report) -> dict[str, Any]:
     """Return a report for tools.
 
-    Args:
-        report: of one check.
-
     Returns:
         "day", "passed", "done", "total", "problem", "next", and "entries": per task or
         deliverable "id", "kind", "title", "status", "mistake", "message", "measured";

@@ -24,12 +24,7 @@ class Failing:
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
-    """Return the call that is furthest off, of those that are always asked if any is.
-
-    Args:
-        asked: all questions, with their replies.
-        names: of the function's arguments, where they are known.
-    """
+    """Return the call that is furthest off, of those always asked if one of them is."""
     with np.errstate(all="ignore"):
         for exchanges, held in _rounds(asked):
             if found := _broken(exchanges, names):
@@ -143,10 +138,6 @@ def in_words(question: Question, names: Sequence[str] = ()) -> str:
 
     Numbers and vectors can be typed; where a matrix is among them, the rest would
     mislead.
-
-    Args:
-        question: whose arguments.
-        names: theirs, where they are known.
     """
     args = question.args
     if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
