@@ -92,11 +92,9 @@ class Arm:
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
     def difference(self, name: str, T: Array | None = None) -> float:
-        """Return the largest difference of any entry between MuJoCo's pose and another.
+        """Return a frame's largest difference of any entry between MuJoCo's pose and T.
 
-        Args:
-            name: short name of the frame, a key of `names`.
-            T: the other pose, (4, 4); the library's unless given.
+        T is (4, 4); the library's unless given.
         """
         full = self.names[name]
         ours = self.by_library[full] if T is None else T

@@ -165,7 +165,7 @@ class Chain(Tab):
             slider.visible = joint == this.joint
             slider.value = float(q[self.place[joint]])  # type: ignore[misc]
         self.page.light(this.link, {step.link for step in done})
-        self.page.host.scene.trace(np.array([step.after[:3, 3] for step in done]))
+        self.page.host.scene.trace([step.after[:3, 3] for step in done])
 
 
 def says_of(this: Step, number: int, of: int, whole: bool) -> str:

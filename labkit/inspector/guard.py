@@ -58,10 +58,7 @@ class LocalServer(viser.ViserServer):
     """A viser server for this machine's browsers alone."""
 
     def __init__(self, port: int) -> None:
-        """Listen on 127.0.0.1, at this port or the next free one.
-
-        Args:
-            port: the wish; `get_port()` tells what it became.
+        """Listen on 127.0.0.1, at this port or the next free one; see `get_port()`.
 
         Raises:
             Robo47Error: this viser starts its web server in a way not known here, so
@@ -157,9 +154,7 @@ def foreign(headers: Headers) -> str | None:
 def with_client(page: bytes, first: str) -> bytes:
     """Return viser's `index.html` with our style and script at its head.
 
-    Args:
-        page: viser's.
-        first: HTML that stands there until viser has drawn something: seconds later.
+    The first HTML stands there until viser has drawn something: seconds later.
 
     Raises:
         Robo47Error: it has no head or body where it is expected.

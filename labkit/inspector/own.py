@@ -41,13 +41,7 @@ class Own:
         library: Any,
         free: Collection[str] = (),
     ) -> None:
-        """Ask nobody yet.
-
-        Args:
-            student: who is asked; None before the page knows the file.
-            library: a module, or {name: function}.
-            free: names of functions that have more than one right answer.
-        """
+        """Ask nobody yet, see `Page.own`; no student as long as no file is known."""
         self._free, self._student = free, student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
@@ -62,10 +56,7 @@ class Own:
         return lambda *args: self.many((name, *args))[0]
 
     def many(self, *calls: Call) -> list[Any]:
-        """Return the answers to several calls, asked at once.
-
-        Args:
-            calls: (name, argument, ...) each.
+        """Return the answers to several calls (name, argument, ...), asked at once.
 
         Raises:
             NoAnswerError: one of them gave none.

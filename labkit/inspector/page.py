@@ -56,13 +56,9 @@ class Page:
         return self.arm.pose(name)
 
     def links(self, q: ArrayLike) -> dict[str, Array]:
-        """Return where every link is at a configuration, for a ghost's `pose`.
-
-        Args:
-            q: of the seven joints, (7,); fingers stay as they are.
-        """
+        """Return where every link is at q, (7,), for a ghost's `pose`."""
         whole = self.q
-        whole[: len(np.asarray(q))] = q
+        whole[: len(np.asarray(q))] = q  # fingers stay as they are
         poses = kinematics.fk_all(self.model, whole)
         return {
             name.removeprefix("body:"): T
@@ -116,11 +112,9 @@ class Page:
         return made
 
     def job(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
-        """Do something that waits; of several that wait the newest is done.
+        """Do work that waits, and may call `own`; `done` is given what it returned.
 
-        Args:
-            work: may call `own`.
-            done: is given what it returned.
+        Of several that wait the newest is done.
         """
         self.jobs.want(work, done)
 
@@ -169,12 +163,7 @@ class Page:
         return self.gui.add_html(text)
 
     def say(self, text: str, kind: str = "") -> None:
-        """Show a line at the tab's end, instead of the one before.
-
-        Args:
-            text: plain text; "" for none.
-            kind: "", "good", "bad" or "quiet".
-        """
+        """Show a line at the tab's end, instead of the one before; see `words.line`."""
         self.end().content = words.line(text, "tab", kind) if text else ""
 
     def end(self) -> viser.GuiHtmlHandle:
@@ -204,12 +193,12 @@ class Page:
         """Add a slider from low to high with a box; setting `value` moves it.
 
         Args:
-            label: what a person reads.
+            label: what a person reads, with the unit behind it unless "".
             low: the least value.
             high: the greatest.
             start: at first.
             on_change: is given the new value.
-            unit: behind the label; "" for none.
+            unit: of the values.
             step: between values, and of an arrow key.
         """
         # What the mouse gives are whole steps: from a whole step on, they are round.

@@ -33,6 +33,7 @@ class Robot:
     def _dress(self, made: list[Shape]) -> None:
         with self.page.host.server.atomic():
             self.skin.put_on(made)
+            self.show(self.data.qpos)
 
     def show(self, qpos: ArrayLike) -> None:
         """Put everything where a configuration has it, (nq,)."""

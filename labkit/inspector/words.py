@@ -31,7 +31,7 @@ def matrix(
     Args:
         name: such as "T_world_ee".
         T: (4, 4).
-        key: unique in the page.
+        key: as above.
         marked: entries to mark, (4, 4) of bool.
         mark: how: "off" for wrong ones, "moves" for what q changes.
     """
@@ -80,14 +80,9 @@ def verdict(difference: float, whose: str = "the library") -> str:
 
 
 def proof(arm: Arm, name: str, seen: Seen | None) -> str:
-    """Return one frame's pose from MuJoCo and from the student's file.
+    """Return a frame's pose from MuJoCo, and from what the student's function said.
 
-    Where there is no pose of the student's, the library's stands there, by its name.
-
-    Args:
-        arm: in its present configuration.
-        name: short name of the frame.
-        seen: what the student's function said, with a pose of this frame; or None.
+    Where that is None the library's stands there, by its name.
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
     if seen is None:
