@@ -260,7 +260,7 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
 
 
 def test_looks_that_arrive_late_stand_where_the_scene_was_shown(page):
-    from labkit.inspector.robot import Robot
+    from labkit.inspector.meshes import Robot
     from labkit.inspector.serve import on_loop
 
     model = panda.load("panda_nohand", drive="torque")

@@ -62,7 +62,7 @@ The modules, from the numbers to the page:
     checks                      the verdicts of `make check`, in the background
     words, typed                numbers as HTML; as people type them, in the URL
     shapes, meshes, draw, scene what is in the picture
-    page, instruments, animate, robot       what a tab gets
+    page, instruments, animate  what a tab gets
     tab, common_tabs            what a tab is; the tabs that every day has
     app, panel                  the page as a whole
     guard                       who may talk to it; our part of viser's page

@@ -52,12 +52,8 @@ class Inspector:
     ) -> None:
         """Draw everything but the meshes; call it on the server's event loop.
 
-        Args:
-            server: already listening.
-            arm: the one that every browser moves.
-            about: what to say of the robot, below all; "" for nothing.
-            day: what it brings.
-            simple: draw a tab's robots with simple meshes, too.
+        What `about` says of the robot stands below all, what the day brings in between;
+        simple are the meshes of a tab's own robots, too.
         """
         self.server, self.arm, self.day, self.simple = server, arm, day, simple
         self.standing, self.heard_words = Standing(""), 0
@@ -80,10 +76,7 @@ class Inspector:
         self.update()
 
     def move(self, q: ArrayLike) -> None:
-        """Move the arm, in every browser; `arm` follows in `update`.
-
-        Args:
-            q: configuration, (nq,).
+        """Move the arm to q, (nq,), in every browser; `arm` follows in `update`.
 
         Raises:
             ValueError: wrong shape, or a number that is not finite.
@@ -159,10 +152,7 @@ class Inspector:
     # What the browsers and the student's file say
 
     def receive(self, query: str) -> int:
-        """Go where an address says, as far as that is somewhere.
-
-        Args:
-            query: "?q=...&frame=...&tab=..."; believed by nobody.
+        """Go where "?q=...&frame=...&tab=..." says, as far as that is somewhere.
 
         Returns:
             The number of this word: a state that knows of it follows.

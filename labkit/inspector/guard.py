@@ -119,10 +119,7 @@ class Door:
         request: Request,
         viser_answers: Callable[[ServerConnection, Request], Response | None],
     ) -> Response | None:
-        """Return the answer to a request, viser's own once it passed.
-
-        None opens a WebSocket.
-        """
+        """Return the answer, viser's own where all is well; None opens a WebSocket."""
         if why := self.refusal(request):
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
         path, _, query = request.path.partition("?")

@@ -58,17 +58,15 @@ class Own:
     def many(self, *calls: Call) -> list[Any]:
         """Return the answers to several calls (name, argument, ...), asked at once.
 
-        Raises:
-            NoAnswerError: one of them gave none.
+        Where one of them gave none NoAnswerError is raised.
         """
         right = [self._library[name](*args) for name, *args in calls]
         student = self._student()
-        there = student is not None and student.there
-        version = student.version if student is not None and there else -1
+        version = student.version if student and student.there else -1
         if version != self.version:
             self.version = version
             self._forget()
-        if student is None or not there:
+        if student is None or version < 0:
             why = "there is no file yet" if student else "yours is being opened"
             self._lent |= {name: why for name, *_ in calls}
             return right

@@ -73,11 +73,9 @@ class Page:
     def light(
         self, chosen: str | None = None, shown: Collection[str] | None = None
     ) -> None:
-        """Choose which frames are drawn.
+        """Choose by short names which frame stands out, and which are shown at all.
 
-        Args:
-            chosen: short name of the one that stands out; None for no one.
-            shown: short names of those drawn at all; None for every one.
+        None is no one of the first, and every one of the second.
         """
         self.host.scene.light(chosen, shown)
 
@@ -121,12 +119,9 @@ class Page:
     def animate(
         self, step: Step, hz: float = 30.0, work: Callable[[float], Any] | None = None
     ) -> Animation:
-        """Prepare a loop in real time; `start()` and `stop()` it from a button.
+        """Prepare a loop in real time, see `Animation`; its work may call `own`.
 
-        Args:
-            step: is given the seconds since the start; returning False ends the loop.
-            hz: calls a second.
-            work: called before each step, on another thread: may call `own`.
+        `start()`, `stop()` or `toggle()` it from a button.
         """
 
         def told(seconds: float) -> bool | None:
@@ -194,9 +189,7 @@ class Page:
 
         Args:
             label: what a person reads, with the unit behind it unless "".
-            low: the least value.
-            high: the greatest.
-            start: at first.
+            low, high, start: values; the slider's ends are whole steps between.
             on_change: is given the new value.
             unit: of the values.
             step: between values, and of an arrow key.

@@ -78,7 +78,7 @@ class ArmScene:
     def update(self) -> None:
         """Move everything to the arm's present configuration."""
         bodies = () if self.hidden else self.skin.bodies
-        self.skin.pose({name: self.arm.body_pose(name) for name in bodies})
+        self.skin.pose({name: self.arm.by_mujoco[f"body:{name}"] for name in bodies})
         for name, triad in self.triads.items():
             triad.place(self.arm.by_library[self.arm.names[name]])
 

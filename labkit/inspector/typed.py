@@ -85,10 +85,7 @@ def write_address(q: Array, frame: str, tab: str) -> str:
 
 
 def read_address(query: str, nq: int) -> tuple[Array | None, str, str]:
-    """Return what an address says: a configuration or None, a frame, a tab.
-
-    The query is "?q=...&frame=...&tab=...", or anything; q has nq numbers.
-    """
+    """Return q or None, frame and tab of "?q=...&frame=...&tab=..." or of anything."""
     given = urllib.parse.parse_qs(query.removeprefix("?"))
     frame, tab = (given.get(name, [""])[0] for name in ("frame", "tab"))
     try:

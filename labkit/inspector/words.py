@@ -104,17 +104,6 @@ def limits(arm: Arm) -> str:
     return line(text, "limits", "bad")
 
 
-def numpy_q(q: Array) -> str:
-    """Return a configuration as NumPy reads it, every digit of it."""
-    return f"np.array({q.tolist()!r})"
-
-
-def numpy_T(T: Array) -> str:
-    """Return a matrix as NumPy reads it, every digit of it."""
-    rows = ",\n    ".join(map(repr, T.tolist()))
-    return f"np.array([\n    {rows},\n])"
-
-
 def tab_row(names: Iterable[str], chosen: str) -> str:
     """Return the row of tabs, one of them open; a click sends the address of the tab.
 
@@ -128,8 +117,13 @@ def tab_row(names: Iterable[str], chosen: str) -> str:
     return f'<div class="r47-tabs" role="tablist">{made}</div>'
 
 
-def copy_button(label: str, text: str) -> str:
-    """Return a button with a label that copies a text."""
+def copy_button(label: str, value: Array) -> str:
+    """Return a button that copies numbers as NumPy reads them, every digit of them."""
+    text = repr(value.tolist())
+    if value.ndim > 1:  # one row a line
+        rows = ",\n    ".join(map(repr, value.tolist()))
+        text = f"[\n    {rows},\n]"
+    text = f"np.array({text})"
     return (
         f'<button type="button" class="r47-copy" data-r47-copy="{escape(text)}">'
         f"{escape(label)}</button>"

@@ -70,8 +70,8 @@ class Order(Tab):
         self.left.place(left)
         self.right.show(self.side != LEFT, chosen=self.side == RIGHT)
         self.left.show(self.side != RIGHT, chosen=self.side == LEFT)
-        bodies = {name: self.page.arm.body_pose(name) for name in self.arm.bodies}
-        moved = {name: T_extra @ T for name, T in bodies.items()}
+        poses = self.page.arm.by_mujoco
+        moved = {name: T_extra @ poses[f"body:{name}"] for name in self.arm.bodies}
         self.arm.pose({} if self.side == RIGHT else moved)
         start = T_world_ee[:3, 3]
         ends = {RIGHT: [right], LEFT: [left], BOTH: [right, left]}[self.side]
