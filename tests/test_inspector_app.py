@@ -5,6 +5,7 @@ import contextlib
 import importlib.util
 import threading
 import time
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -256,6 +257,23 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     assert set(page.panel._children()) == before
     assert len(noisy.ghost.meshes) == 1
     assert noisy.ghost.bodies["link1"].visible
+
+
+def test_looks_that_arrive_late_stand_where_the_scene_was_shown(page):
+    from labkit.inspector.meshes import Robot
+    from labkit.inspector.serve import on_loop
+
+    model = panda.load("panda_nohand", drive="torque")
+    dressed = partial(panda.load, "panda_nohand", meshes=True)
+    robot = on_loop(page.server, lambda: Robot(page.page, model, dressed))
+    on_loop(page.server, lambda: robot.show(panda.READY_Q))
+    deadline = time.monotonic() + SECONDS
+    while "link7" not in robot.skin.bodies and time.monotonic() < deadline:
+        time.sleep(0.05)
+    settle(page)
+    hand = robot.skin.bodies["link7"]
+    assert hand.visible
+    np.testing.assert_allclose(hand.position, page.arm.pose("link7")[:3, 3], atol=1e-9)
 
 
 def test_a_flood_of_moves_is_one_move(page, say):

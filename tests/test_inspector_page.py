@@ -18,7 +18,7 @@ import pytest
 from inspection import ROOT, Served
 
 from conftest import need
-from labkit.inspector import address, typed
+from labkit.inspector import typed
 from robo47 import panda, se3, verify
 from robo47.checks import Array
 
@@ -222,7 +222,7 @@ def first_page(browser, served) -> Iterator[Page]:
 @pytest.fixture
 def page(first_page) -> Page:
     """The page with the arm at the ready, in the tab Joints."""
-    first_page.go(address.write(panda.READY_Q, "ee", "Joints"))
+    first_page.go(typed.write_address(panda.READY_Q, "ee", "Joints"))
     first_page.until(lambda: first_page.selected("Joints"))
     first_page.until(lambda: close(first_page.angles(), panda.READY_Q))
     return first_page

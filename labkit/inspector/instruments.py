@@ -94,24 +94,14 @@ class Plot:
         )
 
     def show(self, x: ArrayLike, ys: ArrayLike) -> None:
-        """Draw whole curves.
-
-        Args:
-            x: (n,).
-            ys: one row per curve, (m, n).
-        """
+        """Draw whole curves over x, (n,), one row of ys per curve, (m, n)."""
         rows = np.atleast_2d(np.asarray(ys, dtype=float))
         if self.least:  # a logarithm has no zero
             rows = np.maximum(rows, self.least)
         self.handle.data = (np.asarray(x, dtype=float), *rows)
 
     def add(self, x: float, values: ArrayLike) -> None:
-        """Add one point to every curve; the oldest go after 2,000.
-
-        Args:
-            x: larger than the one before.
-            values: (m,); NaN where a curve has none.
-        """
+        """Add a point to every curve, (m,), NaN for none; the oldest go after 2,000."""
         self.points.append([x, *np.asarray(values, dtype=float)])
         self.points = self.points[-KEPT:]
         x_, *ys = np.array(self.points).T
