@@ -207,7 +207,10 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
         return found
-    return ask.unnamed(case) if ask.unnamed else None
+    try:
+        return ask.unnamed(case) if ask.unnamed else None
+    except np.linalg.LinAlgError:  # of a singular answer
+        return None
 
 
 def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:

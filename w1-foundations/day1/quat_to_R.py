@@ -18,8 +18,8 @@ def quaternions(rng):
     q = rng.normal(size=(6, 4))
     q[:3] /= np.linalg.norm(q[:3], axis=1, keepdims=True)
     q[[1, 4], 0] = -np.abs(q[[1, 4], 0])
-    short = [0.01, 0.02, 0.0, -0.02], [0.2, -0.1, 0.1, 0.2]
-    return draw.rounded(np.vstack([np.array([*written, *short], dtype=np.float64), q]))
+    short = [0.0001, 0.0002, 0.0, -0.0002], [0.2, -0.1, 0.1, 0.2]
+    return np.vstack([np.array([*written, *short]), draw.rounded(q)])
 
 
 @row.inputs

@@ -31,7 +31,7 @@ row = Row(Vector((7,), "rad", names=JOINTS), held_out=[AT_NO_DAMPING])
 @row.inputs
 def _(rng):
     e = draw.numbers(rng, -0.5, 0.5, 9, 6)
-    damping = [0.05, 0.02, 0.1, 0.3, 0.5, 2.0, 0.01, 0.2, 0.7]
+    damping = [0.05, 0.02, 0.1, 0.3, 0.5, 2.0, 0.01, 0.0002, 0.7]
     first = (UNIT, np.arange(1.0, 7.0) / 10, 1.0)
     return [first, *zip(near_singular(rng), e, damping, strict=True)]
 
