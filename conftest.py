@@ -11,7 +11,7 @@ import textwrap
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unittest.mock import MagicMock
 
 import hypothesis
@@ -19,13 +19,18 @@ import mujoco
 import numpy as np
 import pytest
 
+from labkit import log
+from labkit.author.sheet import worksheet_of
+from labkit.base.exchange import Exchange, Question, Reply, replies
+from labkit.check.tasks import check_tasks
 from labkit.figures import backends
+from labkit.lesson.day import Day, all_days, find_day
+from labkit.lesson.folder import load_lab as load_script  # noqa: F401 (days' tests)
+from labkit.lesson.week import weeks
+from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.panda import files
-
-if TYPE_CHECKING:
-    from labkit.lesson.day import Day
 
 # No time is asserted: a busy machine is no failure. Draws are the same in every run: a
 # student must not meet what nobody could have seen. CI draws more of them.
@@ -67,8 +72,6 @@ class Answers:
         self.source.describe = partial(describe, {})
 
     def ask(self, questions):
-        from labkit.base.exchange import Reply
-
         return [
             Reply(self.functions[one.function](*one.args))
             if one.function in self.functions
@@ -95,13 +98,6 @@ def paper(model, q, functions=None):
     page.animate.side_effect = lambda *_, **__: MagicMock(running=False)
     page.pose.return_value = panda.arm(model).at(page.q[:7]).T_world_ee.copy()
     return page
-
-
-def load_script(path):
-    """Return a lab script as a module, without handing on to the kit's own Python."""
-    from labkit.lesson.folder import load_lab
-
-    return load_lab(path)
 
 
 @pytest.fixture
@@ -136,18 +132,14 @@ def either_panda(request: pytest.FixtureRequest) -> mujoco.MjModel:
     return panda.load("panda_nohand")
 
 
-def days() -> list["Day"]:
+def days() -> list[Day]:
     """Return the days to test: all, or the one that its author asks for."""
-    from labkit.lesson.day import all_days, find_day
-
     asked = os.environ.get("ROBO47_DAY")
     return [find_day(int(asked))] if asked else all_days()
 
 
 def kit_folders() -> list[str]:
     """Return the names of the folders that a clone needs to run."""
-    from labkit.lesson.week import weeks
-
     return ["robo47", "labkit", "scripts", "metrics", *(w.folder.name for w in weeks())]
 
 
@@ -189,47 +181,25 @@ def kits_worksheet(day) -> str:
     return text
 
 
-def empty_worksheet(day) -> str:
-    """Return a worksheet with room for all that a day asks, and nothing filled in."""
-    lines = ["# Worksheet", "## Glossary"]
-    for term in day.terms:
-        lines += [f"### {term}", "", "*(your words)*", ""]
-    for i in range(day.drawings):
-        lines += [f"### Drawing {i + 1}: a frame", "", "*(your drawing)*", ""]
-    lines += ["## Can you explain?", ""]
-    for i in range(day.questions):
-        lines += [f"{i + 1}. You move it along x. Whose x? Which", "   side is it on?"]
-        lines += ["", "   *(your answer)*", ""]
-    return "\n".join([*lines, "## Checklist", "- [ ] I ran it", "- [ ] I read it", ""])
-
-
-@pytest.fixture
-def clone(tmp_path):
-    """Return a copy of the kit that a test may work in, with nothing done in it.
+def copy_kit(copy: Path) -> Path:
+    """Return a new folder with a copy of the kit, and nothing done in it.
 
     A student's clone holds rows, a worksheet and pictures of their own: `make test`
     must pass on it as well.
     """
-    copy = tmp_path / "clone"
     copy.mkdir()
     skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
     for name in kit_folders():
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
-    from labkit import log
-    from labkit.lesson.day import find_day
-
     day = find_day(1, copy)
     (copy / "metrics" / "metrics.csv").write_text(",".join(log.COLUMNS) + "\n")
     (day.folder / day.figure).unlink(missing_ok=True)
-    (day.folder / day.worksheet).write_text(empty_worksheet(day), "utf-8")
+    (day.folder / day.worksheet).write_text(worksheet_of(day), "utf-8")
     return copy
 
 
-@pytest.fixture
-def one_day(clone):
-    """Return that copy with its first day alone: the labs of a week take seconds."""
-    from labkit.lesson.week import weeks
-
+def keep_first_day(clone: Path) -> Path:
+    """Return a copy of the kit, now with its first day alone: it is run in seconds."""
     first, *others = weeks(clone)
     for week in others:
         shutil.rmtree(week.folder)
@@ -237,6 +207,18 @@ def one_day(clone):
         shutil.rmtree(first.folder / f"day{number}")
     write_week(first.folder, first.days[0])
     return clone
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Return a copy of the kit that a test may work in."""
+    return copy_kit(tmp_path / "clone")
+
+
+@pytest.fixture
+def one_day(clone):
+    """Return that copy with its first day alone."""
+    return keep_first_day(clone)
 
 
 @pytest.fixture
@@ -293,9 +275,6 @@ def student(tmp_path):
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    from labkit.base.exchange import Exchange, Question, replies
-    from labkit.sandbox.sandbox import Sandbox
-
     def run(code, *questions, library=None, needs=None, limits=None):
         asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
@@ -308,9 +287,6 @@ def ask(student):
 @pytest.fixture
 def check(student):
     """Check a student's file; return {task: verdict}."""
-    from labkit.check.tasks import check_tasks
-    from labkit.lesson.day import find_day
-    from labkit.sandbox.sandbox import Sandbox
 
     def run(code, only=None):
         with Sandbox() as sandbox:

@@ -6,18 +6,16 @@ keep no answers; and what a control loop asks, one configuration at a time, of `
 Every rival is checked against MuJoCo's own answers before it is timed.
 """
 
-import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
-from bench.timing import take_turns
+from bench.timing import installed, microseconds, pinocchio, take_turns
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
 from robo47.fast import dynamics
-from robo47.panda import files
 
 N = 100_000
 ONE = 2_000  # configurations for what is asked one at a time
@@ -35,14 +33,11 @@ class Motion(NamedTuple):
 
 
 class Rival(NamedTuple):
-    """A way to answer the questions.
+    """A way to answer the questions."""
 
-    Attributes:
-        solve: question and motion to the answers, for the check.
-        time: the same work without collecting the answers.
-    """
-
+    # Question and motion to the answers, for the check.
     solve: Callable[[str, Motion], Array]
+    # The same work without collecting the answers.
     time: Callable[[str, Motion], object]
 
 
@@ -59,9 +54,11 @@ def ours() -> Rival:
 
 
 def one_by_one(
-    asks: dict[str, Callable[..., object]], read: dict[str, Callable[[], Array]]
+    asking: Iterable[Callable[..., object]], reading: Iterable[Callable[[], Array]]
 ) -> Rival:
-    """Return a rival that takes one (q, qd, qdd) at a time, in a Python loop."""
+    """Return a rival that is asked each of QUESTIONS of one (q, qd, qdd) at a time."""
+    asks = dict(zip(QUESTIONS, asking, strict=True))
+    read = dict(zip(QUESTIONS, reading, strict=True))
 
     def time(question: str, motion: Motion) -> None:
         ask = asks[question]
@@ -111,21 +108,14 @@ def mujoco_loop() -> Rival:
         return M
 
     return one_by_one(
-        dict(
-            zip(QUESTIONS, (mass_matrix, inverse_dynamics, site_jacobian), strict=True)
-        ),
-        dict(zip(QUESTIONS, (read_M, lambda: tau, lambda: J), strict=True)),
+        (mass_matrix, inverse_dynamics, site_jacobian),
+        (read_M, lambda: tau, lambda: J),
     )
 
 
 def pinocchio_loop() -> Rival:
     """Pinocchio's C++; it takes the armature into rnea, and writes v before omega."""
-    pin = importlib.import_module("pinocchio")
-    folder = files.panda_folder()
-    if folder is None:
-        raise ImportError("the real Panda is not here")
-    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
-    data, frame = model.createData(), model.getFrameId(SITE)
+    pin, model, data, frame = pinocchio()
     without = model.copy()
     without.armature = np.zeros(7)
     world = pin.LOCAL_WORLD_ALIGNED
@@ -138,15 +128,13 @@ def pinocchio_loop() -> Rival:
         upper = np.triu(data.M)
         return upper + np.triu(upper, 1).T
 
-    reads = (read_M, lambda: data.tau, lambda: J[[3, 4, 5, 0, 1, 2]])
-
     return one_by_one(
-        {
-            "mass matrix": lambda q, qd, qdd: pin.crba(model, data, q),
-            "inverse dynamics": lambda q, qd, qdd: pin.rnea(without, data, q, qd, qdd),
-            "site Jacobian": site_jacobian,
-        },
-        dict(zip(QUESTIONS, reads, strict=True)),
+        (
+            lambda q, qd, qdd: pin.crba(model, data, q),
+            lambda q, qd, qdd: pin.rnea(without, data, q, qd, qdd),
+            site_jacobian,
+        ),
+        (read_M, lambda: data.tau, lambda: J[[3, 4, 5, 0, 1, 2]]),
     )
 
 
@@ -181,34 +169,21 @@ def run(rounds: int = 7, n: int = N) -> dict:
     """
     motion = _motion(n)
     few = Motion(*(part[:CHECKED] for part in motion))
-    truth, left_out = truths(few), {}
-    rivals: dict[str, Rival] = {}
-    for name, make in RIVALS.items():
-        try:
-            rivals[name] = make()
-        except ImportError as missing:
-            left_out[name] = str(missing)
+    truth, (rivals, left_out) = truths(few), installed(RIVALS)
+
+    def error(name: str, question: str) -> float:
+        off = np.abs(rivals[name].solve(question, few) - truth[question]).max()
+        return float(off / np.abs(truth[question]).max())
+
     questions = {}
     for question in QUESTIONS:
-        timed = take_turns(
-            {
-                name: lambda r=rival, x=question: r.time(x, motion)
-                for name, rival in rivals.items()
-            },
-            rounds,
-        )
-        scale = np.abs(truth[question]).max()
+        asked = {
+            name: lambda r=rival, x=question: r.time(x, motion)
+            for name, rival in rivals.items()
+        }
         questions[question] = {
-            name: {
-                "us": t["median"] / n * 1e6,
-                "low": t["low"] / n * 1e6,
-                "high": t["high"] / n * 1e6,
-                "error": float(
-                    np.abs(rivals[name].solve(question, few) - truth[question]).max()
-                    / scale
-                ),
-            }
-            for name, t in timed.items()
+            name: {**microseconds(t, n), "error": error(name, question)}
+            for name, t in take_turns(asked, rounds).items()
         }
     one = one_at_a_time(rounds)
     return {"n": n, "questions": questions, "one": one, "left_out": left_out}

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from bench.timing import take_turns
+from bench.timing import installed, microseconds, pinocchio, take_turns
 from robo47 import kinematics, panda, screws, se3, verify
 from robo47.checks import Array
 
@@ -24,17 +24,13 @@ CHECKED = 200
 
 @dataclass
 class Rival:
-    """A way to compute forward kinematics.
+    """A way to compute forward kinematics."""
 
-    Attributes:
-        solve: configurations (n, 7) to poses (n, 4, 4), for the check.
-        time: the same work without collecting the answers.
-        n: how many configurations are timed.
-    """
-
+    # Configurations (n, 7) to poses (n, 4, 4), for the check.
     solve: Callable[[Array], Array]
-    time: Callable[[Array], object]
-    n: int = N
+    time: Callable[[Array], object]  # the same work without collecting the answers
+    n: int = N  # how many configurations are timed
+    model: mujoco.MjModel | None = None  # of which robot; by default the Panda
 
 
 def ours() -> Rival:
@@ -78,15 +74,7 @@ def mujoco_loop() -> Rival:
 
 def pinocchio_loop(*, frame: bool) -> Rival:
     """Pinocchio's C++ in a Python loop: joints only, or with the frame's placement."""
-    pin = importlib.import_module("pinocchio")
-    from robo47.panda import files
-
-    folder = files.panda_folder()
-    if folder is None:
-        raise ImportError("the real Panda is not here")
-    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
-    data = model.createData()
-    index = model.getFrameId("attachment_site")
+    pin, model, data, index = pinocchio()
 
     def loop(q: Array) -> None:
         if frame:
@@ -97,14 +85,11 @@ def pinocchio_loop(*, frame: bool) -> Rival:
             for row in q:
                 pin.forwardKinematics(model, data, row)
 
-    def solve(q: Array) -> Array:
-        poses = []
-        for row in q:
-            pin.forwardKinematics(model, data, row)
-            poses.append(pin.updateFramePlacement(model, data, index).homogeneous)
-        return np.array(poses)
+    def pose(row: Array) -> Array:
+        pin.forwardKinematics(model, data, row)
+        return pin.updateFramePlacement(model, data, index).homogeneous
 
-    return Rival(solve, loop)
+    return Rival(lambda q: np.array([pose(row) for row in q]), loop)
 
 
 def toolbox_batch() -> Rival:
@@ -134,9 +119,10 @@ def ours_by_screws() -> Rival:
 
 def any_robot() -> Rival:
     """Ours on a Panda whose every axis is tilted, so that nothing can be folded."""
-    chain = kinematics.chain_to(tilted_panda(), FRAME)
+    model = tilted_panda()
+    chain = kinematics.chain_to(model, FRAME)
     fk = lambda q: kinematics.fk(chain, q)  # noqa: E731
-    return Rival(fk, fk)
+    return Rival(fk, fk, model=model)
 
 
 def tilted_panda() -> mujoco.MjModel:
@@ -172,31 +158,20 @@ def run(rounds: int = 7, n: int = N) -> dict:
     Returns:
         {"n", "rows": {name: {"us", "low", "high", "error"}}, "left_out": {name: why}}.
     """
-    q = verify.random_q(panda.load("panda_nohand"), n, seed=47)
-    left_out: dict[str, str] = {}
-    rivals: dict[str, Rival] = {}
-    errors: dict[str, float] = {}
-    for name, make in RIVALS.items():
-        try:
-            rivals[name] = make()
-        except ImportError as missing:
-            left_out[name] = str(missing)
-            continue
-        model = tilted_panda() if make is any_robot else panda.load("panda_nohand")
-        truth = verify.mujoco_poses(model, q[:CHECKED])[FRAME]
-        errors[name] = float(np.abs(rivals[name].solve(q[:CHECKED]) - truth).max())
+    arm = panda.load("panda_nohand")
+    q = verify.random_q(arm, n, seed=47)
+    rivals, left_out = installed(RIVALS)
+    errors = {}
+    for name, rival in rivals.items():
+        truth = verify.mujoco_poses(rival.model or arm, q[:CHECKED])[FRAME]
+        errors[name] = float(np.abs(rival.solve(q[:CHECKED]) - truth).max())
     used = {name: q[: min(rival.n, n)] for name, rival in rivals.items()}
     timed = take_turns(
         {name: lambda r=r, q=used[name]: r.time(q) for name, r in rivals.items()},
         rounds,
     )
     rows = {
-        name: {
-            "us": t["median"] / len(used[name]) * 1e6,
-            "low": t["low"] / len(used[name]) * 1e6,
-            "high": t["high"] / len(used[name]) * 1e6,
-            "error": errors[name],
-        }
+        name: {**microseconds(t, len(used[name])), "error": errors[name]}
         for name, t in timed.items()
     }
     return {"n": n, "rows": rows, "left_out": left_out}

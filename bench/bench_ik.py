@@ -13,11 +13,10 @@ from unittest import mock
 
 import numpy as np
 
-from bench.timing import take_turns
+from bench.timing import installed, microseconds, pinocchio, take_turns
 from robo47 import jacobian, panda, se3, verify
 from robo47.checks import Array
 from robo47.fast import ik, ik_one
-from robo47.panda import files
 
 N = 1000
 FRAME = "site:attachment_site"
@@ -28,15 +27,11 @@ SEED = 15
 
 @dataclass
 class Rival:
-    """A way to solve inverse kinematics.
+    """A way to solve inverse kinematics."""
 
-    Attributes:
-        solve: targets (n, 4, 4) to configurations (n, 7) and the steps that it took.
-        n: how many targets it is given.
-    """
-
+    # Targets (n, 4, 4) to configurations (n, 7) and the steps that it took.
     solve: Callable[[Array], tuple[Array, int]]
-    n: int = N
+    n: int = N  # how many targets it is given
 
 
 def ours() -> Rival:
@@ -96,12 +91,7 @@ def toolbox() -> Rival:
 
 def pinocchio_loop() -> Rival:
     """The lesson's damped least squares in a Python loop over Pinocchio's C++."""
-    pin = importlib.import_module("pinocchio")
-    folder = files.panda_folder()
-    if folder is None:
-        raise ImportError("the real Panda is not here")
-    model = pin.buildModelFromMJCF(str(folder / "panda_nohand.xml"))
-    data, index = model.createData(), model.getFrameId("attachment_site")
+    pin, model, data, index = pinocchio()
     low, high = model.lowerPositionLimit, model.upperPositionLimit
     axes, none = pin.LOCAL_WORLD_ALIGNED, np.eye(6)
 
@@ -210,13 +200,7 @@ def run(rounds: int = 5, n: int = N) -> dict[str, Any]:
     """
     model = panda.load("panda_nohand")
     T = verify.mujoco_poses(model, verify.random_q(model, n, SEED))[FRAME]
-    left_out: dict[str, str] = {}
-    rivals: dict[str, Rival] = {}
-    for name, make in RIVALS.items():
-        try:
-            rivals[name] = make()
-        except ImportError as missing:
-            left_out[name] = str(missing)
+    rivals, left_out = installed(RIVALS)
     used = {name: T[: rival.n] for name, rival in rivals.items()}
     rows = {name: judge(rival, used[name]) for name, rival in rivals.items()}
     timed = take_turns(
@@ -224,7 +208,5 @@ def run(rounds: int = 5, n: int = N) -> dict[str, Any]:
         rounds,
     )
     for name, t in timed.items():
-        each = 1e6 / len(used[name])
-        rows[name] |= {"us": t["median"] * each}
-        rows[name] |= {"low": t["low"] * each, "high": t["high"] * each}
+        rows[name] |= microseconds(t, len(used[name]))
     return {"n": n, "rows": rows, "left_out": left_out}

@@ -1,10 +1,9 @@
 """The whole lab beside the handout's own script, and beside the floor under both."""
 
 import shutil
-import subprocess
 import sys
 
-from bench.timing import take_turns
+from bench.timing import programs, take_turns
 from robo47.panda import files
 from robo47.paths import ROOT
 
@@ -13,14 +12,7 @@ HANDOUT = ROOT / "bench/handout_day1.py"
 
 
 def run(rounds: int = 9) -> dict:
-    """Time whole processes, warm, taking turns.
-
-    Args:
-        rounds: timed runs of each.
-
-    Returns:
-        {"seconds": {name: {"median", "low", "high"}}}.
-    """
+    """Time whole processes, warm, taking turns; return {"seconds": {name: ...}}."""
     folder = files.panda_folder()
     commands = {
         "imports alone (python, numpy, mujoco)": [
@@ -33,10 +25,4 @@ def run(rounds: int = 9) -> dict:
     if folder is not None:
         xml = str(folder / "panda_nohand.xml")
         commands["the handout's script, fixed"] = [sys.executable, str(HANDOUT), xml]
-    candidates = {
-        name: lambda command=command: subprocess.run(
-            command, cwd=ROOT, check=True, capture_output=True
-        )
-        for name, command in commands.items()
-    }
-    return {"seconds": take_turns(candidates, rounds)}
+    return {"seconds": take_turns(programs(commands), rounds)}

@@ -1,13 +1,9 @@
 """What one row costs: ours beside the ways people would pick instead.
 
-    python bench/bench_metrics.py              a table, at 0 and 1,000,000 rows
-    python bench/bench_metrics.py --rows 1000  a small one
-
 Every way is timed in the same run, one call each in turn, so that a busy moment of
 the machine falls on all of them; the first calls warm up and are not counted.
 """
 
-import argparse
 import contextlib
 import csv
 import importlib.util
@@ -136,24 +132,3 @@ def _pandas(path: Path) -> Way:
         frame.to_csv(path, index=False)
 
     return add
-
-
-def main() -> None:
-    """Print the table."""
-    about, usage = (__doc__ or "").split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--rows", type=int, default=ROWS, help="of the long log")
-    result = run(parser.parse_args().rows)
-    empty, long = (f"{size:,} rows" for size in result["rows"])
-    print(f"{'median, microseconds a row':28}{empty:>14}{long:>18}{'x naive':>20}")
-    for name, (first, last) in result["median_us"].items():
-        ratio, grown = result["times_naive"][name]
-        print(f"{name:28}{first:14,.1f}{last:18,.1f}{ratio:9.1f}{grown:11,.1f}")
-
-
-if __name__ == "__main__":
-    main()

@@ -12,12 +12,7 @@ OURS, OTHERS = chart.BLUE, chart.GREY
 
 
 def draw(results: dict[str, Any], path: Path) -> None:
-    """Draw the results.
-
-    Args:
-        results: what bench/results.json holds; "fk" and "growth" are drawn.
-        path: the PNG to write.
-    """
+    """Draw "fk" and "growth" of what bench/results.json holds, as a PNG."""
     _panels(results).quantize(256, dither=0).save(path, optimize=True)
 
 

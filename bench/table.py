@@ -4,11 +4,7 @@ from typing import Any
 
 
 def render(results: dict[str, Any]) -> str:
-    """Return the tables of every part that has been run, in 80 columns.
-
-    Args:
-        results: what bench/results.json holds.
-    """
+    """Return the tables of what bench/results.json holds, in 80 columns."""
     about = results["about"]
     lines = [f"{about['date']}, {about['machine']}"]
     tools = ("python", "mujoco", "numpy", "pin")
@@ -27,6 +23,8 @@ def render(results: dict[str, Any]) -> str:
     for name, table in parts.items():
         if name in results:
             lines += ["", *table(results[name])]
+            left_out = results[name].get("left_out", {}).items()
+            lines += [f"  left out: {rival} ({why})" for rival, why in left_out]
     return "\n".join(lines)
 
 
@@ -46,7 +44,6 @@ def _fk(fk: dict[str, Any]) -> list[str]:
             f"  {name:32}  {row['us']:8.3f}  {ours / row['us']:6.3f}"
             f"  {spread:>13}  {row['error']:7.0e}"
         )
-    lines += [f"  left out: {name} ({why})" for name, why in fk["left_out"].items()]
     return lines
 
 
@@ -64,7 +61,7 @@ def _ik(ik: dict[str, Any]) -> list[str]:
             f"  {name:33}  {row['us']:7.0f}  {ours / row['us']:6.3f}  {solved:>9}"
             f"  {row['within']:6}  {row['steps']:5.1f}"
         )
-    return [*lines, *(f"  left out: {n} ({why})" for n, why in ik["left_out"].items())]
+    return lines
 
 
 def _dynamics(dynamics: dict[str, Any]) -> list[str]:
@@ -78,9 +75,7 @@ def _dynamics(dynamics: dict[str, Any]) -> list[str]:
             for name, row in sorted(rows.items(), key=lambda item: item[1]["us"])
         ]
     lines.append("  one configuration at a time, us")
-    lines += [f"    {what:30}  {us:8.1f}" for what, us in dynamics["one"].items()]
-    left_out = dynamics["left_out"].items()
-    return lines + [f"  left out: {name} ({why})" for name, why in left_out]
+    return lines + [f"    {what:30}  {us:8.1f}" for what, us in dynamics["one"].items()]
 
 
 def _lab(lab: dict[str, Any]) -> list[str]:

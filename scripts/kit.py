@@ -17,12 +17,14 @@ if os.name == "nt":
 
 
 def here():
-    """Return whether this Python can run the kit."""
+    """Return whether this Python can run the kit, and this clone's."""
     if sys.version_info < (3, 11):
         return False
     from importlib.util import find_spec
 
-    return all(find_spec(name) for name in NEEDED)
+    found = [spec.origin or "" for spec in map(find_spec, NEEDED) if spec]
+    top = os.path.realpath(ROOT) + os.sep
+    return len(found) == len(NEEDED) and os.path.realpath(found[0]).startswith(top)
 
 
 def go_on():

@@ -28,18 +28,15 @@ from pythons import OLDEST, ask, find_python, stop
 PYTHON_IN_VENV = os.path.join("Scripts", "python.exe")
 if os.name != "nt":
     PYTHON_IN_VENV = os.path.join("bin", "python")
-OFFLINE = (
-    "Temporary failure",
-    "Failed to establish",
-    "NewConnectionError",
-    "Network is unreachable",
-    "dns error",
-    "Could not resolve",
-    "getaddrinfo",
+OFFLINE = re.compile(
+    "Temporary failure|Failed to establish|NewConnectionError|Network is unreachable"
+    "|dns error|Could not resolve|getaddrinfo"
 )
 # Of these extras something has no wheel for a Python yet; tests/test_resolver.py looks.
 WITHOUT_WHEELS = {(3, 15): ("bench", "grade", "notebook", "site", "trajectory", "view")}
-UNRESOLVED = ("ResolutionImpossible", "No matching distribution", "No solution found")
+UNRESOLVED = re.compile(
+    "ResolutionImpossible|No matching distribution|No solution found"
+)
 OLDER = "An older Python has all: make setup PYTHON=python3.14, then run make again."
 DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
 
@@ -167,14 +164,14 @@ def install(venv, extras, uv):
     code, said = run(command, "installing robo47 (" + what + "), a minute at most")
     if code == 0:
         return
-    if any(sign in said for sign in OFFLINE):
+    if OFFLINE.search(said):
         stop(
             "the package index cannot be reached.",
             "Check the network (or the proxy: HTTPS_PROXY), then run make again.",
         )
     if "No space left" in said:
         stop(*DISK_FULL)
-    if any(sign in said for sign in UNRESOLVED):
+    if UNRESOLVED.search(said):
         stop("something in {} has no wheel for this Python.".format(what), OLDER)
     stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
 

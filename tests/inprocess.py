@@ -5,6 +5,7 @@ Questions, replies and judging are the real ones; only the walls are missing.
 
 import contextlib
 import functools
+import inspect
 import io
 import sys
 import types
@@ -80,7 +81,7 @@ class InProcess:
                 value = function(*args)
         except BaseException as error:
             return _describe(error, self.script)
-        names = function.__code__.co_varnames
+        names = list(inspect.signature(function).parameters)
         changed = [
             names[i]
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))

@@ -4,12 +4,11 @@ import numpy as np
 
 from labkit.base.exchange import Reply
 from labkit.judge.ask import (
-    held_out_answers,
     make_round,
-    parts,
     right_answers,
     stacked,
 )
+from labkit.judge.compare import parts
 from labkit.judge.judge import judge
 from labkit.judge.mistake import InTurn
 
@@ -32,7 +31,7 @@ def sizes_of(ask, exchanges):
     if not isinstance(ask.truth, InTurn) or all(None not in k.shape for k in ask.kinds):
         return []
     arguments = stacked(exchanges)
-    each = [parts(ask.truth.nth(i, arguments)) for i in range(len(exchanges))]
+    each = map(parts, ask.truth.each(arguments))
     return [[np.shape(part) for part in one] for one in each]
 
 
@@ -79,7 +78,7 @@ def judged_replies(ask, replies, source=""):
         answers = [NONE] * len(exchanges)
         if not held.mistaken:
             sizes = sizes_of(ask, exchanges)
-            answers = replies_of(held_out_answers(held, ask, exchanges), sizes)
+            answers = replies_of(right_answers(ask, exchanges, held), sizes)
         answered(exchanges, answers)
     answered(asked.probes, [NONE] * len(asked.probes))
     return judge(asked, source)

@@ -129,29 +129,39 @@ class TestAnAttack:
         assert replies[0].value == 1
 
     @pytest.mark.parametrize(
-        "code",
+        ("code", "refused"),
         [
-            "import os\ndef f():\n    while True: os.fork()",
-            "import subprocess, sys\ndef f(): subprocess.run([sys.executable])",
-            "import os\ndef f(): os.system('echo PASSED')",
-            "import multiprocessing as m\ndef f(): m.Process(target=f).start()",
+            ("import os\ndef f():\n    while True: os.fork()", "start another"),
+            ("import subprocess, sys\ndef f(): subprocess.run([sys.executable])",
+             "start another"),
+            ("import os\ndef f(): os.system('echo PASSED')", "start another"),
+            ("import multiprocessing as m\ndef f(): m.Process(target=f).start()",
+             "start another"),
+            ("import ctypes\ndef f(): return ctypes.CDLL(None)", "call into a foreign"),
+            ("import socket\ndef f(): socket.create_connection(('127.0.0.1', 9))",
+             "use the network"),
+            ("import gc\ndef f(): return gc.get_objects()", "search the interpreter's"),
+            ("import os\ndef f(): os.symlink('/', 'root')", "write to"),
         ],
-    )
-    def test_that_starts_processes_is_refused(self, ask, code):
+    )  # fmt: skip
+    def test_that_starts_processes_or_leaves_python_is_refused(
+        self, ask, code, refused
+    ):
         if "fork" in code and not hasattr(os, "fork"):
             pytest.skip("needs os.fork")
         (reply,) = ask(code)
         assert reply.kind == "RefusedError"
-        assert reply.refused[0].startswith("start another")
+        assert reply.refused[0].startswith(refused)
 
-    def test_that_wants_100_gb_at_once_gets_none(self, ask):
-        (reply,) = ask("import numpy as np\ndef f(): return np.ones(100 * 2**27).sum()")
-        assert reply.kind in ("MemoryError", "stopped")
-
-    def test_that_fills_the_memory_bit_by_bit_is_ended(self, ask):
-        code = "def f():\n    x = []\n    while True: x.append(bytearray(10**7))"
-        (reply,) = ask(code)
-        assert reply.kind in ("MemoryError", "stopped")
+    @pytest.mark.parametrize(
+        "code",
+        [
+            "import numpy as np\ndef f(): return np.ones(100 * 2**27).sum()",
+            "def f():\n    x = []\n    while True: x.append(bytearray(10**7))",
+        ],
+    )
+    def test_that_takes_the_memory_at_once_or_bit_by_bit_is_ended(self, ask, code):
+        assert ask(code)[0].kind in ("MemoryError", "stopped")
 
     def test_that_prints_passed_or_a_forged_reply_passes_nothing(self, check):
         forged = '{"at": 0, "value": {"array": {"dtype": "f8"}}}'
@@ -324,18 +334,6 @@ class TestAnAttack:
         assert reply.value == 47
         assert not mark.exists()
 
-    @pytest.mark.parametrize(
-        "code",
-        [
-            "import ctypes\ndef f(): return ctypes.CDLL(None)",
-            "import socket\ndef f(): socket.create_connection(('127.0.0.1', 9))",
-            "import gc\ndef f(): return gc.get_objects()",
-            "import os\ndef f(): os.symlink('/', 'root')",
-        ],
-    )
-    def test_that_leaves_python_is_refused(self, ask, code):
-        assert ask(code)[0].kind == "RefusedError"
-
     def test_that_writes_outside_its_folder_changes_nothing(self, ask, tmp_path):
         precious = tmp_path / "precious.txt"
         precious.write_text("mine")
@@ -354,13 +352,6 @@ class TestAnAttack:
         verdict = check(attack(f"open({str(METRICS_CSV)!r}, 'w')"))["1.1"]
         assert verdict.mistake == "refused"
         assert METRICS_CSV.read_bytes() == before
-
-    def test_with_a_conftest_beside_the_file_runs_none_of_it(self, check, student):
-        mark = student("", "conftest.py").parent / "ran"
-        student(f"open({str(mark)!r}, 'w'); print('PASSED')", "conftest.py")
-        code = REFERENCE.replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
-        assert check(code)["1.1"].status == "wrong"
-        assert not mark.exists()
 
 
 class TestHugeNumbers:

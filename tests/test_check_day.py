@@ -36,6 +36,12 @@ def solve(day, work, *names):
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 
 
+def note_kits_run(day, clone):
+    log = clone / "metrics" / "metrics.csv"
+    for row in day.metrics:
+        metrics.append_row(log, day=1, check=row.check, metric=row.metric, value=1e-15)
+
+
 class TestStart:
     def test_writes_the_starter_and_says_how_to_go_on(self, run_in, day):
         done = run_in(START, 1)
@@ -90,6 +96,12 @@ class TestCheck:
         assert "0 of 14 done, 0 % of the day." in done.stdout
         assert "Next: task 1.1, make_T. Stuck? make hint TASK=1.1" in done.stdout
 
+    def test_of_half_a_task_says_which_half_is_to_do(self, run_in, work, day):
+        says = "joint_T: Not written yet: "
+        assert says not in run_in(CHECK, "--task", "1.5").stdout
+        solve(day, work, "make_T", "quat_to_R", "link_T")
+        assert says in run_in(CHECK, "--task", "1.5").stdout
+
     def test_of_the_reference_solution_passes_every_task(self, run_in, work, day):
         work.write_text(day.source.read_text("utf-8"))
         found = json.loads(run_in(CHECK, 1, "--json").stdout)
@@ -106,11 +118,7 @@ class TestCheck:
             assert "Next: the whole day: make check DAY=1" in done.stdout
 
     def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
-        log = clone / "metrics" / "metrics.csv"
-        for row in day.metrics:
-            metrics.append_row(
-                log, day=1, check=row.check, metric=row.metric, value=1e-15
-            )
+        note_kits_run(day, clone)
         assert "0 of 14 done" in run_in(CHECK, 1).stdout
         work.write_text(day.source.read_text("utf-8"))
         assert "8 of 14 done" in run_in(CHECK, 1).stdout
@@ -253,14 +261,7 @@ class TestHint:
         done = run_in(HINT, "figure")
         assert done.returncode == 0
         assert f"w1-foundations/{day.figure}" in done.stdout.replace("\n", " ")
-        for row in day.metrics:  # the kit's own run
-            metrics.append_row(
-                clone / "metrics" / "metrics.csv",
-                day=1,
-                check=row.check,
-                metric=row.metric,
-                value=1e-15,
-            )
+        note_kits_run(day, clone)
         assert "make run DAY=1" in run_in(HINT, "metrics").stdout
 
     def test_says_what_a_task_is_called(self, run_in):
@@ -286,3 +287,17 @@ def test_a_side_quest_that_nobody_wrote_keeps_no_row_from_counting():
     assert required_pass(results)
     results[0] = TaskResult(day.tasks[0], Verdict("wrong"))
     assert not required_pass(results)
+
+
+def test_a_side_quest_is_next_only_where_it_alone_was_checked():
+    from labkit.check.report import Report
+    from labkit.check.tasks import TaskResult
+    from labkit.judge import Verdict
+
+    day = find_day(3)
+    *others, quest = (TaskResult(task, Verdict("wrong")) for task in day.tasks)
+    assert quest.task.optional
+    hint = f"Stuck? make hint TASK={quest.task.id}"
+    assert hint in Report(day, [quest]).next_step()
+    passed = [TaskResult(other.task, Verdict("passed")) for other in others]
+    assert hint not in Report(day, [*passed, quest]).next_step()

@@ -1,5 +1,7 @@
 """The judge on every day's questions: each mistake is found, none is claimed unduly."""
 
+import contextlib
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,12 +9,13 @@ from hypothesis import strategies as st
 from judged import judged, right, round_of
 
 from conftest import days
-from labkit.judge.ask import parts, stacked
-from labkit.judge.compare import difference, matches
-from labkit.judge.judge import off_by
+from labkit.base.exchange import Exchange, Question
+from labkit.judge.ask import stacked
+from labkit.judge.compare import difference, matches, off_by, parts
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
@@ -47,7 +50,7 @@ def redone(ask):
                 S = parts(mistake.redo(*arguments))
             except (ValueError, np.linalg.LinAlgError):
                 continue  # it has no answer of its own to these; the judge goes on too
-            if off_by(ask, S, T) > ask.near:
+            if off_by(ask.kinds, S, T) > ask.near:
                 found.append((mistake, S))
     return found
 
@@ -115,6 +118,20 @@ def test_questions_are_the_same_every_time_and_all_of_a_kind(number, name, ask):
             np.testing.assert_equal(arg, equal)
     axes = {tuple(np.ndim(arg) for arg in one.question.args) for one in first.main}
     assert len(axes) == 1
+
+
+@every
+def test_an_edge_value_has_one_right_answer(number, name, ask):
+    for call in ask.edges:
+        columns = stacked([Exchange(Question("", name, call))] * 2)
+        first = parts(ask.truth(*columns))
+        for off in (1e-12, -1e-12):
+            near = [c + off if isinstance(c, np.ndarray) else c for c in columns]
+            with contextlib.suppress(Robo47Error):  # there it has no answer at all
+                # Where this fails, the row says at_edge.
+                assert off_by(ask.kinds, parts(ask.truth(*near)), first) <= ask.near, (
+                    call
+                )
 
 
 @every

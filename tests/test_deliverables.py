@@ -12,11 +12,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conftest import empty_worksheet, write_week
+from conftest import write_week
 from labkit import log as metrics
+from labkit.author.sheet import worksheet_of
 from labkit.handin import check_deliverables, item_names
-from labkit.handin.figure import FlawError, read_png
-from labkit.handin.worksheet import split_sections
+from labkit.handin.figure import PORTRAIT, FlawError, check_figure, read_png
+from labkit.handin.handin import Handin, read_handin
+from labkit.handin.worksheet import check_worksheet, split_sections
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
@@ -26,20 +28,19 @@ PICTURE = RNG.integers(0, 256, (300, 400, 3), np.uint8)
 GUIDE = "A frame is an origin with three axes that are fixed to a body of the robot.\n"
 
 
+def chunk(kind, data):
+    """Return a part of a PNG."""
+    body = kind + data
+    return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+
 def png(pixels):
     """Return a PNG of an array, (height, width, 3)."""
-
-    def chunk(kind, data):
-        body = kind + data
-        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
-
     height, width = pixels.shape[:2]
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    parts = (
-        chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
-    )
-    return b"\x89PNG\r\n\x1a\n" + parts
+    parts = chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows))
+    return b"\x89PNG\r\n\x1a\n" + parts + chunk(b"IEND", b"")
 
 
 ANSWER = "Its own x, so on the right."
@@ -54,12 +55,8 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
     for i in range(drawings):
         lines += [f"### Drawing {i + 1}: a frame", "```", " z", " |", " +-- x", "```"]
     lines += ["## Can you explain?"]
-    for i in range(5):
-        lines += [
-            f"{i + 1}. It moves along x. Whose x? Which side?",
-            "",
-            f"   {answer}",
-        ]
+    for i in range(1, 6):
+        lines += [f"{i}. It moves along x. Whose x? Which side?", "", f"   {answer}"]
     return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
 
 
@@ -76,7 +73,7 @@ def fresh_clone(copy):
     (copy / "metrics").mkdir()
     (copy / "metrics" / "metrics.csv").write_text(",".join(metrics.COLUMNS) + "\n")
     (week / kit.figure).unlink(missing_ok=True)
-    (week / kit.worksheet).write_text(empty_worksheet(kit), "utf-8")
+    (week / kit.worksheet).write_text(worksheet_of(kit), "utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -92,17 +89,9 @@ def handed_in(tmp_path_factory):
     (week / day.figure).write_bytes(png(PICTURE))
     (week / day.worksheet).write_text(worksheet(day.terms), "utf-8")
     (week / day.guide).write_text(GUIDE, "utf-8")
-    log = clone / "metrics" / "metrics.csv"
-    notes = f"20,000 poses, file {file_hash(day.work)}"
-    for row in day.metrics:
-        fields = {"check": row.check, "metric": row.metric, "value": 1e-15}
-        metrics.append_row(log, day=1, notes=notes, **fields)
-    for command in (
-        ["init", "-q", "--template="],
-        ["add", "-A"],
-        ["commit", "-qm", "Day 1"],
-    ):
-        git(clone, *command)
+    log_again(day, clone, f"20,000 poses, file {file_hash(day.work)}")
+    git(clone, "init", "-q", "--template=")
+    commit(clone, "Day 1")
     return clone
 
 
@@ -128,27 +117,47 @@ def git(clone, *command):
     subprocess.run(["git", "-C", str(clone), *who, *command], check=True)
 
 
+def commit(clone, message):
+    git(clone, "add", "-A")
+    git(clone, "commit", "-qm", message)
+
+
+def log_again(day, clone, notes, **more):
+    """Empty the log and write the day's rows with these notes."""
+    log = clone / "metrics" / "metrics.csv"
+    log.write_text(",".join(metrics.COLUMNS) + "\n")
+    for row in day.metrics:
+        fields = {"check": row.check, "metric": row.metric, "value": 1e-15, **more}
+        metrics.append_row(log, day=1, notes=notes, **fields)
+
+
 @pytest.fixture
 def items(day, clone):
     """Check again and return {name: item}."""
     return lambda: {item.name: item for item in check_deliverables(day, clone)}
 
 
-def test_a_day_that_is_handed_in_passes_in_every_item(items):
-    assert list(items()) == [
-        "figure",
-        "definitions",
-        "drawings",
-        "checklist",
-        "metrics",
-        "commit",
-    ]
-    assert all(item.passed and not item.message for item in items().values())
+@pytest.fixture(scope="module")
+def sheet(handed_in):
+    """Check a worksheet alone, and return {name: item}."""
+    day = find_day(1, handed_in)
+
+    def check(text):
+        name = day.files["worksheet"]
+        handin = Handin({name: text.encode()})
+        return {item.name: item for item in check_worksheet(day, handin)}
+
+    return check
 
 
-def test_checking_changes_no_file(items, clone):
+TERMS = find_day(1).terms
+
+
+def test_a_day_that_is_handed_in_passes_and_no_file_is_changed(items, clone):
     before = {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
-    items()
+    names = ["figure", "definitions", "drawings", "checklist", "metrics", "commit"]
+    assert list(items()) == names
+    assert all(item.passed and not item.message for item in items().values())
     assert before == {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
 
 
@@ -187,14 +196,8 @@ def test_the_kits_own_picture_does_not_count_even_saved_anew(items, day):
 
 
 def test_a_portrait_is_the_picture_of_the_first_day_alone(day, clone):
-    from labkit.handin.figure import PORTRAIT, check_figure
-    from labkit.handin.handin import read_handin
-
-    text = f"{PORTRAIT}\0ready".encode()
-    chunk = struct.pack(">I", len(text)) + b"tEXt" + text
-    chunk += struct.pack(">I", zlib.crc32(b"tEXt" + text))
-    data = png(PICTURE)
-    (day.folder / day.figure).write_bytes(data[:33] + chunk + data[33:])
+    data, text = png(PICTURE), chunk(b"tEXt", f"{PORTRAIT}\0ready".encode())
+    (day.folder / day.figure).write_bytes(data[:33] + text + data[33:])
     handin = read_handin(day, clone)
     assert check_figure(day, handin).passed
     refused = check_figure(replace(day, draw="order"), handin)
@@ -203,9 +206,6 @@ def test_a_portrait_is_the_picture_of_the_first_day_alone(day, clone):
 
 
 def test_the_picture_of_another_day_does_not_count(day, clone):
-    from labkit.handin.figure import check_figure
-    from labkit.handin.handin import read_handin
-
     other = find_day(1).folder / "figures" / "day1_reference.png"
     (day.folder / day.figure).write_bytes(other.read_bytes())
     handin, alone = read_handin(day, clone), replace(day, kit_figures=())
@@ -232,51 +232,45 @@ def test_a_png_reads_back_as_its_pixels():
         (GUIDE, "The guide's words, not yours: pose"),
     ],
 )
-def test_a_definition_has_to_be_a_sentence_of_ones_own(items, day, definition, says):
-    text = worksheet(day.terms, definition=definition or " ")
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    item = items()["definitions"]
+def test_a_definition_has_to_be_a_sentence_of_ones_own(sheet, definition, says):
+    item = sheet(worksheet(TERMS, definition=definition or " "))["definitions"]
     assert not item.passed
     assert says in item.message
 
 
-def test_one_missing_definition_is_named(items, day):
-    text = worksheet(day.terms[:-1])
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    message = items()["definitions"].message
+@pytest.mark.parametrize(
+    "words",
+    [
+        "*where the hand is and how it is turned, all in one*",
+        "位姿是一个刚体的位置和姿态在同一个坐标系",
+    ],
+)
+def test_words_between_asterisks_or_without_spaces_are_words(sheet, words):
+    assert sheet(worksheet(TERMS, definition=words))["definitions"].passed
+
+
+def test_one_missing_definition_is_named(sheet):
+    message = sheet(worksheet(TERMS[:-1]))["definitions"].message
     assert message.startswith("7 of 8")
-    assert f"Still empty: {day.terms[-1]}." in message
-
-
-def test_a_drawing_may_be_a_picture_that_is_there(items, day):
-    path = day.folder / day.worksheet
-    text = worksheet(day.terms, drawings=2)
-    path.write_text(text + "\n### Drawing 3\n![sketch](sketch.jpg)\n", "utf-8")
-    assert "Drawing 3: its image file is not there" in items()["drawings"].message
-    (path.parent / "sketch.jpg").write_bytes(b"jpeg")
-    assert items()["drawings"].passed
+    assert f"Still empty: {TERMS[-1]}." in message
 
 
 @pytest.mark.parametrize(
     ("answer", "open_ones"),
     [(ANSWER, ""), ("*(your answer)*", "1, 2, 3, 4, 5"), ("Yes.", "1, 2, 3, 4, 5")],
 )
-def test_the_questions_want_an_answer_in_words(items, day, answer, open_ones):
-    text = worksheet(day.terms, answer=answer)
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    item = items()["definitions"]
+def test_the_questions_want_an_answer_in_words(sheet, answer, open_ones):
+    item = sheet(worksheet(TERMS, answer=answer))["definitions"]
     assert item.passed == (not open_ones)
     assert open_ones in item.message
 
 
 @pytest.mark.parametrize("blank", ["\n\n   ", "\n   ", " "])
-def test_an_answer_may_stand_anywhere_after_its_question(items, day, blank):
-    path = day.folder / day.worksheet
-    text = worksheet(day.terms, answer="*(your answer)*")
+def test_an_answer_may_stand_anywhere_after_its_question(sheet, blank):
+    text = worksheet(TERMS, answer="*(your answer)*")
     text = text.replace("Which side?", f"Which side?{blank}{ANSWER}", 2)
-    path.write_text(text, "utf-8")
-    message = items()["definitions"].message
-    assert "Can you explain? 3, 4, 5: answer below each question" in message
+    says = "Can you explain? 3, 4, 5: answer below each question"
+    assert says in sheet(text)["definitions"].message
 
 
 @pytest.mark.parametrize(
@@ -287,35 +281,64 @@ def test_an_answer_may_stand_anywhere_after_its_question(items, day, blank):
         ("19 mm | 20.1 | it also bends", None),
     ],
 )
-def test_a_prediction_that_nobody_made_is_asked_for(items, day, cells, blank):
-    table = (
-        f"| number | predicted | measured | why apart |\n|---|---|\n| sag | {cells} |"
-    )
-    text = f"{worksheet(day.terms)}\n## Predictions\n\n{table}\n"
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    item = items()["definitions"]
+def test_a_prediction_that_nobody_made_is_asked_for(sheet, cells, blank):
+    table = f"| number | predicted | measured | why |\n|---|---|\n| sag | {cells} |"
+    item = sheet(f"{worksheet(TERMS)}\n## Predictions\n\n{table}\n")["definitions"]
     assert item.passed == (blank is None)
     assert f"Predictions: {blank} still to fill in" in item.message or item.passed
 
 
+@pytest.mark.parametrize(
+    ("drawings", "third", "says"),
+    [
+        (2, "```\n z\n |\n```", "of 3 lines or more"),
+        (2, "![x](day1.md)", "Drawing 3: its image file is not there"),
+        (1, "", "Drawing 2, 3: add"),
+        (0, "", "0 of 3"),
+    ],
+)
+def test_a_drawing_of_too_few_lines_is_none(sheet, drawings, third, says):
+    text = worksheet(TERMS, drawings=drawings)
+    item = sheet(f"{text}\n### Drawing 3\n{third}\n")["drawings"]
+    assert says in item.message
+    assert item.status == ("wrong" if drawings else "todo")
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "sketch.jpg",
+        "day1.md",
+        "errata.md",
+        "https://example.org/a.png",
+        "data:image/png;base64,AAAA",
+        "/etc/hostname.png",
+        "../../../outside.png",
+        "..\\..\\..\\outside.png",
+        "C:/outside.png",
+    ],
+)
+def test_a_drawing_may_be_a_picture_of_ones_own_that_is_there(
+    items, day, clone, address
+):
+    path = day.folder / day.worksheet
+    (clone.parent / "outside.png").write_bytes(b"png")
+    (path.parent / "errata.md").write_text("text")
+    text = worksheet(day.terms, drawings=2)
+    path.write_text(f"{text}\n### Drawing 3\n![x]({address})\n", "utf-8")
+    assert "Drawing 3: its image file is not there" in items()["drawings"].message
+    (path.parent / "sketch.jpg").write_bytes(b"jpeg")
+    assert items()["drawings"].passed == (address == "sketch.jpg")
+
+
 def test_the_kits_own_pictures_are_nobodys_drawing(items, day):
     path = day.folder / day.worksheet
-    for name in day.kit_figures:
-        link = f"![mine](../{name})"
-        text = worksheet(day.terms, drawings=2) + f"\n### Drawing 3\n{link}\n"
-        path.write_text(text, "utf-8")
-        assert "Drawing 3: the kit's picture" in items()["drawings"].message
     copy = path.parent / "mine.png"
     copy.write_bytes((day.folder / day.kit_figures[0]).read_bytes())
-    path.write_text(text.replace(f"../{name}", "mine.png"), "utf-8")
-    assert "Drawing 3: the kit's picture" in items()["drawings"].message
-
-
-def test_a_drawing_of_two_lines_is_told_how_many_it_takes(items, day):
-    path = day.folder / day.worksheet
-    text = worksheet(day.terms, drawings=2)
-    path.write_text(text + "\n### Drawing 3\n```\n z\n |\n```\n", "utf-8")
-    assert "of 3 lines or more" in items()["drawings"].message
+    for name in (*(f"../{name}" for name in day.kit_figures), copy.name):
+        text = f"{worksheet(day.terms, drawings=2)}\n### Drawing 3\n![mine]({name})\n"
+        path.write_text(text, "utf-8")
+        assert "Drawing 3: the kit's picture" in items()["drawings"].message
 
 
 def test_every_picture_of_the_lab_guide_is_known_as_the_kits_own():
@@ -326,29 +349,43 @@ def test_every_picture_of_the_lab_guide_is_known_as_the_kits_own():
     assert shown <= set(day.kit_figures)
 
 
-def test_a_drawing_of_no_lines_is_none(items, day):
+@pytest.mark.parametrize("box", ["[ x ]", "[X]", "[x ]"])
+def test_a_box_may_be_ticked_with_spaces(sheet, box):
+    assert sheet(worksheet(TERMS).replace("[x]", box))["checklist"].passed
+
+
+def test_an_open_box_of_the_checklist_is_named(sheet):
+    says = sheet(worksheet(TERMS, ticked=" "))["checklist"].message
+    assert "1 of 2 ticked" in says
+    assert "Next: ran it" in says
+    assert "no checklist" in sheet("# Day 1")["checklist"].message
+
+
+def test_text_of_the_students_cannot_look_like_ours(sheet):
+    text = worksheet(TERMS, ticked=" ").replace("ran it", "ran\x1b[2J \u202eit")
+    assert not {"\x1b", "\u202e"} & set(sheet(text)["checklist"].message)
+
+
+def test_a_worksheet_that_is_gone_no_text_or_of_megabytes_is_told(items, day):
     path = day.folder / day.worksheet
-    path.write_text(worksheet(day.terms, drawings=0), "utf-8")
-    assert items()["drawings"].status == "todo"
-    path.write_text(worksheet(day.terms, drawings=1), "utf-8")
-    assert "Drawing 2, 3: add" in items()["drawings"].message
-
-
-def test_an_open_box_of_the_checklist_is_named(items, day):
-    path = day.folder / day.worksheet
-    path.write_text(worksheet(day.terms, ticked=" "), "utf-8")
-    assert "1 of 2 ticked" in items()["checklist"].message
-    assert "Next: ran it" in items()["checklist"].message
-    path.write_text("# Day 1", "utf-8")
-    assert "no checklist" in items()["checklist"].message
-
-
-def test_a_worksheet_that_is_gone_or_no_text_is_told(items, day):
-    path = day.folder / day.worksheet
+    path.write_text("x" * 300_000)
+    assert "at most 200 kB is looked at" in items()["checklist"].message
     path.write_bytes(b"\xff\xfe\x00")
     assert "UTF-8" in items()["checklist"].message
     path.unlink()
     assert items()["definitions"].status == "todo"
+
+
+HOSTILE = ["<!--", "![", "![](", "<img ", " ", "- [", "- [ x", "#", "# #", "1. ?"]
+
+
+@pytest.mark.parametrize("piece", [*HOSTILE, "_x", "*("])
+@pytest.mark.parametrize("end", ["", "\n"])
+def test_a_worksheet_of_anything_is_read(day, clone, piece, end):
+    text = (piece * (1800 // len(piece)) + "x" + end) * 110
+    (day.folder / day.worksheet).write_text(f"## Checklist\n{text}"[:199_999], "utf-8")
+    found = check_worksheet(day, read_handin(day, clone))
+    assert not found[0].passed
 
 
 def test_sections_know_their_level_and_what_is_code():
@@ -385,15 +422,6 @@ def test_a_missing_or_unreadable_log_is_told_with_what_to_do(items, clone):
     assert items()["metrics"].status == "todo"
 
 
-def log_again(day, clone, notes, **more):
-    """Empty the log and write the day's rows with these notes."""
-    log = clone / "metrics" / "metrics.csv"
-    log.write_text(",".join(metrics.COLUMNS) + "\n")
-    for row in day.metrics:
-        fields = {"check": row.check, "metric": row.metric, "value": 1e-15, **more}
-        metrics.append_row(log, day=1, notes=notes, **fields)
-
-
 def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, clone):
     day.work.write_text("x = 3\n")
     assert "Your file has changed since it logged" in items()["metrics"].message
@@ -409,9 +437,8 @@ def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, cl
 
 
 def test_a_row_of_the_kits_after_the_students_changes_nothing(items, day, clone):
-    log = clone / "metrics" / "metrics.csv"
+    log, notes = clone / "metrics" / "metrics.csv", f"file {file_hash(day.source)}"
     for row in day.metrics:
-        notes = f"file {file_hash(day.source)}"
         fields = {"check": row.check, "metric": row.metric, "notes": notes}
         metrics.append_row(log, day=1, value=1.0, **fields)
     assert items()["metrics"].passed
@@ -462,8 +489,7 @@ def test_what_the_script_imports_has_to_be_committed_too(items, day, clone):
     assert "work/helpers.py" in message
     assert "work/deeper.py" in message
     assert "scratch" not in message
-    git(clone, "add", "-A")
-    git(clone, "commit", "-qm", "all of it")
+    commit(clone, "all of it")
     assert items()["commit"].passed
 
 
@@ -479,8 +505,7 @@ def test_a_clone_of_the_commit_gets_the_same_result_as_the_folder(items, day, cl
     day.work.write_text("import helpers\n")
     (day.work.parent / "helpers.py").write_text("")
     log_again(day, clone, f"file {file_hash(day.work)}")
-    git(clone, "add", "-A")
-    git(clone, "commit", "-qm", "Day 1")
+    commit(clone, "Day 1")
     here = items()
     assert all(item.passed for item in here.values())
     other = clone.parent / "other"
@@ -504,87 +529,9 @@ def test_without_git_on_the_machine_that_is_said(items, monkeypatch):
     assert "install git" in item.message
 
 
-@pytest.mark.parametrize(
-    "address",
-    [
-        "day1.md",
-        "errata.md",
-        "https://example.org/a.png",
-        "data:image/png;base64,AAAA",
-        "/etc/hostname.png",
-        "../../../outside.png",
-        "..\\..\\..\\outside.png",
-        "C:/outside.png",
-    ],
-)
-def test_a_picture_that_is_no_picture_of_the_students_does_not_count(
-    items, day, clone, address
-):
-    path = day.folder / day.worksheet
-    (clone.parent / "outside.png").write_bytes(b"png")
-    (path.parent / "errata.md").write_text("text")
-    text = worksheet(day.terms, drawings=2)
-    path.write_text(f"{text}\n### Drawing 3\n![x]({address})\n", "utf-8")
-    assert "Drawing 3: its image file is not there" in items()["drawings"].message
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        "*where the hand is and how it is turned, all in one*",
-        "位姿是一个刚体的位置和姿态在同一个坐标系",
-    ],
-)
-def test_words_between_asterisks_or_without_spaces_are_words(items, day, words):
-    text = worksheet(day.terms, definition=words)
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    assert items()["definitions"].passed
-
-
-@pytest.mark.parametrize("box", ["[ x ]", "[X]", "[x ]"])
-def test_a_box_may_be_ticked_with_spaces(items, day, box):
-    text = worksheet(day.terms).replace("[x]", box)
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    assert items()["checklist"].passed
-
-
-HOSTILE = [
-    "<!--",
-    "![",
-    "![](",
-    "<img ",
-    " ",
-    "- [",
-    "- [ x",
-    "#",
-    "# #",
-    "1. ?",
-    "_x",
-    "*(",
-]
-
-
-@pytest.mark.kit
-@pytest.mark.parametrize("piece", HOSTILE)
-@pytest.mark.parametrize("end", ["", "\n"])
-def test_a_worksheet_of_anything_is_read(items, day, piece, end):
-    text = (piece * (1800 // len(piece)) + "x" + end) * 110
-    (day.folder / day.worksheet).write_text(f"## Checklist\n{text}"[:199_999], "utf-8")
-    assert not items()["definitions"].passed
-
-
-def test_a_worksheet_of_megabytes_is_not_read(items, day):
-    (day.folder / day.worksheet).write_text("x" * 300_000)
-    assert "at most 200 kB is looked at" in items()["checklist"].message
-
-
 def test_a_picture_that_inflates_without_end_is_refused(items, day):
-    data = bytearray(png(PICTURE))
-    flood = zlib.compress(b"\0" * 30_000_000)
-    body = b"IDAT" + flood
-    chunk = struct.pack(">I", len(flood)) + body + struct.pack(">I", zlib.crc32(body))
-    bomb = bytes(data[:33]) + chunk + bytes(data[-12:])
-    (day.folder / day.figure).write_bytes(bomb)
+    data, flood = png(PICTURE), chunk(b"IDAT", zlib.compress(b"\0" * 30_000_000))
+    (day.folder / day.figure).write_bytes(data[:33] + flood + data[-12:])
     assert "cut off or damaged" in items()["figure"].message
 
 
@@ -595,14 +542,6 @@ def test_a_pipe_in_the_place_of_a_file_does_not_stop_the_check(items, day, clone
         os.mkfifo(path)
     assert "is no file" in items()["metrics"].message
     assert "is no file" in items()["figure"].message
-
-
-def test_text_of_the_students_cannot_look_like_ours(items, day):
-    text = worksheet(day.terms, ticked=" ").replace("ran it", "ran\x1b[2J \u202eit")
-    (day.folder / day.worksheet).write_text(text, "utf-8")
-    message = items()["checklist"].message
-    assert "\x1b" not in message
-    assert "\u202e" not in message
 
 
 def test_a_day_hands_in_what_its_manifest_names_and_no_more(day, clone):

@@ -8,6 +8,7 @@ import shutil
 import pytest
 
 from conftest import ROOT, kits_worksheet, need
+from labkit.commands import docs
 from labkit.lesson.day import all_days, find_day
 from robo47 import __version__
 
@@ -31,27 +32,25 @@ def test_every_output_in_the_documents_is_what_the_command_prints_today(run):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_a_drifted_output_is_found(run, tmp_path, monkeypatch):
-    from labkit.commands import docs
-
-    monkeypatch.setattr(docs, "wanted", lambda request: "error 2.0e-15, 0.59 m\n")
+@pytest.mark.parametrize(
+    ("printed", "same", "drifted"),
+    [
+        (
+            "error 2.0e-15, 0.59 m",
+            "error 9.1e-16, 0.59 m",
+            ["error 9.1e-16, 0.60 m", "error 1e-3, 0.59 m", "errors 9e-16, 0.59 m"],
+        ),
+        ("error 0", "error 2.0e-15", ["error 0.0e+00"]),  # a lab prints no such zero
+        ("error 1.1e-16", "error 2.0e-15", ["error 0.0e+00"]),
+    ],
+)
+def test_a_drifted_output_is_found(monkeypatch, printed, same, drifted):
+    monkeypatch.setattr(docs, "wanted", lambda request: f"{printed}\n")
     block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
-    assert docs.rebuilt(block.format("error 9.1e-16, 0.59 m"))[1] == []
-    for old in ("error 9.1e-16, 0.60 m", "error 1e-3, 0.59 m", "errors 9e-16, 0.59 m"):
-        text, drifted = docs.rebuilt(block.format(old))
-        assert drifted == ["python x"]
-        assert text == block.format("error 2.0e-15, 0.59 m")
-
-
-def test_a_zero_in_a_form_that_no_lab_prints_is_renewed(monkeypatch):
-    from labkit.commands import docs
-
-    block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
-    for printed in ("error 0", "error 1.1e-16"):
-        monkeypatch.setattr(docs, "wanted", lambda request, new=printed: new)
-        text, drifted = docs.rebuilt(block.format("error 0.0e+00"))
-        assert (text, drifted) == (block.format(printed), ["python x"])
-        assert docs.rebuilt(block.format("error 2.0e-15"))[1] == []
+    assert docs.rebuilt(block.format(same))[1] == []
+    for old in drifted:
+        found = docs.rebuilt(block.format(old))
+        assert found == (block.format(printed), ["python x"])
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
@@ -123,14 +122,10 @@ def test_formulas_are_in_a_dialect_that_github_and_the_site_read(path):
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
-def test_every_picture_says_in_words_what_it_shows(path):
+def test_every_picture_says_in_words_what_it_shows_and_no_output_is_empty(path):
     text = path.read_text("utf-8")
     assert not re.search(r"(?<!`)!\[.{0,4}\]\((?!.*jpg)", text)
-
-
-def test_no_document_holds_an_empty_output():
-    for path in DOCUMENTS:
-        assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", path.read_text("utf-8"))
+    assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", text)
 
 
 def test_what_github_shows_says_what_the_kit_is():

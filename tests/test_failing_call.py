@@ -109,6 +109,7 @@ def test_every_function_with_one_right_answer_is_asked_at_edges(day):
 
 def test_an_edge_with_two_right_answers_is_not_asked():
     jump = Ask(lambda rng: [(float(numbers(rng, 0, 2)),) for _ in range(2)], Scalar(),
-               truth=lambda x: np.where(x > 1, 1.0, 0.0))  # fmt: skip
+               truth=lambda x: np.where(x > 1, 1.0, 0.0),
+               at_edge=lambda x: x != 1)  # fmt: skip
     assert (1.0,) not in jump.edges
     assert {(0.0,), (2.0,)} == set(jump.edges)

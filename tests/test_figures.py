@@ -27,6 +27,11 @@ SMALL = (300, 200)
 AXIS_COLOURS = (overlay.X, overlay.Y, overlay.Z)
 
 
+def draws(test):
+    """Mark a test that needs a backend."""
+    return pytest.mark.gl(pytest.mark.usefixtures("gl")(test))
+
+
 @pytest.fixture(scope="module", autouse=True)
 def own_memory(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
@@ -56,16 +61,14 @@ def test_every_backend_draws_the_robot_on_a_light_ground(monkeypatch, backend):
     assert (grey < 100).sum() > 50  # the dark parts of the arm
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_drawing_changes_nothing_in_this_process():
     before = dict(os.environ)
     figures.render_panda(panda.READY_Q, SMALL)
     assert dict(os.environ) == before
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_the_hand_is_drawn_where_its_frame_says_it_is():
     q, camera = portrait.with_fingers(panda.READY_Q), Camera()
     tinted = Scene(q, SMALL, camera, (Ghost("hand", np.eye(4)),), fast=True)
@@ -97,8 +100,7 @@ def test_the_whole_arm_is_in_the_picture(q, azimuth):
     assert (pixels < SMALL).all()
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_frames_are_drawn_in_the_three_colours_and_only_on_request():
     plain = figures.render_panda(panda.READY_Q, frames=False)
     framed = figures.render_panda(panda.READY_Q)
@@ -107,16 +109,14 @@ def test_frames_are_drawn_in_the_three_colours_and_only_on_request():
         assert count(framed, colour) > 500
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_a_preview_shows_the_same_arm_without_its_shadow():
     full = figures.render_panda(panda.READY_Q, SMALL, frames=False)
     fast = figures.render_panda(panda.READY_Q, SMALL, frames=False, fast=True)
     assert 0.005 < differing(full, fast) < 0.2
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_the_fingers_may_be_left_out_or_given():
     arm = figures.render_panda(panda.READY_Q, SMALL, fast=True)
     opened = figures.render_panda([*panda.READY_Q, 0.04, 0.04], SMALL, fast=True)
@@ -125,8 +125,7 @@ def test_the_fingers_may_be_left_out_or_given():
     assert differing(arm, closed) > 0.0002
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_a_process_that_was_ended_is_started_again():
     first = figures.render_panda(panda.READY_Q, SMALL, fast=True)
     client._studio.process.kill()
@@ -135,8 +134,8 @@ def test_a_process_that_was_ended_is_started_again():
     assert differing(first, again) == 0
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl", "fresh_start")
+@draws
+@pytest.mark.usefixtures("fresh_start")
 def test_a_robot_that_cannot_be_loaded_is_told_in_one_line(monkeypatch):
     monkeypatch.setenv("MENAGERIE_ROOT", "nowhere")
     q = portrait.with_fingers(panda.READY_Q)
@@ -224,8 +223,7 @@ def test_a_frame_on_top_of_another_is_drawn_shorter():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
+@draws
 def test_no_process_is_left_behind(run, tmp_path):
     script = tmp_path / "draw.py"
     script.write_text(

@@ -12,14 +12,11 @@ import time
 
 import pytest
 from make_class import make_class
-from test_grade_class import SCRIPT, grade, journalled, outputs, rows
+from test_grade_class import IN_TIME, command_of, grade, journalled, outputs, rows
 
 from conftest import need
-from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
-DEADLINE = ("--deadline", "2026-09-04T16:00:00+00:00")
-SEED = ("--seed", "4711")
 
 
 @pytest.fixture
@@ -86,10 +83,8 @@ def wait_for(condition):
 
 def grade_and_kill_one(clones, out, address, worker, number):
     """Grade on the cluster and kill a worker once so many are graded."""
-    fixed = (*DEADLINE, *SEED, "--i-know-them")  # CI may be root
-    command = [sys.executable, str(ROOT / SCRIPT), str(clones), *fixed]
     process = subprocess.Popen(
-        [*command, "--dask", address, "--out", str(out / "grades.csv")],
+        command_of(clones, out, *IN_TIME, "--dask", address),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         encoding="utf-8",
@@ -107,18 +102,18 @@ def grade_and_kill_one(clones, out, address, worker, number):
 @pytest.mark.parametrize(
     ("students", "killed_at"),
     [
-        (14, 2),
+        (10, 2),
         pytest.param(40, 3, marks=pytest.mark.soak),
         pytest.param(200, 60, marks=pytest.mark.soak),
     ],
 )
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
-    tmp_path, run, cluster, students, killed_at
+    tmp_path, cluster, students, killed_at
 ):
     address, (first, second) = cluster
     clones, here, there = (tmp_path / name for name in ("clones", "here", "there"))
     make_class(clones, students)
-    grade(run, clones, here, *DEADLINE, *SEED, timeout=600)
+    grade(clones, here, *IN_TIME)
     said = grade_and_kill_one(clones, there, address, first, killed_at)
     assert f"graded now: {students};" in said
     assert second.poll() is None
@@ -127,20 +122,20 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     assert max(n for folder, n in journalled(there).items() if folder) == 1
 
 
-def test_who_has_no_certificate_reaches_nobody(tmp_path, run, cluster, monkeypatch):
+def test_who_has_no_certificate_reaches_nobody(tmp_path, cluster, monkeypatch):
     address, _ = cluster
     make_class(tmp_path / "clones", 1)
     for name in [n for n in os.environ if n.startswith("DASK_DISTRIBUTED__COMM__TLS")]:
         monkeypatch.delenv(name)
     for asked in (address, address.replace("tls:", "tcp:")):
-        done = grade(run, tmp_path / "clones", tmp_path, "--dask", asked)
+        done = grade(tmp_path / "clones", tmp_path, "--dask", asked)
         assert done.returncode == 2
         assert "certificates" in done.stderr or "no Dask scheduler" in done.stderr
 
 
-def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(tmp_path, run):
+def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(tmp_path):
     make_class(tmp_path / "clones", 1)
-    done = grade(run, tmp_path / "clones", tmp_path, "--dask", "tcp://127.0.0.1:1")
+    done = grade(tmp_path / "clones", tmp_path, "--dask", "tcp://127.0.0.1:1")
     assert done.returncode == 2
     installed = importlib.util.find_spec("distributed") is not None
     says = "no Dask scheduler at" if installed else "--dask needs the package"

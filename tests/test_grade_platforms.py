@@ -5,12 +5,15 @@ import io
 import re
 
 import pytest
+from make_class import DAY
+from test_grade_in_time import result
 
 from conftest import ROOT
 from labkit.grade.platforms import PLATFORMS, as_csv, known
-from labkit.grade.result import UNGRADED
+from labkit.grade.result import ungraded
 from labkit.grade.roster import find_students
-from labkit.grade.week import Standing, Week
+from labkit.grade.sheet import Graded
+from labkit.grade.week import Week
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -33,9 +36,8 @@ def class_of(tmp_path, head=HEAD):
     week = Week(find_students(tmp_path), [find_day(1), find_day(2)])
     for i, student in enumerate(week.students):
         for day in (1, 2):
-            state = UNGRADED if (i, day) == (9, 2) else "done"
-            one = Standing(min(i, 8), 8, 0, 6, state, "")
-            week.standings[day, student.folder] = one
+            found = result(min(i, 8)) if (i, day) != (9, 2) else ungraded(DAY, "")
+            week.graded[day, student.folder] = Graded(student, found)
     return week
 
 
@@ -96,7 +98,7 @@ def test_the_teachers_guide_shows_what_is_written(tmp_path):
     roster, canvas, moodle = tables
     (tmp_path / "roster.csv").write_text(roster)
     week = Week(find_students(tmp_path), [find_day(1)])
-    week.standings[1, "mia"] = Standing(7, 8, 0, 6, "done", "")
-    week.standings[1, "tom"] = Standing(8, 8, 0, 6, "done", "")
+    for student, passed in zip(week.students, (7, 8), strict=True):
+        week.graded[1, student.folder] = Graded(student, result(passed))
     assert as_csv(CANVAS, week, "Lab {day}").decode("utf-8-sig") == canvas
     assert as_csv(MOODLE, week, "Day {day}").decode("utf-8-sig") == moodle

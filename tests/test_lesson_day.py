@@ -18,6 +18,7 @@ from robo47.errors import Robo47Error
 
 DAY = find_day(1)
 TEXT = (DAY.own / "day.toml").read_text("utf-8")
+HINT = re.search(r'"""Draw the 4x4.*?"""', TEXT, re.DOTALL).group()
 
 
 def edited(tmp_path, *changes):
@@ -25,16 +26,22 @@ def edited(tmp_path, *changes):
     for old, new in changes:
         assert old in text
         text = text.replace(old, new, 1)
-    path = tmp_path / "w1-x" / "day1" / "day.toml"
-    path.parent.mkdir(parents=True, exist_ok=True)
+    return written(tmp_path / "w1-x", 1, text)
+
+
+def written(week, number, text):
+    """Add a day's manifest to a week."""
+    path = week / f"day{number}" / "day.toml"
+    path.parent.mkdir(parents=True)
     path.write_text(text, "utf-8")
-    write_week(tmp_path / "w1-x", 1)
+    write_week(week, *range(1, number + 1))
     return path
 
 
 @pytest.mark.parametrize(
     ("change", "says"),
     [
+        ((HINT, '" "'), r"tasks 1\.1: hints holds ' '"),
         (('title = "A turn about z"', 'title = ""'), r"tasks 1\.2: title is ''"),
         (('functions = ["Rz"]', "functions = []"), r"1\.2: functions has 0 entries"),
         (('id = "1.2"', 'id = "1.1"'), r"two tasks have the id 1\.1"),
@@ -58,12 +65,6 @@ def test_what_is_wrong_in_a_manifest_is_named(tmp_path, change, says):
         load_day(edited(tmp_path, change))
 
 
-def test_an_empty_hint_is_refused(tmp_path):
-    first = re.search(r'"""Draw the 4x4.*?"""', TEXT, re.DOTALL).group()
-    with pytest.raises(Robo47Error, match=r"tasks 1\.1: hints holds ' '"):
-        load_day(edited(tmp_path, (first, '" "')))
-
-
 def test_figure_worksheet_and_metrics_are_optional(tmp_path):
     start, end = TEXT.index("[figure]"), TEXT.index("[[tasks]]")
     day = load_day(edited(tmp_path, (TEXT[start:end], "")))
@@ -72,9 +73,7 @@ def test_figure_worksheet_and_metrics_are_optional(tmp_path):
 
 def test_a_broken_manifest_costs_its_own_day_alone(tmp_path):
     edited(tmp_path)
-    (tmp_path / "w1-x" / "day2").mkdir()
-    (tmp_path / "w1-x" / "day2" / "day.toml").write_text("number = ")
-    write_week(tmp_path / "w1-x", 1, 2)
+    written(tmp_path / "w1-x", 2, "number = ")
     assert find_day(1, tmp_path).title == DAY.title
     with pytest.raises(Robo47Error, match=r"day2/day\.toml cannot be read"):
         find_day(2, tmp_path)
@@ -82,10 +81,7 @@ def test_a_broken_manifest_costs_its_own_day_alone(tmp_path):
 
 def test_two_weeks_may_not_have_the_same_day(tmp_path):
     edited(tmp_path)
-    other = tmp_path / "w2-y" / "day1" / "day.toml"
-    other.parent.mkdir(parents=True)
-    other.write_text(TEXT)
-    write_week(tmp_path / "w2-y", 1)
+    written(tmp_path / "w2-y", 1, TEXT)
     with pytest.raises(Robo47Error, match="two days 1"):
         find_day(1, tmp_path)
 
@@ -93,10 +89,7 @@ def test_two_weeks_may_not_have_the_same_day(tmp_path):
 def test_the_day_begun_last_is_the_default(tmp_path):
     edited(tmp_path)
     assert started_day(tmp_path) == 1
-    second = tmp_path / "w1-x" / "day2" / "day.toml"
-    second.parent.mkdir()
-    second.write_text("")
-    write_week(tmp_path / "w1-x", 1, 2)
+    written(tmp_path / "w1-x", 2, "")
     assert day_numbers(tmp_path) == [1, 2]
     assert started_day(tmp_path) == 1
     work = tmp_path / "w1-x" / "work"

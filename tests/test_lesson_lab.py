@@ -40,26 +40,26 @@ def test_the_rows_of_a_run_are_logged_together(log, capsys):
     assert "logged 2 rows to" in capsys.readouterr().out
 
 
-def test_checking_and_recording_is_one_call_with_the_manifests_limit(log, capsys):
-    lab_with(2e-8).finish()
-    out = capsys.readouterr().out
-    assert "FAIL  fk by hand: 2.0e-08 (limit 1e-08)" in out
-    (row,) = read_rows(log)
-    assert (row["value"], row["n_failures"]) == (2e-8, 1)
-
-
-def test_the_absolute_value_is_judged(log, capsys):
-    lab = lab_with([-0.5, 1e-9])
-    lab.check("e", [-0.5, -0.3])
+@pytest.mark.parametrize(
+    ("error", "says", "value", "trials"),
+    [
+        (2e-8, "FAIL  fk by hand: 2.0e-08 (limit 1e-08)", 2e-8, 1),
+        ([-0.5, 1e-9], "FAIL  fk by hand: 0.5", 0.5, 2),  # its absolute value
+        (1e-8, "FAIL  fk by hand: 1.0e-08", 1e-8, 1),  # as the week and the check say
+    ],
+)
+def test_checking_and_recording_is_one_call_with_the_manifests_limit(
+    log, capsys, error, says, value, trials
+):
+    lab = lab_with(error)
+    lab.check("e", error)
     assert lab.finish() == 1
     out = capsys.readouterr().out
-    assert "FAIL  e: 0.5" in out
+    assert says in out
+    assert says.replace("fk by hand", "e") in out
     (row,) = read_rows(log)
-    assert (row["value"], row["n_trials"], row["n_failures"]) == (0.5, 2, 1)
-
-
-def test_a_number_at_its_limit_fails_as_the_week_and_the_check_say(log):
-    assert lab_with(1e-8).finish() == 1
+    found = (row["value"], row["n_trials"], row["n_failures"])
+    assert found == (value, trials, 1)
 
 
 @pytest.mark.parametrize(
@@ -86,13 +86,11 @@ def test_a_row_says_which_file_wrote_it(log):
     assert row["notes"] == f"limit 1e-08; file {digest[:8]}"
 
 
-def test_a_number_that_the_manifest_does_not_know_is_refused(log):
-    lab = Lab(str(SCRIPT), "A lab.")
+def test_an_unknown_number_and_a_script_that_is_no_lab_are_refused(
+    log,
+):
     with pytest.raises(Robo47Error, match=r"has 0 metrics fk; it has fk_identity"):
-        lab.record("fk", 0.0)
-
-
-def test_a_script_that_is_no_lab_is_refused(log):
+        lab_with().record("fk", 0.0)
     with pytest.raises(Robo47Error, match=r"helpers\.py is no lab"):
         Lab("helpers.py", "")
 
@@ -129,14 +127,10 @@ def test_a_prediction_stands_beside_what_is_measured(log, own, capsys):
     )
 
 
-@pytest.mark.parametrize("cell", ["*(your prediction)*", " ", "...", "-"])
+@pytest.mark.parametrize("cell", ["*(your prediction)*", " ", "...", "-", "the kit's"])
 def test_without_a_prediction_nothing_is_said(log, own, capsys, cell):
     own.write_text(ROW.format(cell))
-    Lab(str(own.parent / "work" / SCRIPT.name), "A lab.").measured("height of ee, m", 1)
-    assert capsys.readouterr().out == ""
-
-
-def test_the_kits_own_lab_knows_nobodys_predictions(log, own, capsys):
-    own.write_text(ROW.format("0.6"))
-    Lab(str(SCRIPT), "A lab.").measured("height of ee, m", 1)
+    script = own.parent / "work" / SCRIPT.name
+    script = SCRIPT if cell == "the kit's" else script  # which knows nobody's
+    Lab(str(script), "A lab.").measured("height of ee, m", 1)
     assert capsys.readouterr().out == ""

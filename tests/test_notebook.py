@@ -136,7 +136,7 @@ def test_without_the_kit_the_set_up_asks_for_the_clones_address(monkeypatch, tmp
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
-def test_a_slider_moves_the_arm_and_the_matrix():
+def test_a_slider_moves_the_arm_and_the_matrix_of_the_function_that_is_given():
     from labkit.figures.sliders import joint_sliders
 
     left, picture = joint_sliders().children
@@ -152,12 +152,6 @@ def test_a_slider_moves_the_arm_and_the_matrix():
     wanted = [f"joint{i}, rad" for i in range(1, 8)]
     assert [s.description for s in sliders] == wanted
     assert sliders[3].max < 0  # joint4's limits, so that 0 cannot be chosen
-
-
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
-def test_the_sliders_show_the_function_that_they_are_given():
-    from labkit.figures.sliders import joint_sliders
 
     def compose_fk(model, q):
         return np.eye(4)

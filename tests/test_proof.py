@@ -1,7 +1,6 @@
 """A page to show: what is theirs, run again, and nothing from outside gets a say."""
 
 import subprocess
-import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -11,7 +10,6 @@ import pytest
 
 pytest.importorskip("viser", reason="the extra view")
 
-from conftest import ROOT
 from labkit.base.git import History
 from labkit.grade.roster import Student
 from labkit.lesson.day import days_of, find_day
@@ -39,17 +37,15 @@ def git(folder, *words):
     subprocess.run(done, cwd=folder, check=True, capture_output=True)
 
 
-def a_clone(folder, changed=None, days=(1,)):
-    """Write the kit's labs into a folder as somebody's own, and commit them."""
-    for number in days:
-        day = find_day(number)
-        script = folder / day.files["script"]
-        script.parent.mkdir(parents=True, exist_ok=True)
-        text = day.source.read_text("utf-8")
-        for before, after in (changed or {}).items():
-            assert before in text
-            text = text.replace(before, after)
-        script.write_text(text + "\n# mine\n", "utf-8")
+def a_clone(folder, day=1, before="", after=""):
+    """Write a lab of the kit's into a new folder as somebody's own, and commit it."""
+    day = find_day(day)
+    script = folder / day.files["script"]
+    script.parent.mkdir(parents=True)
+    text = day.source.read_text("utf-8")
+    assert before in text
+    text = text.replace(before, after) if before else text
+    script.write_text(text + "\n# mine\n", "utf-8")
     git(folder, "init", "--quiet")
     git(folder, "add", "-A")
     git(folder, "commit", "--quiet", "-m", EVIL)
@@ -86,7 +82,6 @@ def half_done(tmp_path, sandbox):
 
 
 def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path, sandbox):
-    (tmp_path / "of").mkdir()
     proof = half_done(tmp_path, sandbox)
     first, *rest = proof.days
     functions = [f for task in first.day.tasks for f in task.functions]
@@ -106,17 +101,12 @@ def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path, sa
 def test_a_transposed_jacobian_is_not_theirs_and_its_numbers_are_not_run(
     tmp_path, sandbox
 ):
-    clone = tmp_path / "of"
-    clone.mkdir()
     wrong = "\n\n_right = space_jacobian\n\n\n"
     wrong += "def space_jacobian(*a):\n    return _right(*a).T\n"
-    day = find_day(3)
-    source = day.source.read_text("utf-8")
     mark = '\n\nif __name__ == "__main__":'
-    assert mark in source
-    it = a_clone(clone, {mark: wrong + mark}, days=[3])
+    it = a_clone(tmp_path / "of", 3, mark, wrong + mark)
     (tmp_path / "files").mkdir()
-    found = facts.facts_of(day, it, tmp_path / "files", sandbox)
+    found = facts.facts_of(find_day(3), it, tmp_path / "files", sandbox)
     assert found.states["space_jacobian"] == "wrong"
     assert "space_jacobian" not in found.own
     assert all(number.again is None for number in found.numbers)
@@ -199,7 +189,6 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
-    (tmp_path / "ada").mkdir()
     a_clone(tmp_path / "ada")
     class_ = [Student("Ada -x", "ada", tmp_path / "ada")]
     class_.append(Student("Bob", "bob", tmp_path / "bob"))
@@ -212,12 +201,9 @@ def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
     assert not (tmp_path / "proof" / "bob.html").exists()
 
 
-def test_a_place_that_cannot_be_written_is_told_before_the_work(tmp_path):
-    command = [sys.executable, ROOT / "scripts" / "proof.py", "--of", tmp_path]
-    done = subprocess.run(
-        [*command, "--out", tmp_path / "no" / "where.html"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+def test_a_place_that_cannot_be_written_is_told_before_the_work(run, tmp_path):
+    place = tmp_path / "no" / "where.html"
+    done = run("scripts/proof.py", "--of", tmp_path, "--out", place)
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
     assert "--out" in done.stderr

@@ -1,10 +1,9 @@
 """The report: every number right, every text harmless, good on a phone."""
 
 import html
-import os
 import re
 import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -21,8 +20,6 @@ from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
-ROOT = Path(__file__).parent.parent
-SCRIPT = ROOT / "scripts" / "report_metrics.py"
 LIMITS = {(1, "fk", "err"): Metric("fk", "err", max=1e-8)}
 EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
@@ -42,15 +39,17 @@ def report_on(log: Path, *lines: str, **filters) -> Report:
     return collect(scan(log), LIMITS, **filters)
 
 
-def run(*words: str) -> subprocess.CompletedProcess:
-    done = subprocess.run(
-        [sys.executable, str(SCRIPT), *words],
-        capture_output=True,
-        encoding="utf-8",
-        env={**os.environ, "COLUMNS": "80", "PYTHONIOENCODING": "utf-8"},
-    )
-    assert "Traceback" not in done.stderr
-    return done
+@pytest.fixture
+def run(run):
+    """Run the command."""
+    return partial(run, "scripts/report_metrics.py", COLUMNS="80")
+
+
+def series_of(metric: str, *values: float, limit: Metric | None = None) -> Series:
+    """Return a series of these values."""
+    series = Series((1, "c", metric), limit)
+    series.rows = [normalise({"value": v, "git_sha": "abc1234"}, False) for v in values]
+    return series
 
 
 def drawn(series: Series, tag: str) -> list:
@@ -73,10 +72,8 @@ def test_a_value_passes_under_its_threshold(log, value, status):
     assert report_on(log, line(value=value)).series[0].status == status
 
 
-def test_a_minimum_is_a_threshold_too(log):
-    limit = Metric("reach", "rate", min=0.9)
-    series = Series((4, "reach", "rate"), limit)
-    series.rows = [normalise({"value": v}, False) for v in (0.95, 0.5)]
+def test_a_minimum_is_a_threshold_too():
+    series = series_of("rate", 0.95, 0.5, limit=Metric("c", "rate", min=0.9))
     assert (series.best, series.status, series.limits) == (0.95, "fail", "> 0.9")
 
 
@@ -94,20 +91,17 @@ def test_a_number_within_its_limit_fails_if_its_trials_did(log):
     assert "failed in 4 of 10 trials" in page.render(report, "")
 
 
-def test_the_threshold_of_one_day_is_not_anothers(log):
+def test_the_threshold_of_one_day_is_not_anothers_and_days_can_be_jumped_to(log):
     report = report_on(log, line(value=1), line(value=1, day=2))
     assert [s.status for s in report.series] == ["fail", "open"]
+    text = page.render(report, "")
+    assert '<a class="fail" href="#1">Day 1</a>' in text
+    assert '<section id="2">' in text
 
 
 def test_what_fails_comes_first_in_its_day(log):
     lines = [line(value=1, check="a"), line(value=1, check="fk")]
     assert [s.check for s in report_on(log, *lines).series] == ["fk", "a"]
-
-
-def test_days_can_be_jumped_to_where_there_are_several(log):
-    text = page.render(report_on(log, line(value=1), line(value=1, day=2)), "")
-    assert '<a class="fail" href="#1">Day 1</a>' in text
-    assert '<section id="2">' in text
 
 
 def test_what_the_manifest_asks_for_is_shown_before_it_is_run(log):
@@ -117,9 +111,8 @@ def test_what_the_manifest_asks_for_is_shown_before_it_is_run(log):
 
 
 def test_rows_that_a_merge_left_out_of_order_are_sorted_by_date(log):
-    report = report_on(
-        log, line(date="2026-09-02", value=2), line(date="2026-09-01", value=1)
-    )
+    lines = [line(date=f"2026-09-0{day}", value=day) for day in (2, 1)]
+    report = report_on(log, *lines)
     assert [row["value"] for row in report.series[0].rows] == [1, 2]
 
 
@@ -163,17 +156,18 @@ def test_the_page_asks_for_nothing_from_outside(log):
     assert not re.search(r"https?:|src=|href=|url\(|@import|<script|<link", text)
 
 
-def test_errors_get_a_log_axis_and_rates_a_linear_one():
-    def axis(metric: str, *values: float) -> bool:
-        series = Series((1, "c", metric), None)
-        series.rows = [normalise({"value": v}, False) for v in values]
-        return series.is_log
-
-    assert axis("inv_err", 1e-16, 1e-15)
-    assert axis("residual", 1.0, 1e-9)
-    assert not axis("rate", 0.5, 0.9)
-    assert not axis("err", -1, 1)
-    assert not axis("err", 0, 0)
+@pytest.mark.parametrize(
+    ("metric", "values", "is_log"),
+    [
+        ("inv_err", (1e-16, 1e-15), True),
+        ("residual", (1.0, 1e-9), True),
+        ("rate", (0.5, 0.9), False),
+        ("err", (-1, 1), False),
+        ("err", (0, 0), False),
+    ],
+)
+def test_errors_get_a_log_axis_and_rates_a_linear_one(metric, values, is_log):
+    assert series_of(metric, *values).is_log == is_log
 
 
 @pytest.mark.parametrize(
@@ -191,8 +185,7 @@ def test_errors_get_a_log_axis_and_rates_a_linear_one():
 )
 @pytest.mark.parametrize("metric", ["err", "rate"])
 def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
-    series = Series((1, "c", metric), Metric("c", metric, max=1e-8))
-    series.rows = [normalise({"value": v, "git_sha": "abc1234"}, False) for v in values]
+    series = series_of(metric, *values, limit=Metric("c", metric, max=1e-8))
     lines, dots = drawn(series, "polyline"), drawn(series, "circle")
     points = [p.split(",") for line in lines for p in line.get("points").split()]
     points += [(dot.get("cx"), dot.get("cy")) for dot in dots]
@@ -206,36 +199,25 @@ def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
 def test_a_long_series_keeps_its_extremes_and_its_latest_run():
     values = [1e-15] * 5000
     values[1234], values[4321], values[-1] = 0.5, 1e-30, 2e-15
-    series = Series((1, "c", "err"), None)
-    series.rows = [normalise({"value": v}, False) for v in values]
-    tips = [dot.findtext("title") for dot in drawn(series, "circle")]
+    tips = [d.findtext("title") for d in drawn(series_of("err", *values), "circle")]
     for value in (0.5, 1e-30):
         assert any(tip.startswith(repr(value)) for tip in tips)
     assert tips[-1].startswith("2e-15")
 
 
 def test_each_point_names_its_commit(log):
-    text = page.render(
-        report_on(
-            log, line(value=1e-9, git_sha="1111111"), line(value=1e-9, git_sha="222")
-        ),
-        "",
-    )
-    assert "commit 1111111" in text
-    assert "commit 222" in text
+    lines = [line(value=1e-9, git_sha=sha) for sha in ("1111111", "222")]
+    text = page.render(report_on(log, *lines), "")
+    assert all(f"commit {sha}" in text for sha in ("1111111", "222"))
 
 
-def test_the_weeks_manifest_of_this_kit_is_read():
+def test_thresholds_are_the_manifests_and_a_broken_one_is_named(tmp_path):
     limits = thresholds()
     assert limits[1, "fk_identity_check", "inv_err"].max == 1e-10
     assert limits[1, "fk_by_hand", "max_abs_err"].max == 1e-8
-
-
-def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
     assert thresholds(tmp_path) == {}
     manifest = tmp_path / "w1-x" / "day1" / "day.toml"
     manifest.parent.mkdir(parents=True)
-    manifest.write_text("")
     write_week(tmp_path / "w1-x", 1)
     for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
@@ -243,36 +225,29 @@ def test_no_manifest_means_no_thresholds_and_a_broken_one_is_named(tmp_path):
             thresholds(tmp_path)
 
 
-def test_the_command_writes_the_page(log):
-    report_on(log, line(value=1e-9), "cut")
-    done = run("--file", str(log))
+def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log, run):
+    rows = [line(value=1e-9 / (i + 1), notes=f"run, {i}") for i in range(1000)]
+    log.write_text("\n".join([LINE, *rows * 100, "cut"]) + "\n")
+    done = run("--file", log)
     assert done.returncode == 0
+    assert "100,000 rows" in done.stdout
     assert "1 line needs a look" in done.stdout
-    assert "fk" in (log.parent / "report.html").read_text("utf-8")
+    text = (log.parent / "report.html").read_text("utf-8")
+    assert "fk" in text
+    assert len(text) < 300_000
 
 
-def test_an_empty_log_gives_a_page_that_says_what_to_do(log):
+def test_an_empty_log_gives_a_page_that_says_what_to_do(log, run):
     log.write_text(LINE + "\n")
-    done = run("--file", str(log), "--check", "nothing")
+    done = run("--file", log, "--check", "nothing")
     assert done.returncode == 0
     assert "make run" in (log.parent / "report.html").read_text("utf-8")
 
 
-@pytest.mark.parametrize("words", [["--file", "nowhere.csv"], ["--since", "soon"]])
-def test_a_mistake_is_told_without_a_traceback(words):
-    assert run(*words).returncode == 2
-
-
-def test_help_fits_80_columns():
+def test_a_mistake_is_told_without_a_traceback_and_help_fits_80_columns(run):
+    assert run("--file", "nowhere.csv").returncode == 2
+    assert run("--since", "soon").returncode == 2
     assert max(len(text) for text in run("--help").stdout.splitlines()) <= 80
-
-
-def test_a_hundred_thousand_rows_make_a_small_page(log):
-    rows = [line(value=1e-9 / (i + 1), notes=f"run, {i}") for i in range(1000)]
-    log.write_text("\n".join([LINE, *rows * 100]) + "\n")
-    done = run("--file", str(log))
-    assert "100,000 rows" in done.stdout
-    assert (log.parent / "report.html").stat().st_size < 300_000
 
 
 # In a real browser.
@@ -308,6 +283,14 @@ MEASURE = """<body><iframe id=f style="width:{width}px;height:900px" srcdoc="{pa
 }}</script>"""
 
 
+def measured(chromium: str, folder: Path, text: str, width: int) -> list[str]:
+    """Return a page's title and what MEASURE counts in it, in a window of a width."""
+    harness = MEASURE.format(width=width, page=html.escape(text))
+    found = re.search(r"<title>(.*?)</title>", dom(chromium, folder, harness))
+    assert found is not None
+    return found[1].rsplit(maxsplit=5)
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize("width", [390, 1280])
 def test_the_page_fits_and_runs_nothing_in_a_real_browser(
@@ -316,11 +299,9 @@ def test_the_page_fits_and_runs_nothing_in_a_real_browser(
     lines = [line(value=v, notes=EVIL) for v in (1e-3, 1e-12, 0)]
     lines.append(line(value=1, day=2, check="a_very_long_name" * 5, metric="m" * 90))
     text = page.render(report_on(log, *lines, EVIL), EVIL)
-    harness = MEASURE.format(width=width, page=html.escape(text))
-    found = re.search(r"<title>(.*?)</title>", dom(chromium, tmp_path, harness))
-    assert found is not None
-    *title, scroll_width, too_wide, dots, note_cells, made = found[1].split()
-    assert " ".join(title) == "robo47 metrics"
+    found = measured(chromium, tmp_path, text, width)
+    title, scroll_width, too_wide, dots, note_cells, made = found
+    assert title == "robo47 metrics"
     assert int(scroll_width) <= width
     assert (too_wide, made) == ("0", "0")
     assert (dots, note_cells) == ("6", "6")

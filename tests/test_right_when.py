@@ -81,7 +81,7 @@ def test_a_question_without_an_answer_says_nothing():
 
 def test_a_pose_is_neutral_in_two_ways():
     T = se3.make_T(se3.Rz(0.3), [1.0, 2.0, 3.0])
-    still, unturned = (one.value for one in neutrals(T))
+    still, unturned = (value for _, value in neutrals(T))
     np.testing.assert_array_equal(still, se3.make_T(se3.Rz(0.3), np.zeros(3)))
     np.testing.assert_array_equal(unturned, se3.make_T(np.eye(3), [1.0, 2.0, 3.0]))
 

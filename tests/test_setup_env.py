@@ -65,15 +65,13 @@ def call(setup, monkeypatch, *extras):
     return setup.commands
 
 
-def test_the_first_run_makes_and_fills_the_environment(setup, monkeypatch):
+def test_the_first_run_makes_and_fills_the_environment_the_next_does_nothing(
+    setup, monkeypatch
+):
     make, install = call(setup, monkeypatch)
     assert make[1:3] == ["-m", "venv"]
     assert install[-2:] == ["--editable", "."]
     assert "constraints.txt" in install
-
-
-def test_nothing_is_done_when_nothing_changed(setup, monkeypatch):
-    call(setup, monkeypatch)
     assert call(setup, monkeypatch) == []
 
 
@@ -87,23 +85,20 @@ def test_a_changed_list_is_installed_again_into_the_same_environment(
     assert len(call(setup, monkeypatch)) == 1
 
 
-def test_an_extra_is_installed_once_and_beside_the_core(setup, monkeypatch):
+def test_an_extra_is_installed_once_and_another_folder_is_another_environment(
+    setup, monkeypatch
+):
     call(setup, monkeypatch)
     (install,) = call(setup, monkeypatch, "test")
     assert install[-1] == ".[test]"
     assert call(setup, monkeypatch, "test") == []
-
-
-def test_another_folder_is_another_environment(setup, monkeypatch):
-    call(setup, monkeypatch)
     make, install = call(setup, monkeypatch, "--venv", ".venv-bench", "bench")
     assert make[-1].endswith(".venv-bench")
     assert install[-1] == ".[bench]"
 
 
-def test_an_environment_without_a_stamp_or_a_python_is_not_whole(tmp_path):
-    real = load()
-    venv = tmp_path / "v"
+def test_an_environment_without_a_stamp_or_a_python_or_pip_is_not_whole(tmp_path):
+    real, venv = load(), tmp_path / "v"
     python = venv / real.PYTHON_IN_VENV
     assert real.made_with(str(venv)) is None
     python.parent.mkdir(parents=True)
@@ -112,6 +107,8 @@ def test_an_environment_without_a_stamp_or_a_python_is_not_whole(tmp_path):
     (venv / ".made").write_bytes(b"")
     assert real.made_with(str(venv)) == NOW
     python.unlink()
+    assert real.made_with(str(venv)) is None
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
     assert real.made_with(str(venv)) is None
 
 
@@ -147,14 +144,6 @@ def test_uv_brings_all_that_make_may_put_into_the_environment():
     extras = set(project["project"]["optional-dependencies"]) - {"bench"}
     (own,) = [d for d in project["dependency-groups"]["dev"] if d.startswith("robo47")]
     assert set(own.removeprefix("robo47[").removesuffix("]").split(",")) == extras
-
-
-def test_an_environment_without_pip_is_not_whole(tmp_path):
-    real = load()
-    venv = tmp_path / "v"
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
-    (venv / ".made").write_bytes(b"")
-    assert real.made_with(str(venv)) is None
 
 
 @pytest.mark.parametrize("step", ["venv", "pip"])
@@ -252,18 +241,17 @@ def said(setup, monkeypatch):
     return str(caught.value.code)
 
 
-def test_an_old_python_is_told_so(setup, monkeypatch):
-    old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(pythons, "sys", old)
+@pytest.fixture
+def old(monkeypatch):
+    """This Python, as if it were too old."""
+    it = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
+    monkeypatch.setattr(pythons, "sys", it)
+
+
+@pytest.mark.parametrize("found", [None, "/usr/bin/false"])
+def test_an_old_python_is_told_so_and_a_shim_is_none(setup, monkeypatch, old, found):
+    monkeypatch.setattr(pythons.shutil, "which", lambda name: found)
     with pytest.raises(SystemExit, match=r"this is Python 3\.9; the kit needs 3\.11"):
-        pythons.find_python()
-
-
-def test_a_shim_that_starts_no_python_is_passed_over(setup, monkeypatch):
-    old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(pythons, "sys", old)
-    monkeypatch.setattr(pythons.shutil, "which", lambda name: "/usr/bin/false")
-    with pytest.raises(SystemExit, match=r"this is Python 3\.9"):
         pythons.find_python()
 
 
@@ -272,9 +260,7 @@ def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
     assert "venv" in call(setup, monkeypatch, "--anew")[0]
 
 
-def test_a_newer_python_on_the_path_is_used(setup, monkeypatch):
-    old = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(pythons, "sys", old)
+def test_a_newer_python_on_the_path_is_used(setup, monkeypatch, old):
     paths = {"python3.12": "/usr/bin/python3.12"}
     monkeypatch.setattr(pythons.shutil, "which", paths.get)
     monkeypatch.setattr(pythons, "is_version", lambda python, version: True)
@@ -284,16 +270,8 @@ def test_a_newer_python_on_the_path_is_used(setup, monkeypatch):
 @pytest.mark.parametrize(
     ("step", "output", "words"),
     [
-        (
-            "venv",
-            "The virtual environment ... ensurepip is not",
-            "install python3-venv",
-        ),
-        (
-            "pip",
-            "Failed to establish a new connection",
-            "package index cannot be reached",
-        ),
+        ("venv", "The ... ensurepip is not", "install python3-venv"),
+        ("pip", "Failed to establish a new connection", "index cannot be reached"),
         ("pip", "[Errno 28] No space left on device", "the disk is full"),
         ("pip", "ERROR: something else", "something else"),
     ],
@@ -305,10 +283,5 @@ def test_a_failure_names_what_is_missing_and_what_to_do(
     message = said(setup, monkeypatch)
     assert words in message
     assert "run make again" in message
-
-
-def test_a_failed_install_is_tried_again_next_time(setup, monkeypatch):
-    setup.answers["pip"] = (1, "ERROR: something else")
-    said(setup, monkeypatch)
     setup.answers.clear()
-    assert len(call(setup, monkeypatch)) == 1
+    assert "install" in call(setup, monkeypatch)[-1], "the next run tries again"

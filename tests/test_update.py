@@ -1,13 +1,15 @@
 """`make update`: a mid-term kit on a student's clone, and nothing of theirs is lost."""
 
+import shutil
 import subprocess
 
 import pytest
 
-from conftest import run_copy
+from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
 from labkit.lesson.merge import conflicts, keep_both, keep_ours, merged
 from labkit.lesson.renew import renewed
+from labkit.lesson.starter import make_starter
 
 pytestmark = pytest.mark.kit
 DAY = find_day(1)
@@ -50,43 +52,51 @@ def state(student):
     return content, git(student, "rev-parse", "HEAD"), git(student, "status", "-s")
 
 
-@pytest.fixture
-def kit(clone):
-    """Return the kit as a repository."""
-    (clone / ".gitignore").write_text(
-        "/w*/work/*.before-*.txt\n.robo47/\n__pycache__/\n"
-    )
-    (clone / ".gitattributes").write_text("metrics.csv merge=union\n")
-    (clone / "CHANGELOG.md").write_text("# Changelog\n\n- Day 1 is there.\n")
-    git(clone, "init", "-q")
-    git(clone, "add", "-A")
-    git(clone, "commit", "-qm", "the kit")
-    return clone
-
-
-@pytest.fixture
-def student(kit, tmp_path):
-    """Return the clone of a student half through Day 1."""
-    clone = tmp_path / "student"
-    git(tmp_path, "clone", "-q", str(kit), str(clone))
+@pytest.fixture(scope="module")
+def begun(tmp_path_factory):
+    """The kit as a repository, and the clone of a student half through Day 1."""
+    place = tmp_path_factory.mktemp("begun")
+    kit, clone = keep_first_day(copy_kit(place / "kit")), place / "student"
+    (kit / ".gitignore").write_text("/w*/work/*.before-*.txt\n.robo47/\n__pycache__/\n")
+    (kit / ".gitattributes").write_text("metrics.csv merge=union\n")
+    (kit / "CHANGELOG.md").write_text("# Changelog\n\n- Day 1 is there.\n")
+    git(kit, "init", "-q")
+    commit(kit, "the kit")
+    git(place, "clone", "-q", str(kit), str(clone))
     done = run_copy(clone, "scripts/start_day.py", 1)
     assert done.returncode == 0
+    turn = 'def Rz(theta: float) -> np.ndarray:\n    """Return the turn by theta'
+    half = 'def half(x):\n    """Mine."""\n    return x / 2\n\n\n'
     edit(
         clone / WORK,
         ("TRIALS = 1_000 ", "TRIALS = 500 "),
-        (
-            'def Rz(theta: float) -> np.ndarray:\n    """Return the turn by theta',
-            'def half(x):\n    """Mine."""\n    return x / 2\n\n\n'
-            'def Rz(theta: float) -> np.ndarray:\n    """Return the turn by theta',
-        ),
+        (turn, f"{half}{turn}"),
         (gap(clone, "1.2"), "    return np.diag([half(2), 1.0, 1.0])  # mine\n"),
         (gap(clone, "1.3"), "    return np.linalg.inv(T)  # my inverse\n"),
     )
     edit(clone / SHEET, ("*(your words)*", "A pose says where a thing is and how."))
     add_row(clone, ROW)
-    git(clone, "add", "-A")
-    git(clone, "commit", "-qm", "my work")
+    commit(clone, "my work")
+    return place
+
+
+@pytest.fixture
+def kit(begun, tmp_path):
+    """A copy of the kit's repository."""
+    return shutil.copytree(begun / "kit", tmp_path / "kit")
+
+
+@pytest.fixture
+def student(begun, kit, tmp_path):
+    """A copy of the student's clone of it."""
+    clone = shutil.copytree(begun / "student", tmp_path / "student")
+    git(clone, "remote", "set-url", "origin", str(kit))
     return clone
+
+
+def commit(folder, message):
+    git(folder, "add", "-A")
+    git(folder, "commit", "-qm", message)
 
 
 def add_row(clone, row):
@@ -124,8 +134,7 @@ def mid_term(kit):
     edit(kit / SHEET, ("### pose\n", "### Pose, in your own words\n"))
     edit(kit / "CHANGELOG.md", ("- Day 1", "- Day 1 has a row more. Run it.\n- Day 1"))
     add_row(kit, "2026-09-01,kits,1,theirs")
-    git(kit, "add", "-A")
-    git(kit, "commit", "-qm", "mid-term")
+    commit(kit, "mid-term")
 
 
 def test_a_mid_term_kit_comes_around_what_is_the_students(kit, student):
@@ -136,16 +145,9 @@ def test_a_mid_term_kit_comes_around_what_is_the_students(kit, student):
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert not (student / WORK).exists()
     text = (student / WEEK / "work" / NEW).read_text("utf-8")
-    for mine in (
-        "TRIALS = 500 ",
-        "def half(x)",
-        "half(2)",
-        "my inverse",
-        "def undone(",
-    ):
-        assert mine in text
-    for theirs in ("DEGREES = ", 'lab.record("det_by_hand"', "# TODO 1.4"):
-        assert theirs in text
+    mine = ("TRIALS = 500 ", "def half(x)", "half(2)", "my inverse", "def undone(")
+    theirs = ("DEGREES = ", 'lab.record("det_by_hand"', "# TODO 1.4")
+    assert [words for words in (*mine, *theirs) if words not in text] == []
     assert "inverse(T) @" not in text
     sheet = (student / SHEET).read_text("utf-8")
     assert "### Pose, in your own words" in sheet
@@ -213,20 +215,16 @@ def test_a_kits_file_that_the_student_changed_in_the_same_place_is_named(kit, st
     assert "TRIALS = 500 " in (student / WORK).read_text("utf-8")  # theirs: kept
 
 
-def test_a_tag_can_be_asked_for_and_a_place_is_remembered(kit, student, tmp_path):
+def test_a_tag_can_be_asked_for_and_a_place_is_remembered(kit, student):
     git(kit, "tag", "v1")
     mid_term(kit)
     git(student, "remote", "rename", "origin", "own")
     assert "make update FROM=" in update(student).stderr
-    assert (
-        "nothing has changed"
-        in update(student, "--from", str(kit), "--to", "v1").stdout
-    )
+    v1 = update(student, "--from", str(kit), "--to", "v1")
+    assert "nothing has changed" in v1.stdout
     assert update(student, "--from", str(kit)).returncode == 0
     assert git(student, "remote", "get-url", "kit") == str(kit)
-    assert "no such" in update(student, "--to", "v9").stderr.lower() or "v9" in (
-        update(student, "--to", "v9").stderr
-    )
+    assert "v9" in update(student, "--to", "v9").stderr
 
 
 BASE = "# Day\n\n## Words\n\n*(yours)*\n"
@@ -243,10 +241,8 @@ def test_lines_that_both_changed_are_both_kept_and_a_heading_is_the_new_one():
 
 
 def test_a_text_that_only_one_changed_is_theirs():
-    assert (
-        merged("a\nb\nc\n", "a\nb\nmine\n", "kit\nb\nc\n", keep_ours)
-        == "kit\nb\nmine\n"
-    )
+    texts = ("a\nb\nc\n", "a\nb\nmine\n", "kit\nb\nc\n")
+    assert merged(*texts, keep_ours) == "kit\nb\nmine\n"
     assert merged("a\n", "mine\n", "kit\n", keep_ours) == "mine\n"
 
 
@@ -254,8 +250,6 @@ def test_a_lab_is_renewed_from_the_version_that_it_was_begun_with():
     now = DAY.source.read_text("utf-8")
     older = now.replace("TRIALS = 1_000 ", "TRIALS = 10 ")
     oldest = older.replace("PATH = [", "WAY = [")
-    from labkit.lesson.starter import make_starter
-
     text = make_starter(oldest, "x", 1).replace('"task 1.1: write make_T"', '"mine"')
     found = renewed(DAY, text, [older, oldest], now)
     assert "TRIALS = 1_000 " in found

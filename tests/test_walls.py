@@ -21,6 +21,8 @@ from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 LINUX = sys.platform.startswith("linux")
+WALLS = ["bubblewrap", "landlock"]
+each = pytest.mark.parametrize("name", WALLS)
 SITE = os.path.dirname(os.path.dirname(mujoco.__file__))
 # Walks up to the checker's own frame and empties the guard: four lines, no trick.
 DISARM = """
@@ -213,9 +215,7 @@ def places(tmp_path_factory):
             stack.enter_context(one).bind(at)
             one.listen()
         yield {
-            "reference": str(
-                next((ROOT / "w1-foundations" / "src").glob("day1_t*.py"))
-            ),
+            "reference": str(ROOT / "w1-foundations/src/day1_transforms.py"),
             "kit": str(ROOT / "robo47" / "se3.py"),
             "root": str(ROOT),
             "site": SITE,
@@ -230,7 +230,7 @@ def places(tmp_path_factory):
         }
 
 
-@pytest.fixture(scope="module", params=["bubblewrap", "landlock"])
+@pytest.fixture(scope="module", params=WALLS)
 def attacked(request, places, tmp_path_factory):
     """Run every attack behind a wall; return {attack: reply}."""
     script = tmp_path_factory.mktemp("attacks") / "attacks.py"
@@ -270,7 +270,7 @@ class TestAWall:
         own = os.getpriority(os.PRIO_PROCESS, 0)
         assert os.getpriority(os.PRIO_PROCESS, places["other"]) == own
 
-    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    @each
     def test_goes_down_with_the_checker(self, name, tmp_path):
         script = tmp_path / "sleeps.py"
         undone = "    try: libc('prctl', 1, 0, 0, 0, 0)\n    except OSError: 0\n"
@@ -293,14 +293,11 @@ class TestAWall:
             )
         with checker:
             pid = int(checker.stdout.readline())
-            family = [pid, *children_of(pid)]
+            family = processes._family(pid)
             checker.kill()
-        deadline = time.monotonic() + 20
-        while any(map(is_there, family)) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        assert not any(map(is_there, family))
+        assert are_gone(family, 20)
 
-    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    @each
     def test_hides_no_memory_from_the_watch(self, name, tmp_path):
         script = tmp_path / "large.py"
         script.write_text("import numpy as np\nX = np.ones(25_000_000)\ndef f(): 0")
@@ -309,7 +306,7 @@ class TestAWall:
             session.ask([Question("", "f", ())])
             assert processes.resident_bytes(session._process.process) > 200_000_000
 
-    @pytest.mark.parametrize("name", ["bubblewrap", "landlock"])
+    @each
     def test_lets_a_task_use_all_of_python_and_numpy(self, name, tmp_path):
         script = tmp_path / "late.py"
         script.write_text(
@@ -325,23 +322,29 @@ class TestAWall:
         assert asked.reply.value.shape == (30, 30)
 
 
-def children_of(pid):
-    """Return the processes that a process started."""
-    with open(f"/proc/{pid}/task/{pid}/children") as children:
-        found = [int(child) for child in children.read().split()]
-    return found + [other for child in found for other in children_of(child)]
+def are_gone(pids, seconds):
+    """Return whether no process lives any more (a zombie does not), after a while."""
 
+    def lives(pid):
+        try:
+            with open(f"/proc/{pid}/stat") as stat:
+                return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
+        except OSError:
+            return False
 
-def is_there(pid):
-    """Return whether a process lives (a zombie does not)."""
-    try:
-        with open(f"/proc/{pid}/stat") as stat:
-            return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
+    deadline = time.monotonic() + seconds
+    while (left := any(map(lives, pids))) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return not left
 
 
 class TestTheNameOfTheWall:
+    @pytest.fixture(autouse=True)
+    def looked_for_anew(self):
+        wall.wall.cache_clear()
+        yield
+        wall.wall.cache_clear()
+
     def test_is_the_first_that_works(self, monkeypatch):
         monkeypatch.delenv("ROBO47_WALL", raising=False)
         for works, found in (
@@ -354,7 +357,6 @@ class TestTheNameOfTheWall:
             wall.wall.cache_clear()
             assert wall.wall().name == found
         assert "with your rights" in wall.wall().says
-        wall.wall.cache_clear()
 
     def test_says_when_it_was_asked_for(self):
         with standing("none") as found:
@@ -364,10 +366,8 @@ class TestTheNameOfTheWall:
     def test_is_an_error_where_there_is_no_such_wall(self, name, monkeypatch):
         monkeypatch.setenv("ROBO47_WALL", name)
         monkeypatch.setattr(wall, "_landlock_works", lambda: False)
-        wall.wall.cache_clear()
         with pytest.raises(Robo47Error, match=name):
             wall.wall()
-        wall.wall.cache_clear()
 
     def test_does_not_pass_for_one_that_did_not_close(self, monkeypatch, student):
         need(LINUX, "Linux")

@@ -20,11 +20,7 @@ from robo47.paths import shown
 
 
 def faults(day: Day) -> Iterator[str]:
-    """Yield what is missing or does not fit between a day's files, with its remedy.
-
-    Raises:
-        Robo47Error: a file is not there, or stops while it is loaded.
-    """
+    """Yield what is missing or does not fit between a day's files, with its remedy."""
     yield from _regions(day)
     yield from _functions(day)
     yield from _guide(day)

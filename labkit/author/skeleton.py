@@ -16,28 +16,24 @@ COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
 LAST_DAY = 47
 
 
-def new_day(number: int, week: str, name: str, root: Path = ROOT) -> list[Path]:
+def new_day(number: int, week: str, name: str) -> list[Path]:
     """Write a day's skeleton, and its week's where that is new; return the files.
 
     Args:
         number: of the day.
         week: its week's folder, "w2-autonomy", or the number of one that is there.
         name: of its script, "identification" for src/dayN_identification.py.
-        root: the clone.
-
-    Raises:
-        Robo47Error: the day is there, or a number or a name cannot be one.
     """
-    if not 1 <= number <= LAST_DAY or number in day_numbers(root):
-        why = "is there already" if number in day_numbers(root) else "cannot be"
+    if not 1 <= number <= LAST_DAY or number in day_numbers():
+        why = "is there already" if number in day_numbers() else "cannot be"
         raise Robo47Error(f"day {number} {why}; expected a new one, 1 to {LAST_DAY}")
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
         raise Robo47Error(f"{name!r} is no name of a script; expected one like my_day")
-    known = {str(one.number): one.folder.name for one in weeks(root)}
-    folder = root / known.get(week, week)
+    known = {str(one.number): one.folder.name for one in weeks()}
+    folder = ROOT / known.get(week, week)
     values = {"number": str(number), "name": name, "script": f"day{number}_{name}"}
     values |= {"title": name.replace("_", " ").capitalize(), "week": folder.name}
-    begun = [] if folder.name in known.values() else _new_week(folder, values, root)
+    begun = [] if folder.name in known.values() else _new_week(folder, values)
     files = {
         f"day{number}/day.toml": "day.toml",
         f"day{number}/reach.py": "function.py",
@@ -53,16 +49,16 @@ def new_day(number: int, week: str, name: str, root: Path = ROOT) -> list[Path]:
     return [*begun, *written, sheet]
 
 
-def _new_week(folder: Path, values: dict[str, str], root: Path) -> list[Path]:
+def _new_week(folder: Path, values: dict[str, str]) -> list[Path]:
     """Write a week's own files."""
     parts = re.fullmatch(r"w(\d+)-([a-z0-9-]+)", folder.name)
     if not parts:
         raise Robo47Error(
             f"{folder.name} is no folder of a week; expected one like w2-autonomy"
         )
-    if any(one.number == int(parts[1]) for one in weeks(root)):
+    if any(one.number == int(parts[1]) for one in weeks()):
         raise Robo47Error(f"week {parts[1]} is there already, in another folder")
-    other = weeks(root)[-1]
+    other = weeks()[-1]
     values |= {"weeknumber": parts[1], "weekname": parts[2]}
     values |= {"other": other.folder.name, "otherweek": str(other.number)}
     files = [_write(folder / to, of, values) for to, of in OF_A_WEEK.items()]

@@ -12,12 +12,7 @@ Maker = Callable[[str, str], str]  # from the request and the old content to the
 
 
 def refill(document: str, makers: Mapping[str, Maker]) -> str:
-    """Return a document with new contents of its blocks, in its own line ends.
-
-    Args:
-        document: its text.
-        makers: of the contents, by the blocks' name.
-    """
+    """Return a document with new contents of its blocks, in its own line ends."""
 
     def fresh(block: re.Match[str]) -> str:
         opening, name, request, newline, old, closing = block.groups()

@@ -41,11 +41,7 @@ def day(text: str) -> int:
 
 
 def parser(about: str | None) -> argparse.ArgumentParser:
-    """Return the parser of a script whose docstring is its help.
-
-    Args:
-        about: the docstring; its indented lines are kept as they are.
-    """
+    """Return the parser of a script whose docstring is its help, lists as they are."""
     summary, *paragraphs = (about or "").strip().split("\n\n")
     return _Parser(
         description=wrapped(" ".join(summary.split())),
@@ -68,17 +64,12 @@ def add_week(it: argparse.ArgumentParser) -> None:
 
 def add_log(it: argparse.ArgumentParser) -> None:
     """Add --file: which log."""
-    it.add_argument(
-        "--file",
-        type=Path,
-        default=METRICS_CSV,
-        metavar="CSV",
-        help="the log; default metrics/metrics.csv",
-    )
+    says = "the log; default metrics/metrics.csv"
+    it.add_argument("--file", type=Path, default=METRICS_CSV, metavar="CSV", help=says)
 
 
 def paint(text: str, mood: str, stream: TextIO | None = None) -> str:
-    """Return text in the colour of its mood, or as it is where no colour is wanted.
+    """Return text in colour, or as it is where no colour is wanted.
 
     Args:
         text: a verdict, such as "PASS" or "to do".
@@ -108,12 +99,7 @@ def wants_colour(stream: TextIO) -> bool:
 
 
 def wrapped(text: str, indent: str = "") -> str:
-    """Return text in lines that fit; its own line breaks stay.
-
-    Args:
-        text: a sentence or more.
-        indent: put before each line but the first.
-    """
+    """Return text in lines that fit, indented but for the first; its breaks stay."""
     columns = min(WIDTH, shutil.get_terminal_size().columns) - 1
     return "\n".join(
         textwrap.fill(

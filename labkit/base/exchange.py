@@ -11,34 +11,23 @@ CHANNEL = "it wrote into the checker's own channel"
 
 @dataclass(frozen=True)
 class Question:
-    """One call to make.
+    """One call to make."""
 
-    Attributes:
-        task: whose it is; a task that hangs is not asked again.
-        function: a name in the student's file.
-        args: floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
-    """
-
-    task: str
-    function: str
+    task: str  # whose it is; a task that hangs is not asked again
+    function: str  # a name in the student's file
+    # Floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
     args: tuple[Any, ...]
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a file of a day's may take.
+    """What a file of a day's may take."""
 
-    Attributes:
-        seconds: for all calls of a task, where it says more than the usual.
-        memory: GB, of the process.
-        numbers: of one answer.
-        extras: packages that it may import, pinned: "scipy==1.17.1".
-    """
-
+    # For all calls of a task, where it says more than the usual.
     seconds: Mapping[str, float] = field(default_factory=dict)
-    memory: float = 1.0
-    numbers: int = NUMBERS
-    extras: tuple[str, ...] = ()
+    memory: float = 1.0  # GB, of the process
+    numbers: int = NUMBERS  # of one answer
+    extras: tuple[str, ...] = ()  # packages that it may import, pinned: "scipy==1.17.1"
 
 
 @dataclass(frozen=True)
@@ -56,34 +45,23 @@ class Reply:
     """What came of one question, which is asked twice, the second time much later.
 
     All text in it is harmless: see `labkit.base.text.visible`.
-
-    Attributes:
-        value: an array, a tuple of arrays, or None.
-        error: "" or what went wrong, in words.
-        kind: "" where the function returned; the exception's name where it raised one;
-            "missing", "unsendable", "stopped" (time, memory, ended, channel), or
-            "waits" (not asked: it needs a task that was stopped).
-        line: of the student's file, or None.
-        callers: the lines of it that led there, the nearest first.
-        changed: names of the arguments that are no longer what they were.
-        refused: what the guard refused during the calls.
-        printed: what the function printed the first time.
-        again: the value of the second time; None where it was not asked twice.
-        again_error: "" or what went wrong the second time alone.
-        shares: what the answer shares its memory with: "another answer", or the name
-            of an argument.
     """
 
-    value: Any = None
-    error: str = ""
+    value: Any = None  # an array, a tuple of arrays, or None
+    error: str = ""  # "" or what went wrong, in words
+    # "" where the function returned; the exception's name where it raised one;
+    # "missing", "unsendable", "stopped" (time, memory, ended, channel), or "waits" (not
+    # asked: it needs a task that was stopped).
     kind: str = ""
-    line: int | None = None
-    callers: tuple[int, ...] = ()
+    line: int | None = None  # of the student's file, or None
+    callers: tuple[int, ...] = ()  # the lines of it that led there, the nearest first
+    # Names of the arguments that are no longer what they were.
     changed: tuple[str, ...] = ()
-    refused: tuple[str, ...] = ()
-    printed: str = ""
-    again: Any = None
-    again_error: str = ""
+    refused: tuple[str, ...] = ()  # what the guard refused during the calls
+    printed: str = ""  # what the function printed the first time
+    again: Any = None  # the value of the second time; None where it was not asked twice
+    again_error: str = ""  # "" or what went wrong the second time alone
+    # What the answer shares its memory with: "another answer", or an argument's name.
     shares: tuple[str, ...] = ()
 
 
@@ -96,11 +74,7 @@ class Exchange:
 
 
 def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
-    """Return the replies of exchanges.
-
-    Raises:
-        ValueError: a question has no reply: nobody asked it.
-    """
+    """Return the replies of exchanges; a ValueError where nobody asked the question."""
     found = []
     for exchange in exchanges:
         if exchange.reply is None:

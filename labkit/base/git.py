@@ -44,29 +44,18 @@ class _SlowError(GitError):
 
 @dataclass(frozen=True)
 class History:
-    """The last commit of a clone.
+    """The last commit of a clone."""
 
-    Attributes:
-        readable: whether there is a repository that git can read.
-        commit: its hash; "" where there is no commit yet.
-        committed: the time that its author gave it, seconds since 1970, or None.
-        author: the name that its author gave; anybody can type any.
-        blobs: hash of each wanted file in it, by path.
-    """
-
-    readable: bool
-    commit: str = ""
+    readable: bool  # whether there is a repository that git can read
+    commit: str = ""  # its hash; "" where there is no commit yet
+    # The time that its author gave it, seconds since 1970, or None.
     committed: int | None = None
-    author: str = ""
+    author: str = ""  # the name that its author gave; anybody can type any
+    # Hash of each wanted file in it, by path.
     blobs: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, name: str, data: bytes | None) -> bool:
-        """Return whether a file is committed as it is.
-
-        Args:
-            name: path from the top of the clone.
-            data: its content; None where only its name counts.
-        """
+        """Return whether a file is committed as it is; None asks for its name alone."""
         blob = self.blobs.get(name)
         if blob is None or data is None:
             return blob is not None
@@ -157,11 +146,7 @@ def blob(clone: Path, name: str) -> bytes:
 
 
 def short_sha(folder: Path) -> str:
-    """Return the short commit id that HEAD names, or "" outside a repository.
-
-    Args:
-        folder: the working tree's top folder: a clone or a linked worktree.
-    """
+    """Return the short commit id that HEAD names, or "" outside a repository."""
     try:
         return (_git(folder / ".git", "rev-parse", "--verify", "HEAD") or "")[:SHA]
     except (GitError, OSError):  # a folder that is not for us to look into
@@ -178,13 +163,12 @@ def too_much(folder: Path, commit: str) -> str:
     Raises:
         GitError: git is not there, or takes too long.
     """
-    where = {"folder": folder, "seconds": SECONDS, "GIT_NO_REPLACE_OBJECTS": "1"}
-    where["largest"] = (
-        MOST_FILES * 400
-    )  # git's line on a file with a name of 300 letters
-    if run("rev-parse", "-q", "--verify", commit, **where).returncode:  # type: ignore
+    where: dict[str, Any] = {"folder": folder, "seconds": SECONDS}
+    # A line of git's on a file with a name of 300 letters has 400.
+    where |= {"largest": MOST_FILES * 400, "GIT_NO_REPLACE_OBJECTS": "1"}
+    if run("rev-parse", "-q", "--verify", commit, **where).returncode:
         return ""
-    listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)  # type: ignore
+    listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)
     sizes = [entry.split(None, 4)[3] for entry in listed.stdout.split("\0")[:-1]]
     size = sum(int(one) for one in sizes if one.isdecimal())
     if listed.returncode or len(sizes) > MOST_FILES or size > LARGEST_TREE:
@@ -332,22 +316,22 @@ def _git_bytes(git: Path, *arguments: str, say: str = "") -> bytes | None:
     return done.stdout if done.returncode == 0 else None
 
 
+def _line(commit: str, role: str) -> str:
+    """Return the line of a commit's text on its "author" or "committer"."""
+    lines = commit.partition("\n\n")[0].splitlines()
+    return next((line for line in lines if line.startswith(f"{role} ")), f"{role} ")
+
+
 def _time(commit: str) -> int | None:
     """Return the committer's time of a commit's text; None where it is none."""
-    for line in commit.partition("\n\n")[0].splitlines():
-        if line.startswith("committer "):
-            seconds = line.rsplit(" ", 2)[-2]
-            if seconds.isdecimal() and len(seconds) < 12:
-                return int(seconds) if int(seconds) < YEAR_2100 else None
-    return None
+    seconds = _line(commit, "committer").rsplit(" ", 2)[-2]
+    plain = seconds.isdecimal() and len(seconds) < 12
+    return int(seconds) if plain and int(seconds) < YEAR_2100 else None
 
 
 def _author(commit: str) -> str:
     """Return who a commit's text says wrote it, without the address."""
-    for line in commit.partition("\n\n")[0].splitlines():
-        if line.startswith("author "):
-            return line.removeprefix("author ").rpartition("<")[0].strip()
-    return ""
+    return _line(commit, "author").removeprefix("author ").rpartition("<")[0].strip()
 
 
 def _blob_hash(data: bytes, digits: int) -> str:

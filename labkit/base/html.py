@@ -102,7 +102,7 @@ def tiles(cells: Iterable[tuple[str, str, str]]) -> str:
 def table(
     head: str, rows: Iterable[str], kind: str = "card scroll", below: str = ""
 ) -> str:
-    """Return a table that scrolls sideways on a phone.
+    """Return a table that scrolls sideways on a phone, and what stands below it.
 
     Args:
         head: cells of its first row.

@@ -93,13 +93,7 @@ def start_options() -> dict[str, object]:
 def run(
     command: Sequence[str], *, env: Mapping[str, str], **more: Any
 ) -> subprocess.CompletedProcess[str]:
-    """Run a program that reads no input; return what it printed, bad bytes as "?".
-
-    Args:
-        command: its words.
-        env: its environment.
-        more: as `subprocess.run`: cwd, timeout.
-    """
+    """Run a program that reads no input; return what it printed, bad bytes as "?"."""
     return subprocess.run(
         command,
         env=env,
@@ -133,12 +127,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
-    """Bound every file that a child and what it starts write, on Linux.
-
-    Args:
-        process: just started.
-        largest: bytes; who writes more is ended by the kernel.
-    """
+    """Have Linux end a child, or what it starts, at a file of more bytes."""
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError, ValueError):  # gone, or bounded already
             limits = (largest, largest)
@@ -146,12 +135,7 @@ def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
 
 
 def sweep(prefix: str, seconds: float) -> None:
-    """Remove the temporary folders that a killed run of ours left behind.
-
-    Args:
-        prefix: of their names.
-        seconds: how long ago they were made, at least: nobody works there any more.
-    """
+    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`."""
     for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
         with contextlib.suppress(OSError):
             facts = folder.lstat()
@@ -165,8 +149,10 @@ def resident_bytes(process: subprocess.Popen[bytes]) -> int:
     try:
         if sys.platform == "win32":
             return _windows_commit(int(process._handle))  # type: ignore[attr-defined]
-        if sys.platform.startswith("linux"):
-            return _linux_pages(process.pid) * os.sysconf("SC_PAGE_SIZE")
+        if sys.platform.startswith("linux"):  # bubblewrap's Python is its child
+            sizes = [_read(f"/proc/{it}/statm").split() for it in _family(process.pid)]
+            pages = sum(int(words[1]) for words in sizes if words)
+            return pages * os.sysconf("SC_PAGE_SIZE")
         ps = ["ps", "-o", "rss=", "-p", str(process.pid)]
         said = subprocess.run(ps, capture_output=True, text=True, check=False)
         return int(said.stdout or 0) * 1024
@@ -196,12 +182,6 @@ def scheduled(process: subprocess.Popen[bytes]) -> tuple[float, float]:
     return ran / 1e9, waited / 1e9
 
 
-def _linux_pages(pid: int) -> int:
-    """Return the memory of a process and its children; bubblewrap's is a child."""
-    sizes = [_read(f"/proc/{one}/statm").split() for one in _family(pid)]
-    return sum(int(words[1]) for words in sizes if words)
-
-
 def _family(pid: int) -> list[int]:
     """Return a process and what it started, on Linux."""
     children = _read(f"/proc/{pid}/task/{pid}/children").split()
@@ -222,19 +202,7 @@ class _Counters(ctypes.Structure):
     _fields_ = [
         ("cb", ctypes.c_ulong),
         ("PageFaultCount", ctypes.c_ulong),
-        *(
-            (name, ctypes.c_size_t)
-            for name in (
-                "PeakWorkingSetSize",
-                "WorkingSetSize",
-                "QuotaPeakPagedPoolUsage",
-                "QuotaPagedPoolUsage",
-                "QuotaPeakNonPagedPoolUsage",
-                "QuotaNonPagedPoolUsage",
-                "PagefileUsage",
-                "PeakPagefileUsage",
-            )
-        ),
+        ("sizes", ctypes.c_size_t * 8),  # the seventh is PagefileUsage
     ]
 
 
@@ -245,4 +213,4 @@ def _windows_commit(handle: int) -> int:
     kernel.K32GetProcessMemoryInfo(
         ctypes.c_void_p(handle), ctypes.byref(counters), counters.cb
     )
-    return int(counters.PagefileUsage)
+    return int(counters.sizes[6])

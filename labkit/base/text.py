@@ -7,7 +7,7 @@ lines of ours, or a megabyte. All of it passes through here at the border.
 
 import unicodedata
 
-LENGTH = 500  # characters
+LENGTH, LINE = 500, 200  # characters
 # What a terminal or a page obeys instead of showing it: controls, line and paragraph
 # separators, and format characters, which include those of the reading direction.
 _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
@@ -24,23 +24,17 @@ def visible(text: object, length: int = LENGTH) -> str:
         Controls, format characters and line breaks as spaces, unpaired surrogates and
         unassigned code points as "?", no space at either end.
     """
-    whole = text if isinstance(text, str) else str(text)
+    whole = str(text)
     shown = "".join(map(_one, whole[: 2 * length + 2])).strip()
     if len(shown) <= length and len(whole) <= 2 * length + 2:
         return shown
     return shown[:length] + "..."
 
 
-def visible_lines(text: object, lines: int = 40, length: int = 200) -> str:
-    """Return text of several lines as lines that are each harmless.
-
-    Args:
-        text: anything.
-        lines: how many to keep.
-        length: characters to keep of each.
-    """
-    whole = (text if isinstance(text, str) else str(text))[: 2 * lines * length]
-    return "\n".join(visible(line, length) for line in whole.splitlines()[:lines])
+def visible_lines(text: object, lines: int = 40) -> str:
+    """Return text of several lines as so many lines that are each harmless."""
+    whole = str(text)[: 2 * lines * LINE]
+    return "\n".join(visible(line, LINE) for line in whole.splitlines()[:lines])
 
 
 def _one(character: str) -> str:

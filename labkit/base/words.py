@@ -22,12 +22,7 @@ def number_of(value: float) -> str:
 
 
 def command(option: str, log: Path) -> str:
-    """Return what to type, in the kit's folder, to look after a log.
-
-    Args:
-        option: as `--check`.
-        log: named in the command unless it is the kit's own.
-    """
+    """Return what to type, in the kit's folder, to look after a log: `--check`, say."""
     start = f"python3 scripts/log_metric.py {option}"
     path = log.absolute()
     if path == OWN_LOG:
@@ -37,12 +32,7 @@ def command(option: str, log: Path) -> str:
 
 
 def in_words(error: OSError, name: str) -> str:
-    """Return what an error means for a person, and what to do about it.
-
-    Args:
-        error: from opening the log, or adding to it.
-        name: the log's path.
-    """
+    """Return what an error with the log of that name means, and what to do about it."""
     if os.path.isdir(name):
         return "a folder is in the log's place. Move that folder away."
     if error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)):

@@ -77,20 +77,11 @@ class Rehearsal(Lab):
 
 
 def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
-    """Return what a check says of the lab: nothing where no step of it fails.
-
-    Args:
-        day, script, sandbox: as those of `failing_step`.
-    """
-    if not (failed := failing_step(day, script, sandbox)):
+    """Return what a check says of the lab: nothing where no step of it fails."""
+    if not (failed := rehearse(day, script, sandbox)[0]):
         return []
     says = f"All tasks pass, but the lab fails with your functions: {failed}."
     return [Item("lab", "wrong", f"{says}\nSee it: make run DAY={day.number}")]
-
-
-def failing_step(day: Day, script: Path, sandbox: Sandbox) -> str:
-    """Return the first step of the lab that fails with a file's functions, or ""."""
-    return rehearse(day, script, sandbox)[0]
 
 
 def rehearse(

@@ -29,16 +29,11 @@ _INDENT = 7  # where a message starts
 
 @dataclass(frozen=True)
 class Report:
-    """One check of a day.
+    """One check of a day."""
 
-    Attributes:
-        day: from the manifest.
-        tasks: one result per task that was checked.
-        items: one per deliverable; empty when one task alone was checked.
-    """
-
-    day: Day
-    tasks: Sequence[TaskResult]
+    day: Day  # from the manifest
+    tasks: Sequence[TaskResult]  # one result per task that was checked
+    # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
 
     @property
@@ -79,9 +74,10 @@ class Report:
         if self.problem:
             return "fix that line, then check again."
         for result in self.left:
-            if not result.task.optional:
+            if result in self.counted:
                 task = result.task
-                return f"{_named(task)}. Stuck? make hint TASK={task.id}"
+                named = f"task {task.id}, {' and '.join(task.functions)}"
+                return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
                 return f"the {item.name}."
@@ -93,15 +89,8 @@ class Report:
         return f"the whole day: make check DAY={self.day.number}"
 
 
-def _named(task: Task) -> str:
-    return f"task {task.id}, {' and '.join(task.functions)}"
-
-
 def as_json(report: Report) -> dict[str, Any]:
     """Return a report for tools.
-
-    Args:
-        report: of one check.
 
     Returns:
         "day", "passed", "done", "total", "problem", "next", and "entries": per task or
@@ -109,30 +98,13 @@ def as_json(report: Report) -> dict[str, Any]:
         of a task also "follows" and "call".
     """
     tasks = [
-        {
-            "id": result.task.id,
-            "kind": "task",
-            "title": result.task.title,
-            "status": result.verdict.status,
-            "mistake": result.verdict.mistake,
-            "message": result.verdict.message,
-            "follows": result.verdict.follows,
-            "call": result.verdict.call,
-            "measured": list(result.verdict.measured),
-        }
+        _entry("task", result.task.id, result.task.title, result.verdict)
+        | {"follows": result.verdict.follows, "call": result.verdict.call}
         for result in report.tasks
     ]
     items = [
-        {
-            "id": item.name,
-            "kind": "deliverable",
-            "title": item.name,
-            "status": item.status,
-            "mistake": "",
-            "message": item.message,
-            "measured": [],
-        }
-        for item in report.items
+        _entry("deliverable", i.name, i.name, Verdict(i.status, message=i.message))
+        for i in report.items
     ]
     return {
         "day": report.day.number,
@@ -142,6 +114,18 @@ def as_json(report: Report) -> dict[str, Any]:
         "problem": report.problem,
         "next": report.next_step(),
         "entries": tasks + items,
+    }
+
+
+def _entry(kind: str, name: str, title: str, verdict: Verdict) -> dict[str, Any]:
+    return {
+        "id": name,
+        "kind": kind,
+        "title": title,
+        "status": verdict.status,
+        "mistake": verdict.mistake,
+        "message": verdict.message,
+        "measured": list(verdict.measured),
     }
 
 
@@ -163,7 +147,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         verdict = result.verdict
         status = "unjudged" if report.problem else state_of(verdict)
         lines.append(_line(name, status, colour, width))
-        if not report.problem and verdict.mistake != "unwritten":
+        begun = verdict.function not in ("", result.task.functions[0])
+        if not report.problem and (begun or verdict.mistake != "unwritten"):
             says = _said(report, result, explain)
             lines += _wrapped(says, _INDENT)
             if verdict.call and verdict.message in says:

@@ -4,11 +4,8 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
-from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
-from labkit.judge.ask import Ask, Asked, Robot
+from labkit.judge.ask import Asked, as_plain
 from labkit.judge.mistake import InTurn
 from labkit.judge.right_when import (
     QUESTIONS,
@@ -76,28 +73,15 @@ def right_when(
         return [None if reply.kind else reply.value for reply in came]
 
     given, doubled = ([answers(one.calls) for one in some] for some in (tried, twice))
-    truth, near = _truth(asked.ask), asked.ask.near
-    says = conclude(tried, given, truth, near, _mistaken(asked.ask))
+    ask, near = asked.ask, asked.ask.near
+    assert isinstance(ask.truth, InTurn)
+    truth = _of_one(ask.truth)
+    others = [_of_one(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
+    says = conclude(tried, given, truth, near, others)
     more = not_doubled(twice, answers(calls), doubled, calls, truth, near)
     return f"{says} {more}".strip()
 
 
-def _truth(ask: Ask) -> Callable[..., Any]:
-    """Return the right answer to one question."""
-    assert isinstance(ask.truth, InTurn)
-    one = ask.truth.function
-    return lambda *args: one(*map(_plain, args))
-
-
-def _mistaken(ask: Ask) -> list[Callable[..., Any]]:
-    """Return the row's own mistakes, of one question each."""
-    codes = [m.redo.function for m in ask.named if isinstance(m.redo, InTurn)]
-    return [lambda *args, code=code: code(*map(_plain, args)) for code in codes]
-
-
-def _plain(arg: Any) -> Any:
-    if isinstance(arg, Robot):
-        return arg.model
-    if isinstance(arg, Chain):
-        return arg.pairs
-    return np.copy(arg) if isinstance(arg, np.ndarray) else arg
+def _of_one(function: InTurn) -> Callable[..., Any]:
+    """Return a function of one question's arguments."""
+    return lambda *args: function.function(*map(as_plain, args))

@@ -26,18 +26,12 @@ FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 @dataclass(frozen=True)
 class TaskResult:
-    """How a task stands.
+    """How a task stands."""
 
-    Attributes:
-        task: as in the manifest.
-        verdict: what the answers show.
-        printed: what its functions printed, for --explain.
-        refused: what the sandbox refused, also where the code went on without.
-    """
-
-    task: Task
-    verdict: Verdict
-    printed: str = ""
+    task: Task  # as in the manifest
+    verdict: Verdict  # what the answers show
+    printed: str = ""  # what its functions printed, for --explain
+    # What the sandbox refused, also where the code went on without.
     refused: tuple[str, ...] = ()
 
     @property
@@ -155,15 +149,11 @@ class _Check:
             verdict = replace(verdict, message=f"{verdict.message} {says}")
         return verdict
 
-    def _asked_of(self, task: Task, verdict: Verdict) -> list[Asked]:
-        """Return the questions to the function that a verdict is about."""
-        rounds = rounds_of(self.day, [task], self.seed)[task.id]
-        return [one for one in rounds if one.function == verdict.function]
-
     def _with_experiments(self, task: Task, result: TaskResult, added: str) -> Verdict:
         """Return a verdict with the arguments that, neutral, make the answer right."""
         verdict = result.verdict
-        (asked,) = self._asked_of(task, verdict)
+        rounds = rounds_of(self.day, [task], self.seed)[task.id]
+        asked = next(one for one in rounds if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(
             self.script, robots, library_of(self.day), added, self.day.limits

@@ -94,14 +94,11 @@ def style(day: Day) -> Iterator[str]:
     """Yield what the linter says of the day's files."""
     paths = [day.own, day.source, *(ROOT / "robo47" / f"{m}.py" for m in day.library)]
     files = [str(path) for path in paths if path.exists()]
-    for check in (
-        ["check", "--output-format=concise", "-q"],
-        ["format", "--check", "-q"],
-    ):
-        code, lines = run(day, "-m", "ruff", *check, *files)
-        if code and check[0] == "format":
-            lines = [f"to format: .venv/bin/python -m ruff format {shown(day.own)}"]
-        yield from lines if code else ()
+    ruff = ("-m", "ruff")
+    code, lines = run(day, *ruff, "check", "--output-format=concise", "-q", *files)
+    yield from lines if code else ()
+    if run(day, *ruff, "format", "--check", "-q", *files)[0]:
+        yield f"to format: .venv/bin/python -m ruff format {shown(day.own)}"
 
 
 def _test_of(module: str) -> bool:
@@ -142,15 +139,11 @@ def main() -> int:
     number = options.day or max(day_numbers(), default=1)
     day = find_day(number)
     print(f"Day {number}: {day.title}, in {shown(day.own)}/")
-    parts = {
-        n: part for n, part in PARTS.items() if not (options.fast and n == "tests")
-    }
     wrong = []
-    for name, part in parts.items():
-        wrong += [] if look(name, part, day) else [name]
+    for name, part in PARTS.items():
+        skipped = options.fast and name == "tests"
+        wrong += [] if skipped or look(name, part, day) else [name]
         if wrong == ["files"]:  # nothing else could say more than that
             break
-    says = (
-        f"not yet as it must be: {', '.join(wrong)}" if wrong else "all as it must be"
-    )
-    return cli.conclude(not wrong, says)
+    says = f"not yet as it must be: {', '.join(wrong)}" if wrong else ""
+    return cli.conclude(not wrong, says or "all as it must be")

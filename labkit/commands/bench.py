@@ -29,18 +29,12 @@ from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
+RIVALS = ("roboticstoolbox-python", "modern-robotics", "mink")
 PARTS = (
     "fk", "ik", "dynamics", "lab", "growth", "metrics", "tests", "checker",
     "first-minute",
 )  # fmt: skip
-VERSIONS = (
-    "mujoco",
-    "numpy",
-    "pin",
-    "roboticstoolbox-python",
-    "modern-robotics",
-    "mink",
-)
+VERSIONS = ("mujoco", "numpy", "pin", *RIVALS)
 
 
 def machine() -> dict[str, Any]:
@@ -89,9 +83,8 @@ def main() -> int:
     results["about"] = machine()
     for part in options.parts or PARTS:
         print(f"bench: {part} ...", file=sys.stderr, flush=True)
-        results[part] = importlib.import_module(
-            f"bench.bench_{part.replace('-', '_')}"
-        ).run()
+        module = f"bench.bench_{part.replace('-', '_')}"
+        results[part] = importlib.import_module(module).run()
         RESULTS.write_text(json.dumps(results, indent=1) + "\n", "utf-8")
     if "growth" in results:
         from bench.picture import draw

@@ -19,7 +19,6 @@ import secrets
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.git import short_sha
@@ -29,9 +28,6 @@ from labkit.sandbox.process import Process
 from robo47 import __version__
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
-
-if TYPE_CHECKING:
-    from labkit.handin import Item
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
@@ -74,7 +70,11 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if script == day.work:
         journal.note(results)
         states.remember(key, results)
-    items = [] if options.task else [*lab, *handed_in(day, done)]
+    items = lab
+    if not options.task:
+        from labkit.handin import check_deliverables
+
+        items += check_deliverables(day, tasks_pass=done)
     found = report.Report(day, results, items)
     if options.json:
         made = {"kit": __version__, "commit": short_sha(ROOT), "seed": seed}
@@ -83,13 +83,6 @@ def check(day: Day, options: argparse.Namespace) -> int:
         colour = cli.wants_colour(sys.stdout)
         print(report.as_text(found, explain=options.explain, colour=colour))
     return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
-
-
-def handed_in(day: Day, tasks_pass: bool) -> "list[Item]":
-    """Check what the day hands in besides its tasks."""
-    from labkit.handin import check_deliverables
-
-    return check_deliverables(day, tasks_pass=tasks_pass)
 
 
 def watch(day: Day, options: argparse.Namespace) -> int:

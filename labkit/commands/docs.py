@@ -34,7 +34,7 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-SMALL = "figures/small/day{}.png"  # of a week's folder: a day's thumbnail
+SMALL = "figures/day{}_small.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(
@@ -169,9 +169,6 @@ def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
     Args:
         documents: and whether their tables alone.
         check: write nothing.
-
-    Raises:
-        Robo47Error: a command that a document asks for fails.
     """
     drift = 0
     for path, tables in documents.items():

@@ -27,18 +27,8 @@ LEFT_OUT = re.compile(
     r"\.ci/|\.github/|bench/|site/|tests/|conftest\.py|CONTRIBUTING\.md"
     r"|docs/|w[^/]*/(work|notebooks)/|w[^/]*/day\d+/(submissions/|test_)"
 )
-COMMANDS: tuple[str, ...] = (
-    "test",
-    "soak",
-    "lint",
-    "docs",
-    "site",
-    "oracle",
-    "bench",
-    "test-matrix",
-)
-COMMANDS += ("grade", "edition")
-NOT_HERE = re.compile(rf"make ({'|'.join(COMMANDS)})\b")
+COMMANDS = "test|soak|lint|docs|site|oracle|bench|test-matrix|grade|edition"
+NOT_HERE = re.compile(rf"make ({COMMANDS})\b")
 SECTIONS = ("How fast", "Where things are")  # of README: about what is left out
 ABOUT = """# Student edition of robo47 {version}
 
@@ -81,11 +71,7 @@ def main() -> int:
 
 
 def empty(out: Path) -> None:
-    """Make room: a new folder, or an older edition, whose history stays.
-
-    Raises:
-        Robo47Error: something else is there, or it is in the clone.
-    """
+    """Make room: a new folder, or an older edition, whose history stays."""
     if out.is_relative_to(ROOT):
         raise Robo47Error(f"{shown(out)} is inside the kit; expected a place beside it")
     if not out.exists() or not any(out.iterdir()):
@@ -102,7 +88,7 @@ def shorten(out: Path) -> None:
     """Take from Makefile and README what is about things that are left out."""
     makefile = out / "Makefile"
     blocks = makefile.read_text("utf-8").split("\n\n")
-    gone = re.compile(rf"({'|'.join(COMMANDS)}|site/\S+|\.venv-bench/\S+):")
+    gone = re.compile(rf"({COMMANDS}|site/\S+|\.venv-bench/\S+):")
     makefile.write_text("\n\n".join(b for b in blocks if not gone.match(b)), "utf-8")
     readme = out / "README.md"
     text = readme.read_text("utf-8")

@@ -63,11 +63,7 @@ def main() -> int:
 
 
 def draw_own(day: Day, path: Path) -> int:
-    """Draw the picture that a day hands in, with the functions of the student's file.
-
-    Raises:
-        Robo47Error: another picture is in its place.
-    """
+    """Draw the picture that a day hands in, with the student's own functions."""
     from PIL import PngImagePlugin
 
     from labkit.figures import sheet
@@ -105,16 +101,7 @@ def day_of(names: list[str]) -> int | None:
 
 
 def save(picture: Any, path: Path, about: Any = None) -> str:
-    """Write a picture whole, or leave what was there; return a line about it.
-
-    Args:
-        picture: a PIL image.
-        path: the PNG file.
-        about: what the file says of itself, a PngInfo.
-
-    Raises:
-        Robo47Error: the folder cannot be written to.
-    """
+    """Write a PIL image whole, or leave what was there; return a line about it."""
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -29,15 +29,13 @@ import re
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, git, store
-from labkit.grade import engine, overview, week_page
-from labkit.grade.classroom import Classroom, write_all
+from labkit.grade import engine, week_page
+from labkit.grade.classroom import Classroom, Tally, write_all
 from labkit.grade.journal import Journal
-from labkit.grade.overview import Course
 from labkit.grade.package import version
 from labkit.grade.platforms import PLATFORMS, known
 from labkit.grade.platforms import as_csv as platforms_csv
@@ -61,12 +59,8 @@ def parse() -> argparse.Namespace:
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
     add("--day", metavar="N|N-M|all", help="default: 1")
     add("--week", type=int, metavar="N", help="all days of this week")
-    add(
-        "--out",
-        type=Path,
-        metavar="CSV",
-        help="default: grades-dayN/grades.csv; of several days grades-days/grades.csv",
-    )
+    where = "default: grades-dayN/grades.csv; of several days grades-days/grades.csv"
+    add("--out", type=Path, metavar="CSV", help=where)
     add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
     add("--pull", action="store_true", help="clone what is missing, update the rest")
     add(
@@ -76,54 +70,25 @@ def parse() -> argparse.Namespace:
         help="2026-09-04T18:00, or a day, which means its end; minutes since the last "
         "commit count to it; default: when grading began",
     )
-    add(
-        "--processes",
-        type=positive,
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="submissions at a time; default: one per core",
-    )
-    add(
-        "--seed",
-        type=int,
-        metavar="N",
-        help="of the fresh inputs, the same for everybody; default: drawn once",
-    )
+    cores, at_once = os.cpu_count() or 1, "submissions at a time; default: one per core"
+    add("--processes", type=positive, default=cores, metavar="N", help=at_once)
+    drawn = "of the fresh inputs, the same for everybody; default: drawn once"
+    add("--seed", type=int, metavar="N", help=drawn)
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--proof", action="store_true", help="a page to show for each, of the week")
-    add(
-        "--again",
-        nargs="?",
-        const="",
-        metavar="FOLDER,...",
-        help="grade those too that did not change: everybody, or only who asks",
-    )
-    add(
-        "--keep",
-        choices=("best", "last"),
-        default="last",
-        help="which of somebody's results counts; default: last",
-    )
+    whom = "grade those too that did not change: everybody, or only who asks"
+    add("--again", nargs="?", const="", metavar="FOLDER,...", help=whom)
+    counts = "which of somebody's results counts; default: last"
+    add("--keep", choices=("best", "last"), default="last", help=counts)
     add("--kit", metavar="TAG", help="grade with the kit as it was at a tag or commit")
     add("--frozen", action="store_true", help="another version's results stay")
-    add(
-        "--format",
-        choices=("csv", *PLATFORMS),
-        default="csv",
-        help="write a table, canvas.csv, for a learning platform's import, too",
-    )
-    add(
-        "--assignment",
-        default="Day {day}",
-        metavar="NAME",
-        help="what the platform calls it; default: Day {day}",
-    )
+    imported = "write a table, canvas.csv, for a learning platform's import, too"
+    add("--format", choices=("csv", *PLATFORMS), default="csv", help=imported)
+    called = "what the platform calls it; default: Day {day}"
+    add("--assignment", default="Day {day}", metavar="NAME", help=called)
     add("--anonymous", action="store_true", help="write a table without names, too")
-    add(
-        "--i-know-them",
-        action="store_true",
-        help="grade with your own rights where no wall stands, or as root",
-    )
+    trusted = "grade with your own rights where no wall stands, or as root"
+    add("--i-know-them", action="store_true", help=trusted)
     return parser.parse_args()
 
 
@@ -178,32 +143,6 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     if not found:
         raise Robo47Error(f"the kit has none of the days {first} to {last}")
     return found
-
-
-@dataclass
-class Tally:
-    """What is said at the end of all days."""
-
-    results: int = 0
-    graded_now: int = 0
-    faults: int = 0
-    outdated: int = 0
-    ungraded: bool = False
-    odd: list[str] = field(default_factory=list)
-    notes: dict[str, str] = field(default_factory=dict)
-
-    def add(self, room: Classroom, course: Course) -> None:
-        """Take over a day's."""
-        self.results += len(course.class_)
-        self.graded_now += room.graded_now
-        self.faults += room.faults
-        self.outdated += room.journal.outdated
-        self.ungraded |= any(overview.state(g) == "ungraded" for g in course.class_)
-        if room.journal.odd:
-            where = shown(room.journal.path.absolute())
-            self.odd.append(
-                f"{where}: lines that are no result, left out: {room.journal.odd:,}"
-            )
 
 
 def main() -> int:
@@ -286,7 +225,7 @@ def grade_day(
     given = options.deadline is not None
     since = options.deadline if given else int(time.time())
     journal = Journal(
-        out.parent / "grading.jsonl", [day], since, deadline=given, seed=options.seed
+        out.parent / "grading.jsonl", day, since, deadline=given, seed=options.seed
     )
     with contextlib.closing(journal):
         if not week.days:
@@ -296,16 +235,17 @@ def grade_day(
             )
         again = options.again and options.again.split(",")
         again = () if again is None else (again or None)
-        room = Classroom(
-            week.students, [day], journal, again, options.frozen, options.keep
-        )
-        room.notes = tally.notes
+        how = (again, options.frozen, options.keep)
+        room = Classroom(week.students, day, journal, *how, tally)
         if options.pull and not week.days:
             room.pull()
-        (course,) = room.grade(where, out.parent / "feedback")
+        course = room.grade(where, out.parent / "feedback")
         write_all(course, out, anonymous=options.anonymous)
     week.add(course)
-    tally.add(room, course)
+    tally.outdated += journal.outdated
+    if journal.odd:
+        path = shown(journal.path.absolute())
+        tally.odd.append(f"{path}: lines that are no result, left out: {journal.odd:,}")
     counts = week.counts(day)
     words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
     print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
@@ -322,7 +262,7 @@ def prove(week: Week, folder: Path, at_once: int) -> None:
 
 def tell(tally: Tally, week: Week, out: Path) -> None:
     """Print what came out of all days."""
-    kept = tally.results - tally.graded_now - tally.faults
+    kept = len(week.graded) - tally.graded_now - tally.faults
     print(f"graded now: {tally.graded_now:,}; unchanged since: {kept:,}")
     several = len(week.days) > 1  # then the page has them, day by day
     for task, mistake, number in [] if several else week.mistakes[week.days[0].number]:
@@ -331,7 +271,7 @@ def tell(tally: Tally, week: Week, out: Path) -> None:
         print(f"not pulled: {len(tally.notes):,}; the column error says why")
     if tally.faults:
         print(f"this machine failed: {tally.faults:,}; run the same command again")
-    if tally.ungraded:
+    if any(one.percent is None for one in week.graded.values()):
         print("ungraded: the column error says why")
     if tally.outdated:
         print(f"another version of the kit had graded: {tally.outdated:,}; done anew")

@@ -102,5 +102,5 @@ def main() -> int:
     else:
         print(f"All {len(day.tasks)} tasks of day {day.number} pass.")
         if not is_sealed(day.source.read_text("utf-8")):
-            print("To compare with the kit's own: make hint TASK=1.4 (with its number)")
+            print(f"The kit's own, to compare: make hint TASK={day.tasks[0].id}, ...")
     return cli.EXIT_OK

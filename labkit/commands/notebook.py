@@ -56,15 +56,7 @@ sys.argv = ["SCRIPT"]  # add "--no-log" to leave metrics/metrics.csv alone
 
 
 def build(day: Day, starter: bool = False) -> str:
-    """Return a day's notebook as the text of its file.
-
-    Args:
-        day: from its manifest.
-        starter: with the gaps of the starter in place of the answers.
-
-    Raises:
-        Robo47Error: jupytext is not installed.
-    """
+    """Return a day's notebook as the text of its file, or of one with gaps."""
     try:
         import jupytext
     except ModuleNotFoundError:
@@ -89,11 +81,7 @@ def notebook_of(day: Day) -> Path:
 
 
 def extras(day: Day) -> dict[str, list[str]]:
-    """Return the cells that come after a step: {"1": [...], ..., "end": [...]}.
-
-    Raises:
-        Robo47Error: the day's notebook.toml is not right; says where.
-    """
+    """Return the cells that come after a step: {"1": [...], ..., "end": [...]}."""
     path = day.own / "notebook.toml"
     if not path.exists():
         return {}

@@ -52,11 +52,7 @@ def main() -> int:
 
 
 def found(week: Week, clone: facts.Clone) -> page.Proof:
-    """Check a week's days, run its labs and the capstone.
-
-    Raises:
-        Robo47Error: nothing of it is begun.
-    """
+    """Check a week's days, run its labs and the capstone."""
     days = days_of(week)
     with ExitStack() as stack:
         sandbox = stack.enter_context(Sandbox())
@@ -77,11 +73,7 @@ def found(week: Week, clone: facts.Clone) -> page.Proof:
 
 
 def write(path: Path, text: str) -> None:
-    """Write the page whole.
-
-    Raises:
-        Robo47Error: it cannot be written.
-    """
+    """Write the page whole."""
     try:
         store.replace(path, text.encode("utf-8", "replace"))
     except OSError as error:

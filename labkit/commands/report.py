@@ -77,7 +77,7 @@ def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -
     write(out / f"report-week{week.number}.html", page.encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
         for path in week_retro.fill(facts):
-            print(f"its numbers are in {shown(path)}")
+            print(f"its numbers are in {shown(path)}: commit it")
 
 
 def last_check(day: Day) -> str:

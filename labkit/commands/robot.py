@@ -37,10 +37,7 @@ SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
 
 
 def fetch(root: Path) -> dict[str, Any]:
-    """Fill root with the Panda from the first source that answers.
-
-    Args:
-        root: the folder that will hold `franka_emika_panda/` and PROVENANCE.json.
+    """Fill a folder with the Panda from the first source that answers.
 
     Returns:
         The provenance.

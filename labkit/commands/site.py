@@ -32,8 +32,6 @@ def main() -> int:
     files = [path for path in options.out.rglob("*") if path.is_file()]
     pages = sum(path.suffix == ".html" for path in files)
     size = sum(path.stat().st_size for path in files) / 1e6
-    seconds = time.monotonic() - begun
-    print(
-        f"{shown(options.out.resolve())}: {pages} pages, {size:.1f} MB, {seconds:.0f} s"
-    )
+    what = f"{pages} pages, {size:.1f} MB, {time.monotonic() - begun:.0f} s"
+    print(f"{shown(options.out.resolve())}: {what}")
     return cli.EXIT_OK

@@ -45,11 +45,7 @@ def start(day: Day) -> int:
 
 
 def require_begun(day: Day) -> None:
-    """Refuse a day without a file, or with an empty one; a lost kit.py comes back.
-
-    Raises:
-        Robo47Error: says how to begin.
-    """
+    """Refuse a day without a file, or with an empty one; a lost kit.py comes back."""
     start = f"make start DAY={day.number}"
     if not day.work.is_file():
         clone = day.folder.parent

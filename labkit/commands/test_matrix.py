@@ -26,13 +26,10 @@ FOLDER = ROOT / ".venv-matrix"
 
 def find_python(version: str) -> str | None:
     """Return the path of a Python that starts and has that version."""
-    for name in (f"python{version}", "python3", sys.executable):
-        path = shutil.which(name)
-        test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
-        if (
-            path
-            and subprocess.run([path, "-c", test], capture_output=True).returncode == 0
-        ):
+    test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
+    known = (f"python{version}", "python3", sys.executable)
+    for path in filter(None, map(shutil.which, known)):
+        if subprocess.run([path, "-c", test], capture_output=True).returncode == 0:
             return path
     return None
 
@@ -59,13 +56,10 @@ def environment(python: str, version: str, mujoco: str) -> Path:
 
 def run(command: list[str]) -> None:
     """Run a quiet command in the clone, or say how it failed."""
-    done = subprocess.run(
-        command, cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if done.returncode != 0:
-        raise Robo47Error(
-            f"`{shlex.join(command)}` failed: {done.stderr[-500:].strip()}"
-        )
+        why = done.stderr[-500:].strip()
+        raise Robo47Error(f"`{shlex.join(command)}` failed: {why}")
 
 
 def main() -> int:

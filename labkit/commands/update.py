@@ -56,11 +56,7 @@ def main() -> int:
 
 
 def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
-    """Return what the newer kit's own code did with the labs.
-
-    Raises:
-        Robo47Error: it could not.
-    """
+    """Return what the newer kit's own code did with the labs."""
     command = [sys.executable, "-m", "labkit.update.labs", own, target]
     environment = {**os.environ, "PYTHONPATH": str(worktree), "PYTHONUTF8": "1"}
     done = subprocess.run(

@@ -84,7 +84,7 @@ def screenshot(path: Path, start: str) -> int:
             "--screenshot other.png"
         )
     try:
-        from labkit.figures.screenshot import screenshot as draw
+        from labkit.figures.portrait import screenshot as draw
     except ModuleNotFoundError as missing:
         if missing.name != "PIL":
             raise

@@ -56,11 +56,7 @@ def candidates() -> dict[str, dict[str, str]]:
 
 
 def probe(variables: dict[str, str]) -> str:
-    """Return "renders", or in one line why a backend does not.
-
-    Args:
-        variables: what it adds to the environment.
-    """
+    """Return "renders", or in one line why a backend of such variables does not."""
     try:
         command = [sys.executable, "-c", PROBE]
         environment = {**os.environ, **variables}
@@ -84,13 +80,10 @@ def probe_backends() -> dict[str, str]:
 
 
 def rendering_environment(*, forget: bool = False) -> dict[str, str]:
-    """Return the environment for a process that draws.
+    """Return this process's environment with a MUJOCO_GL that draws.
 
     Args:
         forget: try anew instead of trusting what was found the last time.
-
-    Returns:
-        This process's environment, with MUJOCO_GL where a choice had to be made.
 
     Raises:
         Robo47Error: nothing draws here; the line names what to install.

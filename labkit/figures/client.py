@@ -24,9 +24,6 @@ class Studio(processes.Child):
     def draw(self, scene: Scene) -> Array:
         """Return the picture of a scene, (height, width, 3), bytes.
 
-        Args:
-            scene: what to draw.
-
         Raises:
             StudioEndedError: the process is gone; the line is the last that it said.
             Robo47Error: the robot cannot be loaded.
@@ -45,9 +42,6 @@ def draw(scene: Scene) -> Array:
     """Return the picture of a scene, (height, width, 3), bytes.
 
     The process that draws is started at the first picture and kept for the next.
-
-    Args:
-        scene: what to draw.
 
     Raises:
         Robo47Error: nothing draws here, or the robot cannot be loaded.

@@ -23,6 +23,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 SIZE, SECONDS = (480, 420), 5.0  # of a clip
+CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
 GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
@@ -30,16 +31,7 @@ Caption = tuple[str, bool | None]  # words; whether they are good news, None for
 
 
 def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
-    """Return a soft move to a configuration and back, without a jump at its end.
-
-    Args:
-        q_from: (nq,).
-        q_to: (nq,).
-        count: of configurations.
-
-    Returns:
-        (count, nq).
-    """
+    """Return a soft move from (nq,) to (nq,) and back without a jump, (count, nq)."""
     start, end = np.asarray(q_from, dtype=float), np.asarray(q_to, dtype=float)
     s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
     return start + s[:, None] * (end - start)
@@ -49,7 +41,6 @@ def arm_clip(
     qs: ArrayLike,
     ghost_of: Callable[[Array], Mapping[str, Array]] = lambda q: {},
     caption_of: Callable[[Array], Caption] = lambda q: ("", None),
-    camera: Camera | None = None,
 ) -> list[Image.Image]:
     """Return one picture of the Panda per configuration.
 
@@ -58,12 +49,7 @@ def arm_clip(
         ghost_of: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
             link7 carries the hand along.
         caption_of: what stands below.
-        camera: by default the portraits', a little further away.
-
-    Raises:
-        Robo47Error: nothing draws here; the line names what to install.
     """
-    seen_from = camera or Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
     pictures = []
     for q in tqdm(
         np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
@@ -75,7 +61,7 @@ def arm_clip(
             for link, T in ghost_of(q).items()
             if link in LINKS
         )
-        scene = Scene(full, SIZE, seen_from, ghosts, fast=True)
+        scene = Scene(full, SIZE, CAMERA, ghosts, fast=True)
         pictures.append(captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
     return pictures
 
@@ -96,9 +82,6 @@ def save_clip(
 
     Returns:
         Its size, bytes.
-
-    Raises:
-        Robo47Error: another ending.
     """
     kind = kind_of(path)
     each = round(1000 * seconds / len(frames))
@@ -114,11 +97,7 @@ def save_clip(
 
 
 def kind_of(path: Path) -> str:
-    """Return "gif" or "webp".
-
-    Raises:
-        Robo47Error: another ending.
-    """
+    """Return "gif" or "webp"; a Robo47Error refuses another ending."""
     kind = path.suffix.lower().lstrip(".")
     if kind not in ("gif", "webp"):
         raise Robo47Error(f"{path.name}: a clip ends in .gif or .webp")
@@ -142,12 +121,7 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
 
 
 def captioned(picture: Image.Image, caption: Caption) -> Image.Image:
-    """Return a picture with words below it.
-
-    Args:
-        picture: of any size.
-        caption: its words, see `Caption`; the picture stays as it is without.
-    """
+    """Return a picture with words below it, as it is where there are none."""
     words, good = caption
     if not words:
         return picture

@@ -23,13 +23,7 @@ Pixel = tuple[float, float]
 def draw_frames(
     picture: Image.Image, camera: Camera, frames: Mapping[str, Array]
 ) -> Image.Image:
-    """Return the picture with frames drawn over it, named at its sides.
-
-    Args:
-        picture: of a scene seen by the camera.
-        camera: the same camera.
-        frames: {name: T_world_frame (4, 4)}.
-    """
+    """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
     layer = Layer(picture.size)
     if not frames:
         return picture
@@ -51,11 +45,7 @@ def draw_frames(
 
 
 def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
-    """Return how long to draw each frame's axes: shorter where another sits already.
-
-    Args:
-        frames: {name: T_world_frame (4, 4)}.
-    """
+    """Return how long to draw each frame's axes: shorter where another sits already."""
     origins = np.array([T[:3, 3] for T in frames.values()])
     return [
         AXIS * SECOND ** int((np.linalg.norm(origins[:i] - p, axis=1) < 1e-3).sum())
@@ -64,12 +54,7 @@ def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
 
 
 def axis_ends(T_world_frame: Array, length: float = AXIS) -> Array:
-    """Return a frame's origin and the tips of its axes in the world, (4, 3).
-
-    Args:
-        T_world_frame: (4, 4).
-        length: of an axis, metres.
-    """
+    """Return a frame's origin and the tips of its axes in the world, (4, 3), metres."""
     origin, R = T_world_frame[:3, 3], T_world_frame[:3, :3]
     return np.vstack([origin, origin + length * R.T])
 
@@ -111,12 +96,7 @@ def place_labels(
 
 
 def spread(wanted: Array, gap: float) -> Array:
-    """Return increasing numbers at least `gap` apart, near the wanted ones.
-
-    Args:
-        wanted: increasing, (n,).
-        gap: the least difference of neighbours.
-    """
+    """Return increasing numbers at least `gap` apart, near increasing ones, (n,)."""
     # Without their gaps the numbers only have to increase: average where they do not.
     slack = wanted - gap * np.arange(len(wanted))
     blocks: list[list[float]] = []
@@ -132,11 +112,7 @@ class Layer:
     """A transparent sheet to draw on, enlarged so that its edges become smooth."""
 
     def __init__(self, size: tuple[int, int]) -> None:
-        """Make the sheet, transparent all over.
-
-        Args:
-            size: of the picture that it will lie on.
-        """
+        """Make a transparent sheet of a picture's size."""
         self.size = size
         self.text_height = size[1] / 27
         self.sheet = Image.new("RGBA", (size[0] * SMOOTH, size[1] * SMOOTH))
@@ -145,13 +121,7 @@ class Layer:
         self.unit = SMOOTH * size[1] / 800  # one pixel of a picture 800 high
 
     def line(self, ends: list[Pixel], colour: tuple[int, ...], width: float) -> None:
-        """Draw a line with round ends.
-
-        Args:
-            ends: pixels of the picture.
-            colour: red, green, blue.
-            width: in pixels of a picture 800 high.
-        """
+        """Draw a line with round ends, `width` pixels of a picture 800 high."""
         points = [(x * SMOOTH, y * SMOOTH) for x, y in ends]
         self.pen.line(points, colour, round(width * self.unit))
         for point in points:
@@ -176,11 +146,7 @@ class Layer:
         self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
 
     def letters(self, ends: Array) -> None:
-        """Write x, y and z at a frame's tips: red and green are one hue to many eyes.
-
-        Args:
-            ends: pixels of the origin and the three tips, and their depth, (4, 3).
-        """
+        """Write x, y and z at a frame's tips: red and green are alike to many eyes."""
         for name, tip in zip("xyz", ends[1:, :2], strict=True):
             away = tip - ends[0, :2]
             away = away / max(float(np.linalg.norm(away)), 1e-9)
@@ -205,13 +171,7 @@ class Layer:
         self.pen.polygon([(x * SMOOTH, y * SMOOTH) for x, y in corners], colour)
 
     def label(self, name: str, at: Pixel, origin: Pixel) -> None:
-        """Draw a name beside the end of its leader line.
-
-        Args:
-            name: of the frame.
-            at: pixel of the leader's end.
-            origin: pixel of the frame's origin.
-        """
+        """Draw a name at a pixel, the end of the leader line to its frame's origin."""
         left = at[0] < origin[0]
         self.line([at, origin], HALO, 4)
         self.line([at, origin], LEADER, 1.5)

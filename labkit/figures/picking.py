@@ -29,18 +29,7 @@ MOMENTS = ("descend", "lift", "put down")  # whose ends a picture shows
 
 
 def clip(result: Result, path: Path) -> str:
-    """Write a film of a pick.
-
-    Args:
-        result: of `capstone.pick`.
-        path: ends in .gif or .webp.
-
-    Returns:
-        A line about it.
-
-    Raises:
-        Robo47Error: nothing draws here, or another ending.
-    """
+    """Write a film of a pick, .gif or .webp; return a line about it."""
     kind_of(path)
     rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
     frames = [
@@ -52,18 +41,7 @@ def clip(result: Result, path: Path) -> str:
 
 
 def picture(result: Result, path: Path) -> str:
-    """Write a picture: the arm where it grasps, lifts and puts down.
-
-    Args:
-        result: of `capstone.pick`.
-        path: of the PNG file.
-
-    Returns:
-        A line about it.
-
-    Raises:
-        Robo47Error: nothing draws here, or it cannot be written.
-    """
+    """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
     sheet = side_by_side(_drawn(qpos, PICTURE_SIZE) for qpos in moments(result))
     try:
         sheet.save(path, "PNG")

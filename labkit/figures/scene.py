@@ -17,18 +17,14 @@ FARTHEST, MARGIN = 6.0, 0.05  # metres; share of the picture left free at its si
 
 @dataclass(frozen=True)
 class Camera:
-    """A camera that looks at a point, as MuJoCo's free camera does.
+    """A camera that looks at a point, as MuJoCo's free camera does."""
 
-    Attributes:
-        lookat: the point in the middle of the picture, metres.
-        distance: from the camera to that point, metres.
-        azimuth: direction of view about the world's z, radians; 0 looks along x.
-        elevation: direction of view above the horizon, radians; negative looks down.
-    """
-
+    # The point in the middle of the picture, metres.
     lookat: tuple[float, float, float] = (0.15, 0.0, 0.40)
-    distance: float = 1.85
+    distance: float = 1.85  # from the camera to that point, metres
+    # Direction of view about the world's z, radians; 0 looks along x.
     azimuth: float = np.radians(118.0)
+    # Direction of view above the horizon, radians; negative looks down.
     elevation: float = np.radians(-14.0)
 
     @property
@@ -41,15 +37,14 @@ class Camera:
         return se3.make_T(R_world_cam, back + self.lookat)
 
     def project(self, p_world: ArrayLike, size: tuple[int, int]) -> Array:
-        """Return where points appear in the picture.
+        """Return pixels right of and below the upper left corner, and the depth, m.
 
         Args:
             p_world: points, (..., 3), metres; in front of the camera.
             size: width and height of the picture, pixels.
 
         Returns:
-            Pixels right of and below the upper left corner, and the depth along the
-            line of sight in metres, (..., 3).
+            (..., 3).
         """
         T_cam_world = se3.inverse(self.T_world_cam)
         p_cam = np.asarray(p_world) @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
@@ -60,12 +55,7 @@ class Camera:
         return np.stack([right, below, depth], axis=-1)
 
     def stepped_back(self, p_world: Array, size: tuple[int, int]) -> "Camera":
-        """Return this camera, or one further away that has points in its picture.
-
-        Args:
-            p_world: points, (n, 3), metres.
-            size: width and height of the picture, pixels.
-        """
+        """Return this camera, or one further away that has points (n, 3) in view."""
         camera = self
         while camera.distance < FARTHEST:
             right, below, depth = camera.project(p_world, size).T
@@ -80,55 +70,32 @@ class Camera:
 
 @dataclass(frozen=True)
 class Ghost:
-    """A translucent copy of a body and of all that it carries, moved elsewhere.
+    """A translucent copy of a body and of all that it carries, moved elsewhere."""
 
-    Attributes:
-        body: its name.
-        T_world_moved: takes every point of it to where the copy is, (4, 4).
-        alone: leave out what the body carries.
-        wrong: red, not blue.
-    """
-
-    body: str
-    T_world_moved: Array
-    alone: bool = False
-    wrong: bool = False
+    body: str  # its name
+    T_world_moved: Array  # takes every point of it to where the copy is, (4, 4)
+    alone: bool = False  # leave out what the body carries
+    wrong: bool = False  # red, not blue
 
 
 @dataclass(frozen=True)
 class Box:
-    """A box beside the robot, such as a table.
+    """A box beside the robot, such as a table."""
 
-    Attributes:
-        T_world_box: the pose of its centre, (4, 4).
-        half: half its edges, metres.
-        colour: red, green, blue, opacity, 0 to 1.
-    """
-
-    T_world_box: Array
-    half: tuple[float, float, float]
-    colour: tuple[float, float, float, float]
+    T_world_box: Array  # the pose of its centre, (4, 4)
+    half: tuple[float, float, float]  # half its edges, metres
+    colour: tuple[float, float, float, float]  # red, green, blue, opacity, 0 to 1
 
 
 @dataclass(frozen=True)
 class Scene:
-    """One picture to draw.
+    """One picture to draw."""
 
-    Attributes:
-        qpos: configuration of the Panda with its hand, (9,), radians and metres; or
-            of `robot`, (nq,).
-        size: width and height, pixels.
-        camera: where it is seen from.
-        ghosts: translucent copies.
-        fast: leave out multisampling, shadows and reflections.
-        boxes: what else is there.
-        robot: the path of an MJCF file, in place of the Panda.
-    """
-
+    # Of the Panda with its hand, (9,), radians and metres; or of `robot`, (nq,).
     qpos: Array
-    size: tuple[int, int]
-    camera: Camera = Camera()
-    ghosts: tuple[Ghost, ...] = ()
-    fast: bool = False
-    boxes: tuple[Box, ...] = ()
-    robot: str = ""
+    size: tuple[int, int]  # width and height, pixels
+    camera: Camera = Camera()  # where it is seen from
+    ghosts: tuple[Ghost, ...] = ()  # translucent copies
+    fast: bool = False  # leave out multisampling, shadows and reflections
+    boxes: tuple[Box, ...] = ()  # what else is there
+    robot: str = ""  # the path of an MJCF file, in place of the Panda

@@ -4,9 +4,17 @@ from PIL import Image, ImageDraw, ImageFont
 
 INK, FAINT, RULE = (33, 37, 41), (90, 97, 104), (206, 212, 218)
 HEAD, TITLE, SMALL = 130, 44, 30  # pixels: the space above, and two sizes of text
-
-
 FOOT = 44  # pixels: the space below
+TINY = (168, 126)  # pixels: four beside each other in a README, two on a phone
+
+
+def thumbnail(
+    picture: Image.Image, left: float, top: float, width: float
+) -> Image.Image:
+    """Return a part of a picture, small; left, top, width in parts of its width."""
+    x, y, w = (round(part * picture.width) for part in (left, top, width))
+    part = picture.crop((x, y, x + w, y + w * TINY[1] // TINY[0]))
+    return part.resize(TINY, Image.Resampling.LANCZOS)
 
 
 def signed(picture: Image.Image, text: str) -> Image.Image:
@@ -20,11 +28,7 @@ def signed(picture: Image.Image, text: str) -> Image.Image:
 
 
 def side_by_side(*panels: tuple[Image.Image, str, str]) -> Image.Image:
-    """Return pictures in a row.
-
-    Args:
-        panels: picture, title, and a line that explains it; pictures of one size.
-    """
+    """Return pictures of one size in a row, each with its title and a line below."""
     width, height = panels[0][0].size
     sheet = Image.new("RGB", (width * len(panels), height + HEAD), "white")
     pen = ImageDraw.Draw(sheet)

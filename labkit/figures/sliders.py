@@ -55,12 +55,7 @@ def joint_sliders(by_hand: ForwardKinematics | None = None) -> ipywidgets.HBox:
 
 
 def draw(q: Array, T_world_ee: Array) -> bytes:
-    """Return a picture of the arm as a JPEG, with `ee` where the matrix says.
-
-    Args:
-        q: the arm's configuration, (7,), radians.
-        T_world_ee: (4, 4).
-    """
+    """Return a JPEG of the arm at q (7,), with `ee` where the matrix says."""
     scene = Scene(portrait.with_fingers(q), SIZE, CAMERA, fast=True)
     frames = {**portrait.link_frames(scene.qpos), "ee": np.asarray(T_world_ee)}
     file = io.BytesIO()
@@ -69,22 +64,12 @@ def draw(q: Array, T_world_ee: Array) -> bytes:
 
 
 def library_fk(model: mujoco.MjModel, q: Array) -> Array:
-    """Return T_world_ee from `robo47.kinematics`, (4, 4).
-
-    Args:
-        model: "panda_nohand".
-        q: the arm's configuration, (7,), radians.
-    """
+    """Return T_world_ee (4, 4) from `robo47.kinematics` at q (7,)."""
     return kinematics.fk(kinematics.chain_to(model, FRAME), q)
 
 
 def mujoco_fk(model: mujoco.MjModel, q: Array) -> Array:
-    """Return T_world_ee from MuJoCo, (4, 4).
-
-    Args:
-        model: "panda_nohand".
-        q: the arm's configuration, (7,), radians.
-    """
+    """Return T_world_ee (4, 4) from MuJoCo at q (7,)."""
     data = mujoco.MjData(model)
     data.qpos[:] = q
     mujoco.mj_kinematics(model, data)  # fills site_xpos and site_xmat
@@ -93,13 +78,7 @@ def mujoco_fk(model: mujoco.MjModel, q: Array) -> Array:
 
 
 def compare(T_world_ee: Array, who: str, T_mujoco: Array) -> str:
-    """Return both matrices, and how far apart they are, as HTML.
-
-    Args:
-        T_world_ee: to be compared, (4, 4).
-        who: the name of what computed it.
-        T_mujoco: MuJoCo's, (4, 4).
-    """
+    """Return the matrix of `who` and MuJoCo's, and how far apart they are, as HTML."""
     off = float(np.abs(T_world_ee - T_mujoco).max())
     colour = "green" if off < AGREES else "crimson"
     return (

@@ -10,6 +10,7 @@ import os
 import pickle
 import sys
 from functools import lru_cache
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -26,11 +27,7 @@ VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collis
 
 
 def light_up(spec: mujoco.MjSpec) -> None:
-    """Put a robot into a light room: a white sky, a pale floor, soft shadows.
-
-    Args:
-        spec: the robot alone, edited in place.
-    """
+    """Put a robot into a light room: a white sky, a pale floor, soft shadows."""
     _add_sky_and_floor(spec)
     for light in spec.lights:  # the Panda brings one that would glare
         light.active = False
@@ -68,13 +65,7 @@ def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
 
 @lru_cache(maxsize=2)
 def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.Renderer:
-    """Return a renderer, kept for the next picture of the same kind.
-
-    Args:
-        size: width and height, pixels.
-        fast: without multisampling.
-        robot: as in a `Scene`.
-    """
+    """Return a renderer, kept for the next picture of the same kind."""
     if robot:
         spec = mujoco.MjSpec.from_file(robot)
         light_up(spec)
@@ -89,11 +80,7 @@ def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.R
 
 
 def draw(scene: Scene) -> Array:
-    """Return the picture of a scene, (height, width, 3), bytes.
-
-    Args:
-        scene: what to draw.
-    """
+    """Return the picture of a scene, (height, width, 3), bytes."""
     renderer = renderer_for(scene.size, scene.fast, scene.robot)
     model = renderer.model
     data = mujoco.MjData(model)
@@ -113,11 +100,7 @@ def draw(scene: Scene) -> Array:
 
 
 def free_camera(camera: Camera) -> mujoco.MjvCamera:
-    """Return MuJoCo's camera for ours.
-
-    Args:
-        camera: ours, in radians.
-    """
+    """Return MuJoCo's camera, in degrees, for ours, in radians."""
     theirs = mujoco.MjvCamera()
     mujoco.mjv_defaultCamera(theirs)
     theirs.lookat[:] = camera.lookat
@@ -127,65 +110,46 @@ def free_camera(camera: Camera) -> mujoco.MjvCamera:
 
 
 def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> None:
-    """Add translucent copies of the shapes that a body carries.
-
-    Args:
-        scene: already filled with the robot.
-        model: the robot.
-        ghost: which body, and where to.
-    """
+    """Add translucent copies of the shapes that a body carries to what is drawn."""
     R, t = ghost.T_world_moved[:3, :3], ghost.T_world_moved[:3, 3]
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
         body = model.geom_bodyid[original.objid]
         if body != carrier and (ghost.alone or not carries(model, carrier, body)):
             continue
-        copy = scene.geoms[scene.ngeom]
-        mujoco.mjv_initGeom(
-            copy, original.type, original.size, R @ original.pos + t,
-            (R @ original.mat).ravel(), WRONG_COLOUR if ghost.wrong else GHOST_COLOUR,
-        )  # fmt: skip
-        # What mjv_initGeom leaves as it was in memory, and drawing depends on.
-        copy.objtype, copy.objid, copy.segid = original.objtype, original.objid, -1
-        copy.category, copy.transparent = mujoco.mjtCatBit.mjCAT_DECOR, 1
+        colour = WRONG_COLOUR if ghost.wrong else GHOST_COLOUR
+        size, pos, mat = original.size, R @ original.pos + t, R @ original.mat
+        copy = _added(scene, original.type, size, pos, mat, colour)
+        copy.objtype, copy.objid = original.objtype, original.objid
         copy.dataid, copy.camdist = original.dataid, original.camdist
-        scene.ngeom += 1
+        copy.transparent = 1
 
 
 def add_box(scene: mujoco.MjvScene, box: Box) -> None:
-    """Add a box to what is drawn.
+    """Add a box to what is drawn."""
+    R, t = box.T_world_box[:3, :3], box.T_world_box[:3, 3]
+    colour, kind = np.array(box.colour, dtype=np.float32), mujoco.mjtGeom.mjGEOM_BOX
+    shape = _added(scene, kind, np.array(box.half), t, R, colour)
+    shape.objtype, shape.objid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1
+    shape.dataid, shape.transparent = -1, 0
 
-    Args:
-        scene: already filled with the robot.
-        box: where, how large, in which colour.
+
+def _added(
+    scene: mujoco.MjvScene, kind: int, size: Array, pos: Array, R: Array, colour: Any
+) -> mujoco.MjvGeom:
+    """Return a shape that is drawn besides.
+
+    What mjv_initGeom leaves as it was in memory, and drawing depends on, is to be set.
     """
-    shape, R, t = (
-        scene.geoms[scene.ngeom],
-        box.T_world_box[:3, :3],
-        box.T_world_box[:3, 3],
-    )
-    mujoco.mjv_initGeom(
-        shape, mujoco.mjtGeom.mjGEOM_BOX, np.array(box.half), t, R.ravel(),
-        np.array(box.colour, dtype=np.float32),
-    )  # fmt: skip
-    # What mjv_initGeom leaves as it was in memory, and drawing depends on.
-    shape.objtype, shape.objid, shape.segid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1, -1
-    shape.category, shape.transparent, shape.dataid = (
-        mujoco.mjtCatBit.mjCAT_DECOR,
-        0,
-        -1,
-    )
+    geom = scene.geoms[scene.ngeom]
+    mujoco.mjv_initGeom(geom, kind, size, pos, R.ravel(), colour)
+    geom.segid, geom.category = -1, mujoco.mjtCatBit.mjCAT_DECOR
     scene.ngeom += 1
+    return geom
 
 
 def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:
-    """Return whether a body is the carrier or hangs from it.
-
-    Args:
-        model: the robot.
-        carrier: id of a body.
-        body: id of a body.
-    """
+    """Return whether a body (its id) is the carrier or hangs from it."""
     while body not in (0, carrier):
         body = model.body_parentid[body]
     return body == carrier

@@ -83,8 +83,10 @@ def _unfinished(
         if day == days[-1]:  # which ends the week
             for diary in _diaries(clone / day.folder.name):
                 name = diary.relative_to(clone).as_posix()
-                here = root / name
-                yield from _blanks(here if here.is_file() else diary, name)
+                here = root / name if (root / name).is_file() else diary
+                yield from _blanks(here, name)
+                if no_numbers(_text(diary)) and not no_numbers(_text(here)):
+                    yield name, "its numbers are not committed yet"
 
 
 def _diaries(week: Path) -> list[Path]:
@@ -93,15 +95,16 @@ def _diaries(week: Path) -> list[Path]:
 
 def _own_words(diary: Path) -> str:
     """Return a retrospective without the numbers that `make report` fills in."""
-    if not diary.is_file():
-        return ""
-    text = diary.read_text("utf-8", errors="replace")
-    return "" if no_numbers(text) else without_numbers(text)
+    return without_numbers(_text(diary)) if diary.is_file() else ""
+
+
+def _text(sheet: Path) -> str:
+    return sheet.read_text("utf-8", errors="replace")
 
 
 def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
     """Yield what nobody has filled in yet."""
-    text = sheet.read_text("utf-8", errors="replace")
+    text = _text(sheet)
     if no_numbers(text):
         yield name, "its numbers are not filled in yet; make report"
     if blank := len(_BLANK.findall(text)):
@@ -131,8 +134,7 @@ def _absolute(week: Path, clone: Path) -> Iterator[str]:
             if _ABSOLUTE.match(text) and "\n" not in text:
                 yield _line(script, clone, node.lineno, text)
     for sheet in sorted((week / "docs").glob("*.md")):
-        text = sheet.read_text("utf-8", errors="replace")
-        for number, line in enumerate(text.splitlines(), 1):
+        for number, line in enumerate(_text(sheet).splitlines(), 1):
             for link in _LINKED.finditer(line):
                 if _ABSOLUTE.match(target := link[1] or link[2]):
                     yield _line(sheet, clone, number, target)

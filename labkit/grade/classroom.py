@@ -1,7 +1,7 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
 from array import array
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from tqdm import tqdm
 from labkit.base.git import GitError
 from labkit.base.text import visible
 from labkit.grade import page, similar
-from labkit.grade.engine import Engine, Key, grade_all
+from labkit.grade.engine import Engine, grade_all
 from labkit.grade.journal import Journal
 from labkit.grade.overview import Course
 from labkit.grade.package import Package, collect
@@ -28,46 +28,55 @@ FAULT = "this machine failed ({}); the same command tries again"
 
 
 @dataclass
+class Tally:
+    """What is said at the end of all days.
+
+    Attributes:
+        graded_now: how many results are new.
+        faults: how many are none, since this machine or a worker failed.
+        outdated: how many another version of the kit had given.
+        odd: on lines of journals that are no result.
+        notes: what to add to a student's error, by folder.
+    """
+
+    graded_now: int = 0
+    faults: int = 0
+    outdated: int = 0
+    odd: list[str] = field(default_factory=list)
+    notes: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
 class Classroom:
-    """One class on the way to its grades, for one day or more.
+    """One class on the way to its grades for a day.
 
     Attributes:
         students: from the roster.
-        days: from the kit's manifests.
+        day: from the kit's manifest.
         journal: results so far.
         again: folders to grade though they have a result; None is everybody.
         frozen: what another version of the kit gave stays.
         keep: "last", or "best" of all results of somebody.
-        notes: what to add to a student's error, by folder.
-        graded_now: how many results are new.
-        faults: how many are none, since this machine or a worker failed.
+        tally: where is counted what becomes of them.
     """
 
     students: Sequence[Student]
-    days: Sequence[Day]
+    day: Day
     journal: Journal
     again: Collection[str] | None = ()
     frozen: bool = False
     keep: str = "last"
-    notes: dict[str, str] = field(default_factory=dict)
-    graded_now: int = 0
-    faults: int = 0
-
-    def __post_init__(self) -> None:
-        """Name everybody's file."""
-        self._files = file_names(student.folder for student in self.students)
-        self._students = {student.folder: student for student in self.students}
-        self._days = {day.number: day for day in self.days}
+    tally: Tally = field(default_factory=Tally)
 
     def pull(self) -> None:
         """Clone and update; who cannot be updated is graded as they are."""
         with _bar(len(self.students), "pulling") as bar:
             for student, problem in pull_all(list(self.students)):
                 if problem:
-                    self.notes[student.folder] = f"not pulled: {problem}"
+                    self.tally.notes[student.folder] = f"not pulled: {problem}"
                 bar.update()
 
-    def grade(self, engine: Engine, feedback: Path) -> list[Course]:
+    def grade(self, engine: Engine, feedback: Path) -> Course:
         """Grade everybody whose work has changed.
 
         Args:
@@ -75,78 +84,84 @@ class Classroom:
             feedback: folder of the students' files.
 
         Returns:
-            For each day everybody, in the roster's order, and who writes alike.
+            Everybody, in the roster's order, and who writes alike.
 
         Raises:
             Robo47Error: no worker is left, or a file cannot be written.
         """
-        graded: dict[Key, Graded] = {}
-        runs: dict[Key, list[array[int]]] = {}
-        compare = {day.number: _comparer(day) for day in self.days}
-        due = self.journal.reference if self.journal.deadline else None
-        kept = self.frozen or bool(self.again)
+        graded: dict[str, Graded] = {}
+        runs: dict[str, list[array[int]]] = {}
+        students = {student.folder: student for student in self.students}
+        files, starter = file_names(students), _starter(self.day)
 
-        def note(key: Key, package: Package, result: Result | FaultError) -> None:
-            graded[key] = self._graded(key, package, result)
-            write_feedback(feedback, graded[key])
+        def note(folder: str, package: Package, result: Result | FaultError) -> None:
+            one = self._graded(students[folder], files[folder], package, result)
+            graded[folder] = one
+            write_feedback(feedback, one)
             bar.update()
 
-        def changed() -> Iterator[tuple[Key, Package]]:
-            for key in ((d, f) for d in self._days for f in self._students):
-                day, student = self._days[key[0]], self._students[key[1]]
-                try:
-                    package = collect(student, day, self.journal.seed, due)
-                except (OSError, GitError, MemoryError) as error:
-                    fault = FaultError(visible(error) or type(error).__name__)
-                    note(key, Package(day.number, ""), fault)
+        def changed() -> Iterator[tuple[str, Package]]:
+            for folder, student in students.items():
+                package = self._collected(student)
+                if isinstance(package, FaultError):
+                    note(folder, Package(self.day.number, ""), package)
                     continue
-                runs[key] = compare[day.number](package)
-                known = self.journal.find(student.folder, package, frozen=kept)
-                if known and not (self.again is None or key[1] in self.again):
-                    note(key, package, known)
+                runs[folder] = _runs(package, self.day, starter)
+                if known := self._known(folder, package):
+                    note(folder, package, known)
                 else:
-                    yield key, package
+                    yield folder, package
 
-        with _bar(len(self.students) * len(self.days), "grading") as bar:
-            for key, package, result in grade_all(changed(), engine):
+        with _bar(len(students), "grading") as bar:
+            for folder, package, result in grade_all(changed(), engine):
                 if isinstance(result, Result):
                     result = result.lean()
-                    self.journal.keep(key[1], package, result)
-                    self.graded_now += 1
-                note(key, package, result)
-        return [self._course(day, graded, runs) for day in self.days]
+                    self.journal.keep(folder, package, result)
+                    self.tally.graded_now += 1
+                note(folder, package, result)
+        return self._course([graded[folder] for folder in students], runs)
+
+    def _collected(self, student: Student) -> Package | FaultError:
+        due = self.journal.reference if self.journal.deadline else None
+        try:
+            return collect(student, self.day, self.journal.seed, due)
+        except (OSError, GitError, MemoryError) as error:
+            return FaultError(visible(error) or type(error).__name__)
+
+    def _known(self, folder: str, package: Package) -> Result | None:
+        """Return the result that stays, or None for who is to be graded."""
+        kept = self.frozen or bool(self.again)
+        known = self.journal.find(folder, package, frozen=kept)
+        return None if self.again is None or folder in self.again else known
 
     def _graded(
-        self, key: Key, package: Package, result: Result | FaultError
+        self,
+        student: Student,
+        file: str,
+        package: Package,
+        result: Result | FaultError,
     ) -> Graded:
-        day, student = self._days[key[0]], self._students[key[1]]
         fault, late = isinstance(result, FaultError), package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
-            self.faults += 1
-            result = ungraded(day, FAULT.format(visible(result, 200)))
+            self.tally.faults += 1
+            result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
             result, package = self.journal.best(student.folder, package)
         minutes = None
         if package.committed is not None:
             minutes = (self.journal.reference - package.committed) // 60
-        note, file = self.notes.get(student.folder, ""), self._files[student.folder]
+        note = self.tally.notes.get(student.folder, "")
         facts = (package.commit, minutes, note, fault, file)
-        due = self.journal.deadline
-        return Graded(student, result, *facts, late if due else None)
+        return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(
-        self,
-        day: Day,
-        graded: Mapping[Key, Graded],
-        runs: Mapping[Key, list["array[int]"]],
+        self, everybody: Sequence[Graded], runs: Mapping[str, list["array[int]"]]
     ) -> Course:
-        own = {f: r for (number, f), r in runs.items() if number == day.number}
-        alike = similar.like_the_kit(own, _runs_of_kit(day))
-        alike += similar.similar_groups({f: r[0] for f, r in own.items() if r})
-        everybody = [graded[day.number, folder] for folder in self._students]
+        alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
+        alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
         journal = self.journal
         facts = (journal.reference, journal.deadline, journal.seed)
-        return Course(day, everybody, alike, *facts)
+        return Course(self.day, everybody, alike, *facts)
 
 
 def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
@@ -160,9 +175,9 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     Raises:
         Robo47Error: one of them cannot be written.
     """
-    write(out, as_csv(course.day, course.class_))
+    write(out, as_csv(course.class_))
     if anonymous:
-        content = as_csv(course.day, nameless(course.class_, course.seed))
+        content = as_csv(nameless(course.class_, course.seed))
         write(out.with_stem(f"{out.stem}-anonymous"), content)
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
@@ -178,16 +193,11 @@ def _runs_of_kit(day: Day) -> "array[int]":
     return similar.runs_of(texts.encode(), _starter(day))
 
 
-def _comparer(day: Day) -> Callable[[Package], list["array[int]"]]:
-    """Return what makes of files what `similar` compares, the script's first."""
-    starter = _starter(day)
-
-    def compare(package: Package) -> list["array[int]"]:
-        files = package.modules()
-        names = sorted(files, key=lambda name: name != day.script)
-        return [similar.runs_of(files[name], starter) for name in names]
-
-    return compare
+def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
+    """Return what `similar` compares of each file, the script's first."""
+    files = package.modules()
+    names = sorted(files, key=lambda name: name != day.script)
+    return [similar.runs_of(files[name], starter) for name in names]
 
 
 def _bar(total: int, doing: str) -> "tqdm[None]":

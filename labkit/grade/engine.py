@@ -15,7 +15,6 @@ from concurrent.futures import (
     wait,
 )
 from dataclasses import dataclass
-from typing import Any
 
 from labkit.base.processes import sweep
 from labkit.grade.grader import (
@@ -41,8 +40,6 @@ NO_CERTIFICATES = (
     "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
     "docs/cluster.md says how"
 )
-
-Key = tuple[int, str]  # of a package: the day and the student's folder
 
 
 @dataclass(frozen=True)
@@ -105,29 +102,27 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
         raise Robo47Error(f"no Dask scheduler at {address}: {why}") from None
     try:
         grade = grade_package if trusted else grade_behind_wall
-        workers = _worker_count(client)
-        yield Engine(client.get_executor(), workers, KilledWorker, grade)
+        executor = client.get_executor()
+        yield Engine(
+            executor, lambda: sum(client.nthreads().values()), KilledWorker, grade
+        )
     finally:
         client.close()
 
 
-def _worker_count(client: Any) -> Callable[[], int]:
-    return lambda: sum(client.nthreads().values())
-
-
 def grade_all(
-    packages: Iterable[tuple[Key, Package]], engine: Engine
-) -> Iterator[tuple[Key, Package, Result | FaultError]]:
+    packages: Iterable[tuple[str, Package]], engine: Engine
+) -> Iterator[tuple[str, Package, Result | FaultError]]:
     """Yield each package's result as it comes, in any order.
 
     Args:
-        packages: key and package; taken from the iterable as there is room.
+        packages: each with a key, the student's folder; taken as there is room.
         engine: where to grade.
 
     Raises:
         Robo47Error: no worker is left, or one cannot run this kit.
     """
-    under_way: dict[Future[Result], tuple[Key, Package]] = {}
+    under_way: dict[Future[Result], tuple[str, Package]] = {}
     try:
         for key, package in packages:
             under_way[engine.executor.submit(engine.grade, package)] = (key, package)
@@ -141,11 +136,15 @@ def grade_all(
 
 
 def _finished(
-    under_way: dict[Future[Result], tuple[Key, Package]], engine: Engine
-) -> Iterator[tuple[Key, Package, Result | FaultError]]:
+    under_way: dict[Future[Result], tuple[str, Package]], engine: Engine
+) -> Iterator[tuple[str, Package, Result | FaultError]]:
     """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
-    while not (done := _some_done(under_way)) and time.monotonic() < silent:
+
+    def some() -> set[Future[Result]]:
+        return wait(under_way, PATIENCE, FIRST_COMPLETED).done
+
+    while not (done := some()) and time.monotonic() < silent:
         if not engine.workers():
             raise Robo47Error(
                 f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded "
@@ -165,10 +164,6 @@ def _finished(
             yield key, package, FaultError("the workers that graded it were lost")
         except (ImportError, AttributeError) as error:  # an older commit's
             raise Robo47Error(f"a worker cannot run this kit: {error}") from None
-
-
-def _some_done(under_way: Iterable[Future[Result]]) -> set[Future[Result]]:
-    return wait(under_way, timeout=PATIENCE, return_when=FIRST_COMPLETED).done
 
 
 def _believed(answer: object, package: Package) -> Result:

@@ -9,7 +9,6 @@ import contextlib
 import json
 import os
 import secrets
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ from typing import Any
 from labkit.grade.package import Package
 from labkit.grade.result import Result, from_json
 from labkit.lesson.day import Day
-from labkit.log.lock import NO_LOCKS, try_lock
+from labkit.log.lock import lock
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -26,7 +25,7 @@ _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
 
 
 class Journal:
-    """The results of one class, for one day or more.
+    """The results of one class for a day.
 
     Attributes:
         reference: the time that "minutes since last commit" counts to, seconds since
@@ -40,7 +39,7 @@ class Journal:
     def __init__(
         self,
         path: Path,
-        days: Sequence[Day],
+        day: Day,
         reference: int,
         *,
         deadline: bool,
@@ -50,7 +49,7 @@ class Journal:
 
         Args:
             path: the file.
-            days: what is graded; a journal of other days is refused.
+            day: what is graded; a journal of another day is refused.
             reference: see above.
             deadline: see above; any other reference gives way to one that is there.
             seed: see above; None is the one that is there, or a new one.
@@ -62,9 +61,9 @@ class Journal:
         self.path, self.reference, self.deadline = path, reference, deadline
         self.odd = self.outdated = 0
         self.seed = secrets.randbits(32)
-        self._days = {day.number: day for day in days}
-        self._results: dict[tuple[int, str], tuple[str, str, Result]] = {}
-        self._best: dict[tuple[int, str], tuple[Result, str, int | None]] = {}
+        self._day = day
+        self._results: dict[str, tuple[str, str, Result]] = {}  # by folder
+        self._best: dict[str, tuple[Result, str, int | None]] = {}
         try:
             self._file = path.open("a+b")
         except OSError as error:
@@ -84,7 +83,7 @@ class Journal:
         self.seed = self.seed if seed is None else seed
         if not known or kept != (self.reference, self.deadline, self.seed):
             since = {"reference": self.reference, "deadline": self.deadline}
-            head = {"kind": KIND, "days": list(self._days), "seed": self.seed}
+            head = {"kind": KIND, "days": [day.number], "seed": self.seed}
             self._append({**head, **since})
 
     def find(
@@ -97,7 +96,7 @@ class Journal:
             package: what they hand in now.
             frozen: another version of the kit may have given it.
         """
-        known = self._results.get((package.day, folder))
+        known = self._results.get(folder)
         if known is None or known[0] != package.fingerprint:
             return None
         if frozen or known[1] == package.kit:
@@ -115,30 +114,28 @@ class Journal:
         Returns:
             The result, and the package as it was then: its commit and its time.
         """
-        result, commit, committed = self._best[package.day, folder]
+        result, commit, committed = self._best[folder]
         return result, replace(package, commit=commit, committed=committed)
 
-    def _note(self, key: tuple[int, str], result: Result, commit: str, at: Any) -> None:
+    def _note(self, folder: str, result: Result, commit: str, at: Any) -> None:
         if at is not None and type(at) is not int:
             raise TypeError(at)
-        known = self._best.get(key)
+        known = self._best.get(folder)
         late = self.deadline and at is not None and at > self.reference
         if known and known[0].seed != result.seed:
             known = None  # of a seed that is no longer asked
         if known is None or (result.score >= known[0].score and not late):
-            self._best[key] = (result, commit, at)
+            self._best[folder] = (result, commit, at)
 
     def keep(self, folder: str, package: Package, result: Result) -> None:
         """Write a result and wait until the disk has it."""
-        fingerprint = package.fingerprint
-        self._results[package.day, folder] = (fingerprint, package.kit, result)
-        moment = (package.commit, package.committed)
-        self._note((package.day, folder), result, *moment)
+        self._results[folder] = (package.fingerprint, package.kit, result)
+        self._note(folder, result, package.commit, package.committed)
         self._append(
             {
                 "day": package.day,
                 "folder": folder,
-                "package": fingerprint,
+                "package": package.fingerprint,
                 "kit": package.kit,
                 "commit": package.commit,
                 "committed": package.committed,
@@ -152,16 +149,12 @@ class Journal:
 
     def _lock(self) -> None:
         try:
-            free = try_lock(self._file.fileno())
-        except OSError as error:
-            if error.errno not in NO_LOCKS:
-                raise
-            return
-        if not free:
+            lock(self._file.fileno(), patience=0)
+        except TimeoutError:
             raise Robo47Error(
                 f"{shown(self.path)}: another make grade is at work there. Wait for it,"
                 " or give this one a folder of its own with --out"
-            )
+            ) from None
 
     def _append(self, record: dict[str, Any]) -> None:
         # The line break comes first, so that a cut line never swallows the next one.
@@ -190,7 +183,7 @@ class Journal:
     def _take(self, record: dict[str, Any]) -> bool:
         if record.get("kind") == KIND:
             reference, days = record["reference"], record["days"]
-            if days != list(self._days):
+            if days != [self._day.number]:
                 of = ", ".join(str(int(day)) for day in days)
                 raise Robo47Error(
                     f"{shown(self.path)} holds day {of}: give each day a folder of its "
@@ -201,12 +194,13 @@ class Journal:
             self.reference, self.deadline = reference, record["deadline"] is True
             self.seed = int(record["seed"])
             return True
-        day = self._days[record["day"]]
+        if record["day"] != self._day.number:
+            raise ValueError(record["day"])
         facts = (record["folder"], record["package"], record["kit"], record["commit"])
         if not all(isinstance(fact, str) for fact in facts):
             raise TypeError(facts)
-        folder, *prints = facts[:3]
-        result = from_json(record["result"], day)
-        self._note((day.number, folder), result, *facts[3:], record["committed"])
-        self._results[day.number, folder] = (prints[0], prints[1], result)
+        folder, fingerprint, kit, commit = facts
+        result = from_json(record["result"], self._day)
+        self._note(folder, result, commit, record["committed"])
+        self._results[folder] = (fingerprint, kit, result)
         return False

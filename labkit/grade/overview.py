@@ -1,10 +1,10 @@
 """Overview of the class: where people stop, which mistakes are common."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from labkit.grade.result import Mark
+from labkit.grade.result import Mark, Result
 from labkit.grade.sheet import Graded
 from labkit.grade.similar import Group
 from labkit.lesson.day import Day
@@ -78,33 +78,32 @@ def state(graded: Graded) -> str:
     return "under way" if any(task.passed for task in tasks) else "not started"
 
 
-def tasks_standing(class_: Sequence[Graded]) -> list[Standing]:
-    """Return how the class stands with each task."""
+def standings(
+    class_: Sequence[Graded], marks_of: Callable[[Result], Sequence[Mark]]
+) -> list[Standing]:
+    """Return how the class stands with each task, or each deliverable.
+
+    Args:
+        class_: everybody.
+        marks_of: what to return of a result: its tasks or its items.
+    """
     stops = Counter(
         mark.id
         for graded in class_
         if state(graded) in ("stuck", "under way")
         if (mark := graded.result.stopped_at) is not None
     )
-    found = []
-    for i, task in enumerate(class_[0].result.tasks if class_ else ()):
-        counts = Counter(shown_status(g, g.result.tasks[i]) for g in class_)
-        found.append(Standing(task.id, counts, stops[task.id]))
-    return found
+    counts: dict[str, Counter[str]] = {}
+    for graded in class_:
+        for mark in marks_of(graded.result):
+            counts.setdefault(mark.id, Counter())[shown_status(graded, mark)] += 1
+    return [Standing(id, count, stops[id]) for id, count in counts.items()]
 
 
 def shown_status(graded: Graded, mark: Mark) -> str:
     """Return a mark's status; a file that does not load has one of its own."""
     broken = mark.mistake == "does-not-load" and graded.result.does_not_load
     return "does not load" if broken else mark.status
-
-
-def items_standing(class_: Sequence[Graded]) -> list[Standing]:
-    """Return how the class stands with each deliverable."""
-    return [
-        Standing(item.id, Counter(g.result.items[i].status for g in class_))
-        for i, item in enumerate(class_[0].result.items if class_ else ())
-    ]
 
 
 def diagnoses(day: Day, class_: Sequence[Graded]) -> list[Diagnosis]:

@@ -107,7 +107,8 @@ def _diagnosis(one: Diagnosis) -> str:
 
 def _standings(course: Course) -> str:
     functions = {t.id: ", ".join(t.functions) for t in course.day.tasks}
-    tasks = overview.tasks_standing(course.class_)
+    tasks = overview.standings(course.class_, lambda result: result.tasks)
+    items = overview.standings(course.class_, lambda result: result.items)
     marks = legend((role, word) for role, _, word in STATUS.values())
 
     def card(
@@ -116,7 +117,6 @@ def _standings(course: Course) -> str:
         rows = [_standing(one, label(one), len(course.class_)) for one in some]
         return html.card(heading, marks, chart(rows, heading))
 
-    items = overview.items_standing(course.class_)
     return html.section(
         "Which tasks stop people",
         '<div class="two">',

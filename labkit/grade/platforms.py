@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from labkit.grade.roster import Student
-from labkit.grade.sheet import percent_of, plain, table
+from labkit.grade.sheet import csv_of, percent_of, plain
 from labkit.grade.week import Week
 from robo47.errors import Robo47Error
 
@@ -82,7 +82,7 @@ def as_csv(platform: Platform, week: Week, title: str) -> bytes:
         if None not in grades:
             about = [_cell(platform, student, name) for name in platform.columns]
             rows.append([*about, *map(percent_of, grades)])
-    return table([*platform.columns, *map(plain, head)], rows)
+    return csv_of([*platform.columns, *map(plain, head)], rows)
 
 
 def _cell(platform: Platform, student: Student, column: str) -> str:

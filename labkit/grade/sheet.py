@@ -5,15 +5,13 @@ import hashlib
 import io
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.text import visible
-from labkit.grade.result import UNGRADED, Result, counted
+from labkit.grade.result import UNGRADED, Result
 from labkit.grade.roster import Student
-from labkit.handin import item_names
-from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -74,46 +72,25 @@ class Graded:
         return minutes, -(-minutes // (24 * 60))
 
 
-def columns(day: Day) -> list[str]:
-    """Return the table's columns."""
-    return [
-        "id",
-        "name",
-        "folder",
-        "percent",
-        "tasks_passed",
-        *counted(day),
-        "deliverables_passed",
-        *item_names(day),
-        "first_mistake",
-        "what_it_says",
-        "minutes_since_commit_own_clock",
-        "late_minutes",
-        "late_days",
-        "commits_after_deadline",
-        "commit_hash",
-        "kit",
-        "seed",
-        "refused",
-        "error",
-    ]
-
-
-def as_csv(day: Day, class_: Sequence[Graded]) -> bytes:
+def as_csv(class_: Sequence[Graded]) -> bytes:
     """Return the table.
 
     Args:
-        day: from the manifest.
         class_: everybody, in the order to show them.
 
     Returns:
         CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
     """
-    return table(columns(day), map(_cells, class_))
+    return table(list(map(_row, class_)))
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str | int]]) -> bytes:
-    """Return a table as every grades.csv is written: columns and rows as CSV."""
+def table(rows: Sequence[Mapping[str, str | int]]) -> bytes:
+    """Return a table as every grades.csv is written: rows by column as CSV."""
+    return csv_of(list(rows[0]), (row.values() for row in rows))
+
+
+def csv_of(head: Iterable[str], rows: Iterable[Iterable[str | int]]) -> bytes:
+    """Return columns and rows as CSV."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(head)
@@ -145,28 +122,38 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
     return sorted(found, key=lambda graded: graded.student.name)
 
 
-def _cells(graded: Graded) -> list[str | int]:
+def _row(graded: Graded) -> dict[str, str | int]:
     result, mistake = graded.result, graded.result.first_mistake
-    return [
-        plain(graded.student.id),
-        plain(graded.student.name),
-        plain(printable(graded.student.folder)),
-        percent_of(graded.percent),
-        graded.tasks_passed,
-        *(_cell(graded, task.status) for task in result.tasks),
-        sum(item.passed for item in result.items),
-        *(item.status for item in result.items),
-        plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
-        plain(mistake.message if mistake else ""),
-        "" if graded.minutes is None else graded.minutes,
-        *graded.late_by,
-        "" if graded.late is None else graded.late,
-        graded.commit[:10],
-        graded.result.kit,
-        graded.result.seed if graded.result.kit else "",
-        plain("; ".join(result.refused)),
-        plain(graded.error),
-    ]
+    minutes, days = graded.late_by
+    return {
+        **who(graded.student),
+        "percent": percent_of(graded.percent),
+        "tasks_passed": graded.tasks_passed,
+        **{task.id: _cell(graded, task.status) for task in result.tasks},
+        "deliverables_passed": result.score[1],
+        **{item.id: item.status for item in result.items},
+        "first_mistake": plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
+        "what_it_says": plain(mistake.message if mistake else ""),
+        "minutes_since_commit_own_clock": _or_nothing(graded.minutes),
+        "late_minutes": minutes,
+        "late_days": days,
+        "commits_after_deadline": _or_nothing(graded.late),
+        "commit_hash": graded.commit[:10],
+        "kit": result.kit,
+        "seed": result.seed if result.kit else "",
+        "refused": plain("; ".join(result.refused)),
+        "error": plain(graded.error),
+    }
+
+
+def who(student: Student) -> dict[str, str | int]:
+    """Return the first cells of a student's row: who it is."""
+    folder = plain(printable(student.folder))
+    return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
+
+
+def _or_nothing(number: int | None) -> int | str:
+    return "" if number is None else number
 
 
 def _cell(graded: Graded, status: str) -> str:

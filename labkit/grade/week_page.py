@@ -1,15 +1,15 @@
 """A class over several days as one HTML page, with links to the pages of the days."""
 
-from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
 from labkit.base.words import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
+from labkit.grade.overview import state
 from labkit.grade.roster import Student
-from labkit.grade.sheet import percent_of, printable
-from labkit.grade.week import STATES, Standing, Week
+from labkit.grade.sheet import Graded, percent_of, printable
+from labkit.grade.week import STATES, Week
 from labkit.lesson.day import Day
 
 ROLES = dict(
@@ -20,23 +20,19 @@ STYLE = PAGE_STYLE + "td.n, th.n { text-align: right; }\n"
 
 def render(week: Week) -> str:
     """Return the whole page."""
-    title, about = _title(week.days), _about(week)
-    return printable(html.page(title, about, _days(week), _table(week), style=STYLE))
-
-
-def _title(days: Sequence[Day]) -> str:
-    first, last = days[0].number, days[-1].number
-    return f"Day {first}" if first == last else f"Days {first} to {last}"
+    title = f"Days {week.days[0].number} to {week.days[-1].number}"
+    about, days, everybody = _about(week), _days(week), _table(week)
+    return printable(html.page(title, about, days, everybody, style=STYLE))
 
 
 def _about(week: Week) -> str:
-    done = [s for s in week.students if all(d.state == "done" for d in week.of(s))]
+    done = [s for s in week.students if all(state(one) == "done" for one in week.of(s))]
     return f"{count(len(week.students), 'student')}; {len(done):,} passed every task"
 
 
 def _days(week: Week) -> str:
     rows = [_bar(week, day) for day in week.days]
-    marks = legend((role, escape(state)) for state, role in ROLES.items())
+    marks = legend((role, escape(where)) for where, role in ROLES.items())
     bars = chart(rows, "students by how they stand, day by day")
     mistakes = "".join(_mistakes(week, day) for day in week.days)
     return html.section(
@@ -50,7 +46,7 @@ def _days(week: Week) -> str:
 
 def _bar(week: Week, day: Day) -> Row:
     counts = week.counts(day)
-    parts = [(role, counts[state]) for state, role in ROLES.items()]
+    parts = [(role, counts[where]) for where, role in ROLES.items()]
     words = f"{counts['done']:,} of {len(week.students):,} done"
     return Row(f"{day.number}  {day.title}", words, parts, len(week.students))
 
@@ -87,7 +83,9 @@ def _row(week: Week, student: Student) -> str:
     return f"<tr><td>{escape(student.name)}</td><td class=n>{share}</td>{cells}</tr>"
 
 
-def _cell(one: Standing) -> str:
-    words = "?" if one.percent is None else f"{one.passed} of {one.tasks}"
-    role = ROLES[one.state] if one.state != "under way" else ""
-    return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'
+def _cell(one: Graded) -> str:
+    words, where = "?", state(one)
+    if one.percent is not None:
+        words = f"{one.tasks_passed} of {len(one.result.tasks)}"
+    role = ROLES[where] if where != "under way" else ""
+    return f'<td class="n {role}" title="{escape(where)}">{words}</td>'

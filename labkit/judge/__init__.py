@@ -19,37 +19,9 @@ The student's code is never run here, and nothing it computed is used as the tru
 What is special about a day stands in the day's own folder.
 """
 
-from labkit.judge.ask import Ask, Case, HeldOut, Probe, Robot, Slip
+from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
 from labkit.judge.kinds import Points, Scalar, Twist, Vector, Wrench
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import Count, Image, Mask, Pixels, Waypoints
 from labkit.judge.rigid_kinds import Pose, Rotation
-
-__all__ = [
-    "Ask",
-    "Case",
-    "Count",
-    "Covariance",
-    "Finding",
-    "HeldOut",
-    "Image",
-    "Jacobian",
-    "Mask",
-    "Matrix",
-    "Mistake",
-    "Pixels",
-    "Points",
-    "Pose",
-    "Probe",
-    "Robot",
-    "Rotation",
-    "Scalar",
-    "Slip",
-    "Symmetric",
-    "Twist",
-    "Vector",
-    "Verdict",
-    "Waypoints",
-    "Wrench",
-]

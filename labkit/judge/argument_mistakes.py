@@ -14,33 +14,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Change:
-    """A mistake with one argument.
+    """A mistake with one argument."""
 
-    Attributes:
-        slug: its name.
-        says: as in a `Mistake`; {name} is the argument's.
-        change: from the argument to what is used in its place.
-        redone: as in a `Mistake`; {name} is the argument's.
-        hidden: why the lab cannot show it, "" where it can.
-    """
-
-    slug: str
-    says: str
-    change: Callable[[Any], Any]
-    redone: str
-    hidden: str = ""
-
-
-def _halves_swapped(x: np.ndarray) -> np.ndarray:
-    return np.concatenate([x[3:], x[:3]])
-
-
-def _first_only(x: np.ndarray) -> np.ndarray:
-    return np.full_like(x, x[0])
-
-
-def _last_missing(x: np.ndarray) -> np.ndarray:
-    return np.concatenate([x[:-1], np.zeros_like(x[-1:])])
+    slug: str  # its name
+    says: str  # as in a `Mistake`; {name} is the argument's
+    change: Callable[[Any], Any]  # from the argument to what is used in its place
+    redone: str  # as in a `Mistake`; {name} is the argument's
+    hidden: str = ""  # why the lab cannot show it, "" where it can
 
 
 DEGREES = Change(
@@ -54,24 +34,6 @@ RADIANS_TWICE = Change(
     "{name} is converted from radians to degrees; it must stay in radians",
     np.rad2deg,
     "the right one with {name} in degrees",
-)
-HALVES_SWAPPED = Change(
-    "halves-swapped",
-    "the halves of {name} are swapped: the angular three come first",
-    _halves_swapped,
-    "the right one with the halves of {name} swapped",
-)
-FIRST_ONLY = Change(
-    "first-only",
-    "only the first number of {name} is used, for all of them",
-    _first_only,
-    "the right one with {name}[0] for all",
-)
-LAST_MISSING = Change(
-    "last-missing",
-    "the last one of {name} is left out",
-    _last_missing,
-    "the right one without the last of {name}",
 )
 TRANSPOSED = Change(
     "transposed",

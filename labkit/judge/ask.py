@@ -4,9 +4,8 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest.
 """
 
-import contextlib
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from pathlib import Path as File
@@ -16,34 +15,28 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question
-from labkit.judge.compare import as_one_size, difference
+from labkit.judge.compare import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-Parts = tuple[Array, ...]
 Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
 FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
-NUDGE = 1e-9  # that changes a right answer shows that two are right there
 ANY = None  # truth of a function that is judged by `accept`
 
 
 @dataclass(frozen=True)
 class Robot:
-    """A model as an argument: student code gets plain data that reads like an MjModel.
+    """A model as an argument: student code gets data that reads like an MjModel."""
 
-    Attributes:
-        entry: as `panda.load` names it, or the path of any MJCF file.
-        change: is given the compiled model to alter, such as longer links.
-    """
-
+    # As `panda.load` names it, or the path of any MJCF file.
     entry: str | File = "panda_nohand"
+    # Is given the compiled model to alter, such as longer links.
     change: Callable[[mujoco.MjModel], None] | None = None
 
     @cached_property
@@ -72,169 +65,138 @@ def model_of(entry: str | File) -> mujoco.MjModel:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Further questions to a right function: how did its answers come about?
+    """Further questions to a right function: how did its answers come about?"""
 
-    Attributes:
-        slug: what is found where an answer is not right.
-        says: what to say then, a sentence or two.
-        inputs: as those of `Ask`.
-        truth: the right answers; None is the function's own truth.
-        mistaken: instead of `truth`: what is found are these very answers.
-        status: "wrong", "close", or "passed" for a remark only.
-    """
-
-    slug: str
-    says: str
-    inputs: Inputs
+    slug: str  # what is found where an answer is not right
+    says: str  # what to say then, a sentence or two
+    inputs: Inputs  # as those of `Ask`
+    # The right answers; None is the function's own truth.
     truth: Callable[..., Any] | None = None
+    # Instead of `truth`: what is found are these very answers.
     mistaken: Callable[..., Any] | None = None
-    status: str = "wrong"
-
-
-@dataclass(frozen=True)
-class Probe:
-    """Questions whose replies only help to say where a wrong answer goes wrong.
-
-    Attributes:
-        inputs: as those of `Ask`; replies may be errors.
-    """
-
-    inputs: Inputs
+    status: str = "wrong"  # "wrong", "close", or "passed" for a remark only
 
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip that ends in an exception whose own text does not help.
+    """A slip that ends in an exception whose own text does not help."""
 
-    Attributes:
-        error: regular expression that the "Type: text" of the exception matches.
-        source: one that the student's file matches.
-        slug: its name.
-        says: what to say, a sentence or two.
-    """
-
-    error: str
-    source: str
-    slug: str
-    says: str
+    error: str  # regular expression that the "Type: text" of the exception matches
+    source: str  # one that the student's file matches
+    slug: str  # its name
+    says: str  # what to say, a sentence or two
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a hook is given: all that was asked of one function, and what came back.
+    """What a hook is given: all that was asked of one function, and what came back."""
 
-    Attributes:
-        ask: the row of the function.
-        arguments: of the main questions, stacked, (n, ...) each; a Robot as its model.
-        S: the student's answers, (n, ...).
-        T: the right ones.
-        given: the inputs in words, one per question.
-        probes: per question of `Ask.probe` its arguments and the answer, or None.
-    """
-
-    ask: "Ask"
+    ask: "Ask"  # the row of the function
+    # Of the main questions, stacked, (n, ...) each; a Robot as its model.
     arguments: tuple[Any, ...]
-    S: Any
-    T: Any
-    given: Sequence[str]
+    S: Any  # the student's answers, (n, ...)
+    T: Any  # the right ones
+    given: Sequence[str]  # the inputs in words, one per question
+    # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
 
 
 @dataclass(frozen=True)
 class Ask:
-    """One function of a day.
+    """One function of a day."""
 
-    Attributes:
-        inputs: from a seeded generator to the arguments of every call: the case of the
-            docstring first, drawn ones last. What is random is an argument: noise is
-            drawn here. Round what is drawn (`draw.rounded`), so that a student can
-            type it. Arrays of bools and of whole numbers stay what they are.
-        kind: of the answer; a tuple of kinds where the function returns a tuple.
-        truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
-            takes them; an oracle, never the lab script.
-        accept: instead of `truth` where many answers are right: takes one call's
-            arguments and the answer, and returns what is wrong with it, or None.
-        mistakes: the named ones, the more general first; a function that returns them
-            where making them costs something.
-        fresh: how many of the drawn inputs, from the end, are drawn anew at each check.
-        tolerance: an answer is right up to this, in units of its kind's scale.
-        near: and nearly right up to this.
-        held_out: further questions to a right function.
-        probe: further questions that help a wrong one.
-        unnamed: says where an answer that no named mistake gives goes wrong.
-        near_miss: says why an answer is right to some digits only.
-        measured: adds lines for --explain.
-        slips: exceptions that have better words than their own.
-    """
-
+    # From a seeded generator to the arguments of every call: the case of the docstring
+    # first, drawn ones last. What is random is an argument: noise is drawn here. Round
+    # what is drawn (`draw.rounded`), so that a student can type it. Arrays of bools and
+    # of whole numbers stay what they are.
     inputs: Inputs
+    # Of the answer; a tuple of kinds where the function returns a tuple.
     kind: Kind | tuple[Kind, ...]
+    # The right answers to all calls, from stacked arguments as `Mistake.redo` takes
+    # them; an oracle, never the lab script.
     truth: Callable[..., Any] | None = ANY
+    # Instead of `truth` where many answers are right: takes one call's arguments and
+    # the answer, and returns what is wrong with it, or None.
     accept: Callable[..., Finding | str | None] | None = None
+    # The named ones, the more general first; a function that returns them where making
+    # them costs something.
     mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()
+    # How many of the drawn inputs, from the end, are drawn anew at each check.
     fresh: int = 2
+    # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
-    near: float = 1e-4
-    held_out: Sequence[HeldOut] = ()
-    probe: Probe | None = None
+    near: float = 1e-4  # and nearly right up to this
+    held_out: Sequence[HeldOut] = ()  # further questions to a right function
+    # Inputs of further questions, whose replies only help to say where a wrong answer
+    # goes wrong; they may be errors.
+    probe: Inputs | None = None
+    # Says where an answer that no named mistake gives goes wrong.
     unnamed: Callable[[Case], Finding | None] | None = None
+    # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
-    measured: Callable[[Case], Sequence[str]] | None = None
-    slips: Sequence[Slip] = field(default=())
+    measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain
+    slips: Sequence[Slip] = ()  # exceptions that have better words than their own
+    # Whether a call with edge values has one right answer; None is yes.
+    at_edge: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept."""
         if (self.truth is None) == (self.accept is None):
             raise ValueError("an Ask has either truth or accept")
 
-    @property
+    @cached_property
     def kinds(self) -> tuple[Kind, ...]:
         """The kinds of the answer's parts; one where it is no tuple."""
         return self.kind if isinstance(self.kind, tuple) else (self.kind,)
 
     @cached_property
     def named(self) -> list[Mistake]:
-        """The named mistakes, then those that any answer of the kind can have."""
-        own = self.mistakes() if callable(self.mistakes) else self.mistakes
-        return list(own)
+        """The named mistakes."""
+        return list(self.mistakes() if callable(self.mistakes) else self.mistakes)
+
+    @cached_property
+    def main(self) -> list[tuple[Any, ...]]:
+        """The calls that are the same at every check."""
+        return [tuple(call) for call in self.inputs(np.random.default_rng(SEED))]
 
     @cached_property
     def draws(self) -> int:
         """How often inputs are drawn anew."""
-        *_, last = self.inputs(np.random.default_rng(SEED))
-        size = sum(map(np.size, last))
-        draws = CHEAP_DRAWS if size <= CHEAP else FRESH_DRAWS
+        draws = (
+            CHEAP_DRAWS if sum(map(np.size, self.main[-1])) <= CHEAP else FRESH_DRAWS
+        )
         return (draws if self.truth else 1) if self.fresh else 0
 
     @cached_property
     def edges(self) -> list[tuple[Any, ...]]:
         """Calls with the edge values of every argument, where one answer is right."""
-        found: dict[str, tuple[Any, ...]] = {}
-        for i in range(self.draws if self.truth else 0):
-            calls = list(self.inputs(Edges(np.random.PCG64([SEED, i]))))
-            found |= {repr(call): tuple(call) for call in calls[-self.fresh :]}
-        return [call for call in found.values() if _well_posed(self, call)]
+        if not self.truth:
+            return []
+        draw = [Edges(np.random.PCG64([SEED, i])) for i in range(self.draws)]
+        found = {repr(call): call for call in self.drawn(draw)}
+        return [c for c in found.values() if not self.at_edge or self.at_edge(*c)]
+
+    def drawn(self, generators: Sequence[np.random.Generator]) -> list[tuple[Any, ...]]:
+        """Return the calls that each generator draws anew."""
+        calls = [list(self.inputs(rng))[-self.fresh :] for rng in generators]
+        return list(map(tuple, chain.from_iterable(calls)))
 
 
 @dataclass(frozen=True)
 class Asked:
-    """All that one function is asked in one check, by role.
+    """All that one function is asked in one check, by role."""
 
-    Attributes:
-        function: its name.
-        ask: its row.
-        main: the questions that are the same at every check.
-        fresh: edge values, and those that are drawn anew.
-        held_out: per entry of `ask.held_out`.
-        probes: those of `ask.probe`.
-    """
+    function: str  # its name
+    ask: Ask  # its row
+    main: list[Exchange]  # the questions that are the same at every check
+    fresh: list[Exchange]  # edge values, and those that are drawn anew
+    held_out: list[list[Exchange]]  # per entry of `ask.held_out`
+    probes: list[Exchange]  # those of `ask.probe`
 
-    function: str
-    ask: Ask
-    main: list[Exchange]
-    fresh: list[Exchange]
-    held_out: list[list[Exchange]]
-    probes: list[Exchange]
+    @cached_property
+    def right(self) -> Parts:
+        """The right answers to the main questions."""
+        return right_answers(self.ask, self.main)
 
     @property
     def exchanges(self) -> list[Exchange]:
@@ -255,35 +217,17 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
     def exchanges(calls: Iterable[Sequence[Any]]) -> list[Exchange]:
         return [Exchange(Question(task, function, tuple(args))) for args in calls]
 
-    def make(inputs: Inputs, seed: Any = SEED) -> list[Exchange]:
-        return exchanges(inputs(np.random.default_rng(seed)))
+    def further(inputs: Inputs) -> list[Exchange]:
+        return exchanges(inputs(np.random.default_rng(SEED)))
 
-    drawn = (make(ask.inputs, [seed, i])[-ask.fresh :] for i in range(ask.draws))
+    anew = [np.random.default_rng([seed, i]) for i in range(ask.draws)]
     return Asked(
         function,
         ask,
-        make(ask.inputs),
-        [*exchanges(ask.edges), *chain.from_iterable(drawn)],
-        [make(held.inputs) for held in ask.held_out],
-        make(ask.probe.inputs) if ask.probe else [],
-    )
-
-
-def _well_posed(ask: Ask, call: tuple[Any, ...]) -> bool:
-    """Return whether a call has one right answer, whatever its last digits are."""
-    assert ask.truth is not None
-    columns = [_column((arg,), True) for arg in call]
-    answers = []
-    for nudge in (0.0, NUDGE, -NUDGE):
-        near = [c + nudge if isinstance(c, np.ndarray) else c for c in columns]
-        with contextlib.suppress(ValueError, ArithmeticError, Robo47Error):
-            answers.append(parts(ask.truth(*near)))
-        if not answers:
-            return False
-    return all(
-        bool(np.all(np.abs(one - first) <= ask.near * kind.scale))
-        for some in answers
-        for one, first, kind in zip(some, answers[0], ask.kinds, strict=True)
+        exchanges(ask.main),
+        exchanges([*ask.edges, *ask.drawn(anew)]),
+        [further(held.inputs) for held in ask.held_out],
+        further(ask.probe) if ask.probe else [],
     )
 
 
@@ -304,11 +248,19 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     return tuple(_column(column, one and not alone) for column, one in pairs)
 
 
+def as_plain(arg: Any) -> Any:
+    """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
+    return (
+        arg.model
+        if isinstance(arg, Robot)
+        else arg.pairs
+        if isinstance(arg, Path)
+        else arg
+    )
+
+
 def _column(column: tuple[Any, ...], shared: bool) -> Any:
-    plain = [
-        a.model if isinstance(a, Robot) else a.pairs if isinstance(a, Path) else a
-        for a in column
-    ]
+    plain = list(map(as_plain, column))
     special = isinstance(column[0], Robot | Path)
     if special and shared:
         return plain[0]
@@ -321,80 +273,16 @@ def _column(column: tuple[Any, ...], shared: bool) -> Any:
     return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 
-def right_answers(ask: Ask, exchanges: Iterable[Exchange]) -> tuple[Array, ...]:
-    """Return the right answers to questions: per part of the answer, (n, ...)."""
-    assert ask.truth is not None
-    return parts(ask.truth(*stacked(exchanges)))
-
-
-def held_out_answers(
-    held: HeldOut, ask: Ask, exchanges: Iterable[Exchange]
-) -> tuple[Array, ...]:
-    """Return what answers to held-out questions are compared with."""
-    function = held.mistaken or held.truth or ask.truth
-    assert function is not None
-    return parts(function(*stacked(exchanges)))
-
-
-def gaps(ask: Ask, S: Parts, T: Parts) -> Array:
-    """Return per call the largest difference of an entry, in units of its scale."""
-    trios = zip(S, T, ask.kinds, strict=True)
-    return np.max(
-        [difference(*as_one_size(s, t), k.scale) for s, t, k in trios], axis=0
-    )
-
-
-def off_by(ask: Ask, S: Parts, T: Parts) -> float:
-    """Return the largest difference of any entry, in units of its scale."""
-    return float(gaps(ask, S, T).max())
-
-
-def worst_part(ask: Ask, S: Parts, T: Parts) -> int:
-    """Return the first part of an answer that is wrong, or the one furthest off."""
-    off = [
-        off_by(Ask(ask.inputs, kind, truth=ask.truth), (s,), (t,))
-        for s, t, kind in zip(S, T, ask.kinds, strict=True)
-    ]
-    return next((i for i, x in enumerate(off) if x > ask.near), int(np.argmax(off)))
-
-
-def parts(answers: Any) -> tuple[Array, ...]:
-    """Return answers as a tuple of parts, also where there is one."""
-    some = answers if isinstance(answers, tuple) else (answers,)
-    return tuple(np.asarray(part, dtype=np.float64) for part in some)
-
-
-def in_words(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a question's input as a student can type it, or "" where it is too long.
-
-    Numbers and vectors can be typed; where a matrix is among them, the rest would
-    mislead.
+def right_answers(
+    ask: Ask, exchanges: Iterable[Exchange], held: HeldOut | None = None
+) -> Parts:
+    """Return the right answers to questions: per part of the answer, (n, ...).
 
     Args:
-        question: whose arguments.
-        names: theirs, where they are known.
+        ask: the function's row.
+        exchanges: the questions.
+        held: whose these are; what its mistake gives, where it looks for one.
     """
-    named = len(names) == len(question.args) > 1
-    words = []
-    for i, arg in enumerate(question.args):
-        if isinstance(arg, (int, float)):
-            says = number(float(arg))
-        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            says = "(" + ", ".join(number(float(x)) for x in arg) + ")"
-        elif isinstance(arg, np.ndarray):
-            return ""
-        else:  # the robot, or a path along it
-            continue
-        words.append(f"{names[i]} = {says}" if named else says)
-    return (", " if named else " and ").join(words)
-
-
-def number(x: float) -> str:
-    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
-    for over in (1, 2, 3, 4, 6):
-        times = x * over / np.pi
-        if times and times == round(times) and abs(times) <= 2 * over:
-            sign = "-" if times < 0 else ""
-            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
-            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
-    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
+    function = (held and (held.mistaken or held.truth)) or ask.truth
+    assert function is not None
+    return parts(function(*stacked(exchanges)))

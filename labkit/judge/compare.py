@@ -10,6 +10,7 @@ from labkit.judge.matrices import transposed
 from robo47 import se3
 from robo47.checks import Array
 
+Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
 MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
 
@@ -72,6 +73,36 @@ def as_one_size(a: Array, b: Array) -> tuple[Array, Array]:
     return both[0], both[1]
 
 
+def parts(answers: Any) -> Parts:
+    """Return answers as a tuple of parts, also where there is one."""
+    some = answers if isinstance(answers, tuple) else (answers,)
+    return tuple(np.asarray(part, dtype=np.float64) for part in some)
+
+
+def plain(some: Parts) -> Any:
+    """Return answers as the function does: a tuple only where it has several parts."""
+    return some[0] if len(some) == 1 else some
+
+
+def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
+    """Return per call the largest difference of an entry, in units of its scale."""
+    trios = zip(S, T, kinds, strict=True)
+    each = [difference(*as_one_size(s, t), kind.scale) for s, t, kind in trios]
+    return np.max(each, axis=0)
+
+
+def off_by(kinds: Sequence[Any], S: Parts, T: Parts) -> float:
+    """Return the largest difference of any entry, in units of its scale."""
+    return float(gaps(kinds, S, T).max())
+
+
+def worst_part(kinds: Sequence[Any], S: Parts, T: Parts, near: float) -> int:
+    """Return the first part of an answer that is wrong, or the one furthest off."""
+    trios = zip(S, T, kinds, strict=True)
+    off = [off_by([kind], (s,), (t,)) for s, t, kind in trios]
+    return next((i for i, x in enumerate(off) if x > near), int(np.argmax(off)))
+
+
 def rigid(M: Array) -> bool:
     """Return whether all of M, (n, 3, 3) or (n, 4, 4), are rotations or poses."""
     check = se3.is_rotation if M.shape[-1] == 3 else se3.is_pose
@@ -108,13 +139,8 @@ def say_degrees(deg: float) -> str:
 def _say(value: float, unit: str, least: float) -> str:
     if value < least:
         return "0"
-    return (
-        f"{value:.0f} {unit}" if value >= 200 else f"{value:.{_digits(value)}f} {unit}"
-    )
-
-
-def _digits(value: float) -> int:
-    return 1 if value >= 10 else 2
+    digits = 0 if value >= 200 else 1 if value >= 10 else 2
+    return f"{value:.{digits}f} {unit}"
 
 
 def say_value(value: float, unit: str, scale: float, entry: str) -> str:

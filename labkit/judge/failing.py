@@ -8,63 +8,40 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import problems
-from labkit.judge.ask import (
-    Ask,
-    Asked,
-    Parts,
-    gaps,
-    held_out_answers,
-    number,
-    right_answers,
-    worst_part,
-)
-from labkit.judge.compare import as_one_size, difference
-from labkit.judge.mistake import Finding
+from labkit.judge.ask import Asked, HeldOut, right_answers
+from labkit.judge.compare import Parts, as_one_size, difference, gaps, worst_part
+from labkit.judge.mistake import Finding, own
 from robo47.checks import Array
 
 
 @dataclass(frozen=True)
 class Failing:
-    """One call whose answer is not right.
+    """One call whose answer is not right."""
 
-    Attributes:
-        says: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
-        whole: the same with every argument and entry, in lines.
-    """
-
+    # In a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
     says: str = ""
-    whole: tuple[str, ...] = ()
+    whole: tuple[str, ...] = ()  # the same with every argument and entry, in lines
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
-    """Return the call that is furthest off, of those that are always asked if any is.
-
-    Args:
-        asked: all questions, with their replies.
-        names: of the function's arguments, where they are known.
-    """
+    """Return the call that is furthest off, of those always asked if one of them is."""
     with np.errstate(all="ignore"):
-        for truth, exchanges in _rounds(asked):
+        for exchanges, held in _rounds(asked):
             if found := _broken(exchanges, names):
                 return found
-            if truth is not None and (
-                found := _wrong(asked.ask, truth, exchanges, names)
+            if (asked.ask.truth or held) and (
+                found := _wrong(asked, exchanges, held, names)
             ):
                 return found
     return _refused(asked, names)
 
 
-def _rounds(asked: Asked) -> list[tuple[Any, list[Exchange]]]:
-    ask = asked.ask
-    truth = right_answers if ask.truth else None
-    rounds: list[tuple[Any, list[Exchange]]] = [(truth, asked.main)]
-    rounds.append((truth, asked.fresh))
-    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
-        if not held.mistaken:
-            rounds.append(
-                (lambda a, e, held=held: held_out_answers(held, a, e), exchanges)
-            )
-    return [(truth, some) for truth, some in rounds if some]
+def _rounds(asked: Asked) -> list[tuple[list[Exchange], HeldOut | None]]:
+    rounds: list[tuple[list[Exchange], HeldOut | None]]
+    rounds = [(asked.main, None), (asked.fresh, None)]
+    held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
+    rounds += [(some, held) for some, held in held_out if not held.mistaken]
+    return [(exchanges, held) for exchanges, held in rounds if exchanges]
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -77,14 +54,19 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
 
 
 def _wrong(
-    ask: Ask, truth: Any, exchanges: Sequence[Exchange], names: Sequence[str]
+    asked: Asked,
+    exchanges: Sequence[Exchange],
+    held: HeldOut | None,
+    names: Sequence[str],
 ) -> Failing | None:
+    ask = asked.ask
     S = problems.read([e.reply for e in exchanges if e.reply], ask, "")
     if isinstance(S, Finding):
         return None
-    T = truth(ask, exchanges)
-    gap = gaps(ask, S, T)
-    i, part = int(np.argmax(gap)), worst_part(ask, S, T)
+    main = exchanges is asked.main
+    T = asked.right if main else right_answers(ask, exchanges, held)
+    gap = gaps(ask.kinds, S, T)
+    i, part = int(np.argmax(gap)), worst_part(ask.kinds, S, T, ask.near)
     if gap[i] <= ask.tolerance:
         return None
     mine, its = (some[i] for some in as_one_size(S[part], T[part]))
@@ -103,14 +85,10 @@ def _wrong(
 def _refused(asked: Asked, names: Sequence[str]) -> Failing:
     """Return the first call that a function with many right answers got wrong."""
     ask = asked.ask
-    accept = ask.accept
-    for one in [*asked.main, *asked.fresh] if accept else []:
-        args = [
-            np.copy(a) if isinstance(a, np.ndarray) else a for a in one.question.args
-        ]
+    for one in [*asked.main, *asked.fresh] if ask.accept else []:
         if not one.reply or isinstance(problems.read([one.reply], ask, ""), Finding):
             continue
-        if accept and accept(*args, one.reply.value):
+        if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
             yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
             says = f"{typed(one.question, names)} is such a call."
             return Failing(says, _given(one.question, names) + yours)
@@ -127,7 +105,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask, S, T) > asked.ask.near
+    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not come from the inputs.")
@@ -147,15 +125,50 @@ def _only_known(main: Parts, S: Parts) -> bool:
 
 def typed(question: Question, names: Sequence[str] = ()) -> str:
     """Return a call as a student can type it; what is too long goes by its name."""
-    words = []
-    for i, arg in enumerate(question.args):
-        short = "..." if len(names) != len(question.args) else names[i]
-        if isinstance(arg, (int, float)):
-            short = number(float(arg))
-        elif isinstance(arg, np.ndarray) and arg.ndim == 1:
-            short = _vector(arg)
-        words.append(short)
+    named = len(names) == len(question.args)
+    words = [
+        _value(arg) or (names[i] if named else "...")
+        for i, arg in enumerate(question.args)
+    ]
     return f"{question.function}({', '.join(words)})"
+
+
+def in_words(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a question's input as a student can type it, or "" where it is too long.
+
+    Numbers and vectors can be typed; where a matrix is among them, the rest would
+    mislead.
+    """
+    args = question.args
+    if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
+        return ""
+    named = len(names) == len(args) > 1
+    words = [
+        f"{names[i]} = {says}" if named else says
+        for i, arg in enumerate(args)
+        if (says := _value(arg))  # not the robot, or a path along it
+    ]
+    return (", " if named else " and ").join(words)
+
+
+def _value(arg: Any) -> str:
+    """Return a number or a vector as it is typed, "" for anything else."""
+    if isinstance(arg, (int, float)):
+        return number(float(arg))
+    if isinstance(arg, np.ndarray) and arg.ndim == 1:
+        return "(" + ", ".join(number(float(x)) for x in arg) + ")"
+    return ""
+
+
+def number(x: float) -> str:
+    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
+    for over in (1, 2, 3, 4, 6):
+        times = x * over / np.pi
+        if times and times == round(times) and abs(times) <= 2 * over:
+            sign = "-" if times < 0 else ""
+            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
+            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
+    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
 
 
 def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
@@ -166,10 +179,6 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
             name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
             found.append(f"{name} = {_matrix(arg)}")
     return tuple(found)
-
-
-def _vector(values: Array) -> str:
-    return "(" + ", ".join(number(float(x)) for x in values) + ")"
 
 
 def _matrix(values: Array) -> str:

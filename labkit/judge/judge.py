@@ -8,26 +8,23 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question, replies
 from labkit.judge import near_miss, problems
-from labkit.judge.ask import (
-    Ask,
-    Asked,
-    Case,
-    HeldOut,
+from labkit.judge.ask import Ask, Asked, Case, HeldOut, right_answers, stacked
+from labkit.judge.compare import (
+    Parts,
+    as_one,
+    difference,
     gaps,
-    held_out_answers,
-    in_words,
+    largest,
+    matches,
     off_by,
     parts,
-    right_answers,
-    stacked,
+    plain,
     worst_part,
 )
-from labkit.judge.compare import as_one, difference, largest, matches
-from labkit.judge.failing import failing_call, for_fresh
-from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised
+from labkit.judge.failing import failing_call, for_fresh, in_words
+from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised, own
 from robo47.checks import Array
 
-Parts = tuple[Array, ...]
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
 
 
@@ -66,14 +63,14 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
-    T = right_answers(ask, asked.main)
+    T = asked.right
     case = _case(asked, S, T, names)
     measured = _measured(case, S, T)
-    off = off_by(ask, S, T)
+    off = off_by(ask.kinds, S, T)
     if off > ask.near:
         if found := diagnose(case, S, T):
             return Verdict("wrong", *found, measured)
-        wrong = tuple(np.flatnonzero(gaps(ask, S, T) > ask.near).tolist())
+        wrong = tuple(np.flatnonzero(gaps(ask.kinds, S, T) > ask.near).tolist())
         found = what_is_wrong(case, S, T)
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
@@ -82,21 +79,15 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
-    """Return what keeps some answers from being judged, and what is wrong with others.
-
-    Args:
-        found: of the answers that cannot be judged.
-        asked: all questions, with their replies.
-        names: of the function's arguments.
-    """
+    """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
     rest = replace(asked, main=good, probes=[])
     S = problems.read(replies(good), asked.ask, "") if good else found
     if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
         return found
     with np.errstate(all="ignore"):
-        T = right_answers(asked.ask, good)
-        if off_by(asked.ask, S, T) <= asked.ask.near:
+        T = rest.right
+        if off_by(asked.ask.kinds, S, T) <= asked.ask.near:
             return found
         case = _case(rest, S, T, names)
         return _both(found, case, S, T)
@@ -114,7 +105,7 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
     if off <= near_miss.SINGLE and problems.single_precision(replies(asked.main), S):
         says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
         return Finding("float32", says)
-    i = worst_part(case.ask, S, T)
+    i = worst_part(case.ask.kinds, S, T, case.ask.near)
     found = case.ask.near_miss(case) if case.ask.near_miss else None
     return found or near_miss.explain(S[i], T[i])
 
@@ -128,7 +119,7 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
         S = problems.read(replies(asked.fresh), ask, "")
         off = np.inf
         if not isinstance(S, Finding):
-            gap = gaps(ask, S, right_answers(ask, asked.fresh))
+            gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
             off, lines = float(gap.max()), _counted(ask, gap, "with fresh inputs")
             measured += lines[1:]
         if off > ask.near:
@@ -148,7 +139,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = problems.read(replies(exchanges), ask, "")
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    off = off_by(ask, S, held_out_answers(held, ask, exchanges))
+    off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
     return off <= ask.near if held.mistaken else off > ask.near
 
 
@@ -162,8 +153,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
     wrong: list[tuple[Question, Finding]] = []
     for question, answer in zip(questions, problems.answers(asked), strict=True):
-        args = [a.copy() if isinstance(a, np.ndarray) else a for a in question.args]
-        if why := ask.accept(*args, answer):
+        if why := ask.accept(*map(own, question.args), answer):
             found = why if isinstance(why, Finding) else Finding("not-accepted", why)
             wrong.append((question, found))
     if not wrong:
@@ -179,9 +169,6 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 
 
 def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
-    def plain(some: Parts) -> Any:
-        return some[0] if len(some) == 1 else some
-
     answered = zip(asked.probes, replies(asked.probes), strict=True)
     probes = [
         (probe.question.args, None if reply.kind else reply.value)
@@ -193,7 +180,7 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
 
 def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
     ask = case.ask
-    gap = gaps(ask, S, T)
+    gap = gaps(ask.kinds, S, T)
     lines = list(_counted(ask, gap, "that are always asked"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
@@ -201,13 +188,7 @@ def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
 
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
-    """Return how far off calls are, and how many are right.
-
-    Args:
-        ask: the row of the function.
-        gap: per call, as `gaps` has it.
-        which: calls these are.
-    """
+    """Return how far off calls are by their gaps, and how many are right."""
     return (
         f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
         f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
@@ -222,7 +203,7 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
         return found
     if found := _not_finite(S, case.given):
         return _and_the_finite(found, case, S, T)
-    i = worst_part(ask, S, T)
+    i = worst_part(ask.kinds, S, T, ask.near)
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
         return found
@@ -233,20 +214,19 @@ def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     """Return that some answers are NaN, and what is wrong with the others."""
     good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
     S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
-    if not good.any() or off_by(case.ask, S, T) <= case.ask.near:
+    if not good.any() or off_by(case.ask.kinds, S, T) <= case.ask.near:
         return found
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
     given = [one for one, is_good in zip(case.given, good, strict=True) if is_good]
-    plain = [some[0] if len(some) == 1 else some for some in (S, T)]
-    rest = replace(case, arguments=arguments, S=plain[0], T=plain[1], given=given)
+    rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
     return _both(found, rest, S, T)
 
 
 def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     """Return which part of the answers is wrong, and by how much."""
-    ask, i = case.ask, worst_part(case.ask, S, T)
+    ask, i = case.ask, worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
@@ -258,62 +238,71 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
 
 
 def named_mistake(
-    mistakes: Sequence[Mistake], arguments: tuple[Any, ...], ask: Ask, S: Any, T: Any
+    mistakes: Sequence[Mistake],
+    arguments: tuple[Any, ...],
+    kinds: Sequence[Any],
+    S: Parts,
+    T: Parts | None,
+    near: float,
 ) -> Finding | None:
     """Return the first mistake that, made on purpose, gives the student's answers.
 
     Args:
         mistakes: the candidates.
         arguments: all questions' arguments stacked.
-        ask: the function's row.
+        kinds: of the answer's parts.
         S: the student's answers: per part, (n, ...).
         T: the right ones, or None where many are right.
+        near: up to here a part is nearly right.
     """
+    first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
     for mistake in mistakes:
         try:
-            again = _made_again(mistake, arguments, ask, S)
+            again = _made_again(mistake, arguments, kinds, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
-        pairs = list(zip(S, again, ask.kinds, strict=False))
-        if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in pairs):
+        trios = zip(S, again, kinds, strict=False)
+        if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in trios):
             says = capitalised(mistake.says)
             says += "" if says.endswith("?") else "."
             if T is not None:
-                i = worst_part(ask, S, T)
-                says += f" (Off by up to {ask.kinds[i].apart(S[i], T[i])}; "
-                says += f"{mistake.redone} gives your numbers exactly.)"
+                i = worst_part(kinds, S, T, near)
+                how = mistake.redone
+                if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
+                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
+                says += f" ({capitalised(how)} gives your numbers exactly.)"
             return Finding(mistake.slug, says)
     return None
 
 
 def _made_again(
-    mistake: Mistake, arguments: tuple[Any, ...], ask: Ask, S: Parts
+    mistake: Mistake,
+    arguments: tuple[Any, ...],
+    kinds: Sequence[Any],
+    S: Parts,
+    first: int,
 ) -> Parts:
-    """Return the answers with a mistake; none as soon as one is not the student's.
+    """Return the answers with a mistake; none where the first is not the student's.
 
     Raises:
         ValueError: it has no answer to one of the questions.
     """
     redo = mistake.redo
-    if not isinstance(redo, InTurn):
-        return parts(redo(*arguments))
-    pairs = zip(S, ask.kinds, strict=True)
-    scales = [k.scale * max(1.0, largest(s, k.scale)) for s, k in pairs]
-    found: list[Parts] = []
-    for i in reversed(range(len(S[0]))):
-        found.append(parts(redo.nth(i, arguments)))
-        for s, a, scale, k in zip(S, found[-1], scales, ask.kinds, strict=False):
-            one, again = as_one([s[i], a])
-            if not k.fits(a.shape) or not matches(one[None], again[None], scale):
+    if isinstance(redo, InTurn):
+        again = parts(redo.nth(first, arguments))
+        for s, a, kind in zip(S, again, kinds, strict=False):
+            scale = kind.scale * max(1.0, largest(s, kind.scale))
+            mine, its = as_one([s[first], a])
+            if not matches(mine[None], its[None], scale):
                 return ()
-    return tuple(map(as_one, zip(*reversed(found), strict=True)))
+    return parts(redo(*arguments))
 
 
 def redone(
     ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts | None
 ) -> Finding | None:
     """Return a named mistake of the function, or a general one of its kind."""
-    if found := named_mistake(ask.named, arguments, ask, S, T):
+    if found := named_mistake(ask.named, arguments, ask.kinds, S, T, ask.near):
         return found
     if T is None:
         return None
@@ -322,8 +311,8 @@ def redone(
         others = [part for j, part in enumerate(S) if j != i]
         if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
             continue
-        one = Ask(ask.inputs, kind, truth=ask.truth)
-        found = named_mistake(list(kind.general()), (T[i],), one, (S[i],), (T[i],))
+        mine, its = (S[i],), (T[i],)
+        found = named_mistake(kind.general(), its, [kind], mine, its, ask.near)
         if found:
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)

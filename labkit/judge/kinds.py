@@ -41,19 +41,15 @@ TRUNCATED = Mistake(
 
 @dataclass(frozen=True)
 class Kind:
-    """Any array of numbers; the base of the others.
+    """Any array of numbers; the base of the others."""
 
-    Attributes:
-        shape: of one answer; None is a size that the question decides.
-        unit: of its entries, "" where they have none.
-        scale: what an entry is like; errors are judged in units of it. An array, (m, n)
-            say, gives each entry a weight of its own.
-        called: what it is in a sentence, "the torque"; used where a tuple has several.
-    """
-
+    # Of one answer; None is a size that the question decides.
     shape: tuple[int | None, ...] = ()
-    unit: str = ""
+    unit: str = ""  # of its entries, "" where they have none
+    # What an entry is like; errors are judged in units of it. An array, (m, n) say,
+    # gives each entry a weight of its own.
     scale: Any = 1.0
+    # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
 
@@ -67,13 +63,40 @@ class Kind:
         pairs = zip(shape, self.shape, strict=False)
         return len(shape) == len(self.shape) and all(n in (m, None) for m, n in pairs)
 
+    def read(self, values: Sequence[object]) -> list[Array] | Finding:
+        """Return answers as arrays, or what keeps one of them from it."""
+        found = []
+        for value in values:
+            try:
+                array = np.asarray(value)
+            except ValueError:  # parts of different shapes
+                some = value if isinstance(value, tuple | list) else ()
+                shapes = ", ".join(str(np.shape(part)) for part in some)
+                says = f"It returns parts of shapes {shapes}"
+                return Finding("shape", f"{says}; expected is {self.expected}.")
+            if array.dtype.kind not in "fiub":
+                says = f"It returns {array.dtype} values; expected is {self.expected}"
+                return Finding("not-numbers", f"{says} of real numbers.")
+            if not self.fits(array.shape):
+                return self._misfit(array.shape)
+            found.append(self.plain(array))
+        return found
+
+    def _misfit(self, got: tuple[int, ...]) -> Finding:
+        text = f"It returns shape {got}; expected is {self.expected}"
+        if None not in self.shape and str(self.shape) not in text.partition(";")[2]:
+            text += f", shape {self.shape}"
+        reason = self.why_shape(got)
+        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
         return answer
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
-        return "it has one axis too many" if got in _with_an_axis(self.shape) else ""
+        thicker = got in ((*self.shape, 1), (1, *self.shape))
+        return "it has one axis too many" if thicker else ""
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
@@ -102,19 +125,14 @@ class Kind:
 class Scalar(Kind):
     """One number. `Scalar(unit="J", scale=10.0)`."""
 
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "one number"
+    expected = "one number"
 
 
 @dataclass(frozen=True)
 class Vector(Kind):
-    """A vector. `Vector((7,), "Nm", names=JOINTS)`.
+    """A vector. `Vector((7,), "Nm", names=JOINTS)`."""
 
-    Attributes:
-        names: of its entries, "joint1" and so on; else they are counted from 0.
-    """
-
+    # Of its entries, "joint1" and so on; else they are counted from 0.
     names: tuple[str, ...] = ()
 
     @property
@@ -168,21 +186,15 @@ class _Halves(Kind):
         )
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        first, second = (
-            float((np.abs(S - T) / self.scale)[:, half].max())
-            for half in (slice(0, 3), slice(3, 6))
-        )
+        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
         if found := one_factor(self, S, T):
             return found
-        if first <= NEAR:
-            says = f"{self.halves[0]} is right; {self.halves[1]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("second-half-off", says)
-        if second <= NEAR:
-            says = f"{self.halves[1]} is right; {self.halves[0]} is not: off by up to"
-            says = f"{capitalised(says)} {self.apart(S, T)}."
-            return Finding("first-half-off", says)
-        return Finding("both-halves-off", f"Both halves are wrong: {self.apart(S, T)}.")
+        for i, slug in enumerate(("second-half-off", "first-half-off")):
+            if off[i] <= NEAR:
+                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
+                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
+        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
+        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)
@@ -201,14 +213,11 @@ class Wrench(_Halves):
 
 @dataclass(frozen=True)
 class Points(Kind):
-    """Points in metres, (m, 3), that may come as a tuple of vectors. `Points((2, 3))`.
-
-    Attributes:
-        names: what each is called, "first" and so on.
-    """
+    """Points in metres, (m, 3), or a tuple of vectors. `Points((2, 3))`."""
 
     shape: tuple[int, ...] = (2, 3)
     unit: str = "m"
+    # What each is called, "first" and so on.
     names: tuple[str, ...] = ("first", "second")
 
     @property
@@ -261,7 +270,3 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
         f"It is {say_factor(factor)} times the right one, in every entry and every "
         "time.",
     )
-
-
-def _with_an_axis(shape: tuple[int | None, ...]) -> set[tuple[int | None, ...]]:
-    return {(*shape, 1), (1, *shape)}

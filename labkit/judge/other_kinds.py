@@ -49,10 +49,7 @@ class Count(Scalar):
     """How many: one whole number."""
 
     empty = False
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a whole number"
+    expected = "a whole number"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return ()
@@ -117,10 +114,7 @@ class Pixels(Kind):
     shape: tuple[int | None, ...] = (None, 2)
     unit: str = "px"
     scale: float | Array = 100.0
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a pixel (x, y) per point"
+    expected = "a pixel (x, y) per point"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return (ROWS_FIRST, TRUNCATED)

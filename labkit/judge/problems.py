@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Reply, replies
-from labkit.judge.ask import Ask, Asked, parts, stacked
-from labkit.judge.compare import as_one
+from labkit.judge.ask import Ask, Asked, stacked
+from labkit.judge.compare import Parts, as_one, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, InTurn, Verdict
 from labkit.lesson.starter import function_lines
@@ -100,12 +100,7 @@ def refusal(what: str, line: int | None) -> Verdict:
 
 
 def not_loaded(script: Path, reply: Reply) -> str:
-    """Return one line on a file that Python could not load.
-
-    Args:
-        script: the student's file.
-        reply: what loading it gave.
-    """
+    """Return one line on a file that Python could not load."""
     where = f"{script.name}, line {reply.line}" if reply.line else script.name
     if reply.kind == "SystemExit":
         return f"{where}: it ends Python while being loaded. {IN_MAIN}"
@@ -123,9 +118,7 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why
 
 
-def read(
-    replies: Sequence[Reply], ask: Ask, source: str
-) -> tuple[Array, ...] | Finding:
+def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
     """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
 
     Args:
@@ -142,25 +135,14 @@ def read(
         if nothing < len(replies):
             says = f"It returns None for {nothing} of {len(replies)} inputs."
         return Finding("nothing-returned", says)
-    kinds = ask.kinds
-    columns: list[list[Array]] = [[] for _ in kinds]
-    for reply in replies:
-        row = _parts(reply.value, kinds)
-        if isinstance(row, Finding):
-            return row
-        for column, part in zip(columns, row, strict=True):
-            column.append(part)
-    return tuple(map(as_one, columns))
+    columns = _columns(replies, ask.kinds)
+    return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
 def answers(asked: Asked) -> Iterator[Any]:
-    """Yield the answers to all questions, none of them filled up: what `accept` takes.
-
-    Args:
-        asked: questions whose replies `read` has read.
-    """
-    for reply in replies([*asked.main, *asked.fresh]):
-        row = _parts(reply.value, asked.ask.kinds)
+    """Yield the answers that `read` has read, none of them filled up, for `accept`."""
+    columns = _columns(replies([*asked.main, *asked.fresh]), asked.ask.kinds)
+    for row in zip(*columns, strict=True):
         parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
         yield parts[0] if len(parts) == 1 else tuple(parts)
 
@@ -170,29 +152,19 @@ def of_another_size(asked: Asked) -> Finding | None:
     truth, kinds = asked.ask.truth, asked.ask.kinds
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
         return None
-    arguments = stacked(asked.main)
-    for i, exchange in enumerate(asked.main):
-        right, value = (
-            parts(truth.nth(i, arguments)),
-            exchange.reply and exchange.reply.value,
-        )
-        answers: Any = value if len(kinds) > 1 else (value,)
-        for T, S in zip(right, answers, strict=True):
+    right = truth.each(stacked(asked.main))
+    for i, (wanted, reply) in enumerate(zip(right, replies(asked.main), strict=True)):
+        got = reply.value if len(kinds) > 1 else (reply.value,)
+        for T, S in zip(parts(wanted), got, strict=True):
             if np.shape(S) != T.shape:
                 says = f"It returns shape {np.shape(S)} where {T.shape} is right"
-                return Finding(
-                    "shape", f"{says}, in call {i + 1} of {len(asked.main)}."
-                )
+                where = f"in call {i + 1} of {len(asked.main)}"
+                return Finding("shape", f"{says}, {where}.")
     return None
 
 
 def kept_state(asked: Asked, source: str = "") -> Finding | None:
-    """Return that a function keeps something between its calls, if it does.
-
-    Args:
-        asked: questions that were asked twice, apart from each other.
-        source: the student's file.
-    """
+    """Return that a function keeps something between its calls, if it does."""
     replied = replies([*asked.main, *asked.fresh])
     differ = [reply for reply in replied if _differs(reply)]
     code = "\n".join(function_lines(source, asked.function)[2])
@@ -258,57 +230,50 @@ def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Findi
 def _differs(reply: Reply) -> bool:
     if reply.kind or reply.again_error:  # stopped once, and not the other time
         return bool(reply.again_error) or reply.again is not None
-    first, second = _flat(reply.value), _flat(reply.again)
+    first, second = flat(reply.value), flat(reply.again)
     if first is None or second is None or first.shape != second.shape:
         return not (first is None and second is None)
     scale = max(1.0, float(np.abs(first[np.isfinite(first)]).max(initial=0.0)))
     return not np.allclose(first, second, rtol=0.0, atol=SAME * scale, equal_nan=True)
 
 
-def _flat(value: Any) -> Array | None:
-    if value is None:
+def flat(answer: Any) -> Array | None:
+    """Return all numbers of one answer, (n,); None where it is none."""
+    if answer is None:
         return None
-    some = value if isinstance(value, tuple) else (value,)
-    return np.concatenate([np.asarray(v, dtype=np.float64).ravel() for v in some])
+    some = answer if isinstance(answer, tuple) else (answer,)
+    try:
+        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
+    except (TypeError, ValueError):
+        return None
 
 
-def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Array, ...] | Finding:
-    """Return one answer's parts, checked."""
-    if len(kinds) == 1:
-        part = _array(value, kinds[0])
-        return part if isinstance(part, Finding) else (part,)
-    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+def _columns(
+    replies: Sequence[Reply], kinds: tuple[Kind, ...]
+) -> list[list[Array]] | Finding:
+    """Return the answers, checked: a list of arrays per part."""
+    columns: list[Any] = [[reply.value for reply in replies]]
+    if len(kinds) > 1:
+        rows = [_parts(value, kinds) for value in columns[0]]
+        if broken := [row for row in rows if isinstance(row, Finding)]:
+            return broken[0]
+        columns = list(zip(*rows, strict=True))
+    found = []
+    for kind, column in zip(kinds, columns, strict=True):
+        part = kind.read(column)
+        if isinstance(part, Finding):
+            called = f"{kind.called or 'One result'}: " if len(kinds) > 1 else ""
+            return Finding(part.slug, called + part.message)
+        found.append(part)
+    return found
+
+
+def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
+    """Return one answer's parts, of a function that returns several."""
     if isinstance(value, np.ndarray) and value.ndim:  # numbers, that travel as one
         value = tuple(value)
-    if not isinstance(value, tuple) or len(value) != len(kinds):
-        got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
-        return Finding("parts", f"It returns {got}; expected are {expected}.")
-    found: list[Array] = []
-    for part, kind in zip(value, kinds, strict=True):
-        array = _array(part, kind)
-        if isinstance(array, Finding):
-            return Finding(
-                array.slug, f"{kind.called or 'One result'}: {array.message}"
-            )
-        found.append(array)
-    return tuple(found)
-
-
-def _array(value: object, kind: Kind) -> Array | Finding:
-    try:
-        array = np.asarray(value)
-    except ValueError:  # parts of different shapes
-        some = value if isinstance(value, tuple | list) else ()
-        shapes = ", ".join(str(np.shape(part)) for part in some)
-        says = f"It returns parts of shapes {shapes}; expected is {kind.expected}."
-        return Finding("shape", says)
-    if array.dtype.kind not in "fiub":
-        says = f"It returns {array.dtype} values; expected is {kind.expected} of real"
-        return Finding("not-numbers", f"{says} numbers.")
-    if not kind.fits(array.shape):
-        text = f"It returns shape {array.shape}; expected is {kind.expected}"
-        if None not in kind.shape and str(kind.shape) not in text.partition(";")[2]:
-            text += f", shape {kind.shape}"
-        reason = kind.why_shape(array.shape)
-        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
-    return kind.plain(array)
+    if isinstance(value, tuple) and len(value) == len(kinds):
+        return value
+    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
+    got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
+    return Finding("parts", f"It returns {got}; expected are {expected}.")

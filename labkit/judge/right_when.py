@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from labkit.judge.compare import rigid, say_factor
+from labkit.judge.mistake import own
+from labkit.judge.problems import flat
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
@@ -20,61 +22,46 @@ OTHERS = 12  # of them are asked
 Call = tuple[Any, ...]
 
 
-class Neutral(NamedTuple):
-    """A neutral value of an argument: what it is called, and the value itself."""
-
-    says: str  # "{} is 0"
-    value: Any
-
-
 class Experiment(NamedTuple):
-    """Calls in which one argument is neutral.
+    """Calls in which one argument is neutral."""
 
-    Attributes:
-        says: "ed is 0".
-        changed: how many numbers of the argument were made neutral.
-        calls: the arguments of each.
-    """
-
-    says: str
-    changed: float
-    calls: list[Call]
+    says: str  # "ed is 0"
+    changed: float  # how many numbers of the argument were made neutral
+    calls: list[Call]  # the arguments of each
 
 
-def neutrals(x: Any) -> Iterator[Neutral]:
-    """Yield the neutral values of an argument, the most telling first.
+def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the neutral values of an argument in words, the most telling first.
 
     Args:
         x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
     """
     if isinstance(x, float) and not isinstance(x, bool):
-        yield Neutral("{} is 0", 0.0)
-        yield Neutral("{} is 1", 1.0)
+        yield "{} is 0", 0.0
+        yield "{} is 1", 1.0
     elif isinstance(x, np.ndarray) and x.ndim == 1 and len(x) > 1:
-        yield Neutral("{} is 0", np.zeros_like(x))
-        yield Neutral("all entries of {} are equal", np.full_like(x, x[0]))
+        yield "{} is 0", np.zeros_like(x)
+        yield "all entries of {} are equal", np.full_like(x, x[0])
         one = np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0)
-        yield Neutral("only one entry of {} is not 0", one)
+        yield "only one entry of {} is not 0", one
     elif isinstance(x, np.ndarray) and x.ndim == 2:
         yield from _of_a_matrix(x)
 
 
-def _of_a_matrix(x: Array) -> Iterator[Neutral]:
+def _of_a_matrix(x: Array) -> Iterator[tuple[str, Array]]:
     if x.shape == (4, 4) and rigid(x[None]):
         turned, moved = x.copy(), x.copy()
         turned[:3, 3], moved[:3, :3] = 0.0, np.eye(3)
-        yield Neutral("{} does not translate", turned)
-        yield Neutral("{} does not rotate", moved)
+        yield "{} does not translate", turned
+        yield "{} does not rotate", moved
     elif x.shape == (3, 3) and rigid(x[None]):
-        yield Neutral("{} is the identity", np.eye(3))
+        yield "{} is the identity", np.eye(3)
     elif x.shape[0] == x.shape[1]:
-        yield Neutral("{} is diagonal", np.diag(np.diag(x)))
-        yield Neutral("{} is the identity", np.eye(len(x)))
-        yield Neutral("{} is 0", np.zeros_like(x))
+        yield "{} is diagonal", np.diag(np.diag(x))
+        yield "{} is the identity", np.eye(len(x))
+        yield "{} is 0", np.zeros_like(x)
     else:
-        one = np.zeros_like(x)
-        one[:, 0] = x[:, 0]
-        yield Neutral("only the first column of {} is not 0", one)
+        yield "only the first column of {} is not 0", x * (np.arange(x.shape[1]) == 0)
 
 
 def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
@@ -87,20 +74,13 @@ def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]
     some = _asked_again(calls, names)
     found = []
     for k, name in enumerate(names if some else ()):
-        columns = [list(neutrals(call[k])) for call in some]
-        for choices in zip(*columns, strict=False):
-            if len({choice.says for choice in choices}) == 1:
-                changed = [
-                    (*call[:k], choice.value, *call[k + 1 :])
-                    for call, choice in zip(some, choices, strict=True)
-                ]
-                count = np.mean(
-                    [np.sum(np.not_equal(c.value, call[k])) for c, call in
-                     zip(choices, some, strict=True)]
-                )  # fmt: skip
-                if count:
-                    says = choices[0].says.format(name)
-                    found.append(Experiment(says, float(count), changed))
+        for choices in zip(*(neutrals(call[k]) for call in some), strict=False):
+            says, values = zip(*choices, strict=True)
+            pairs = list(zip(some, values, strict=True))
+            count = np.mean([np.sum(np.not_equal(call[k], v)) for call, v in pairs])
+            if len(set(says)) == 1 and count:
+                changed = [(*call[:k], v, *call[k + 1 :]) for call, v in pairs]
+                found.append(Experiment(says[0].format(name), float(count), changed))
     return found
 
 
@@ -137,7 +117,7 @@ def growth(before: Sequence[Any], after: Sequence[Any], near: float) -> float | 
         after: the same calls' with an argument doubled.
         near: how far off a right answer may be, relative to its largest entry.
     """
-    pairs = [(_flat(b), _flat(a)) for b, a in zip(before, after, strict=True)]
+    pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
     whole = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
     if len(whole) < AGREE or any(b.shape != a.shape for b, a in whole):
         return None
@@ -199,8 +179,9 @@ def conclude(
     telling = []
     for i, (one, given) in enumerate(zip(asked, answers, strict=True)):
         if _right(one.calls, given, truth, near):
-            share = _share_right(one.calls, others, truth, near)
-            if share <= COMMON:
+            said = [[_or_none(o, call) for call in one.calls] for o in others[:OTHERS]]
+            right = [_right(one.calls, those, truth, near) for those in said]
+            if (share := sum(right) / max(1, len(right))) <= COMMON:
                 telling.append((share, one.changed, i))
     says: list[str] = []
     seen: set[str] = set()
@@ -228,10 +209,10 @@ def _right(
     agree, different = 0, False
     first: Array | None = None
     for call, answer in zip(calls, given, strict=True):
-        right = _flat(_or_none(truth, call))
+        right = flat(_or_none(truth, call))
         if right is None or not np.isfinite(right).all():
             continue  # the question has no answer: it says nothing
-        mine = _flat(answer)
+        mine = flat(answer)
         if mine is None or mine.shape != right.shape:
             return False
         scale = max(1.0, float(np.abs(right).max(initial=0.0)))
@@ -243,36 +224,9 @@ def _right(
     return agree >= AGREE and different
 
 
-def _share_right(
-    calls: Sequence[Call],
-    others: Sequence[Callable[..., Any]],
-    truth: Callable[..., Any],
-    near: float,
-) -> float:
-    """Return which share of other wrong functions is right at the same calls."""
-    some = list(others)[:OTHERS]
-    right = [
-        _right(calls, [_or_none(one, call) for call in calls], truth, near)
-        for one in some
-    ]
-    return sum(right) / len(right) if right else 0.0
-
-
 def _or_none(function: Callable[..., Any], call: Call) -> Any:
-    copies = (np.copy(x) if isinstance(x, np.ndarray) else x for x in call)
     try:
         with np.errstate(all="ignore"):
-            return function(*copies)
+            return function(*map(own, call))
     except Exception:  # a singular matrix, say
         return None
-
-
-def _flat(answer: Any) -> Array | None:
-    if answer is None:
-        return None
-    some = answer if isinstance(answer, tuple) else (answer,)
-    try:
-        parts = [np.asarray(part, dtype=np.float64).ravel() for part in some]
-    except (TypeError, ValueError):
-        return None
-    return np.concatenate(parts)

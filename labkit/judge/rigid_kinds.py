@@ -29,10 +29,7 @@ class Rotation(Kind):
     """A rotation matrix, (3, 3)."""
 
     shape: tuple[int, ...] = (3, 3)
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a 3x3 matrix"
+    expected = "a 3x3 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         known: dict[tuple[int, ...], str] = {
@@ -64,18 +61,12 @@ class Rotation(Kind):
 
 @dataclass(frozen=True)
 class Pose(Kind):
-    """A rigid transform, (4, 4).
-
-    Attributes:
-        wrong_way: what its rotation does when it is transposed.
-    """
+    """A rigid transform, (4, 4)."""
 
     shape: tuple[int, ...] = (4, 4)
+    # What its rotation does when it is transposed.
     wrong_way: str = "turns the other way"
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "a 4x4 matrix"
+    expected = "a 4x4 matrix"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         known: dict[tuple[int, ...], str] = {

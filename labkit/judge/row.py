@@ -19,10 +19,11 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
+import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, update_wrapper
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
@@ -47,25 +48,17 @@ def _as_they_are(*args: Any) -> tuple[Any, ...]:
 
 @dataclass(frozen=True)
 class Way:
-    """One way to write a function: a mistake, or an unusual one that is right.
+    """One way to write a function: a mistake, or an unusual one that is right."""
 
-    Attributes:
-        status: "wrong", "close" or "right".
-        slug: what it must be told; "" where it must pass.
-        says: as in a `Mistake`; "" where something else names it: a hook of the row,
-            a held-out question, its kind.
-        code: the function, as a student writes it.
-        redone: as in a `Mistake`.
-        hidden: why the lab cannot show it; "" where the lab, run with it, fails.
-        reached: whether it is a mistake of a smaller function that this one calls.
-    """
-
-    status: str
-    slug: str
+    status: str  # "wrong", "close" or "right"
+    slug: str  # what it must be told; "" where it must pass
+    # As in a `Mistake`; "" where something else names it: a hook of the row, a held-out
+    # question, its kind.
     says: str
-    code: Code
-    redone: str = REDONE
-    hidden: str = ""
+    code: Code  # the function, as a student writes it
+    redone: str = REDONE  # as in a `Mistake`
+    hidden: str = ""  # why the lab cannot show it; "" where the lab, run with it, fails
+    # Whether it is a mistake of a smaller function that this one calls.
     reached: bool = False
 
     @property
@@ -134,6 +127,27 @@ class Row:
             )
 
         return keep
+
+    def wrongs(self, code: Code) -> Code:
+        """Take the mistakes of one function that returns {slug: answer}.
+
+        Its docstring has a line of each, "slug: sentence => what to call the answer";
+        an indented line goes on with the one above. An answer that costs much, or may
+        stop, is a function without arguments.
+        """
+        text = re.sub(r"\n +", " ", inspect.getdoc(code) or "")
+        said = dict(line.split(": ", 1) for line in text.splitlines())
+        for slug, says in said.items():
+
+            def one(*args: Any, slug: str = slug) -> Any:
+                if (answers := code(*args)).keys() != said.keys():
+                    raise KeyError(*answers.keys() ^ said.keys())
+                answer = answers[slug]
+                return answer() if callable(answer) else answer
+
+            update_wrapper(one, code, (), ())  # its arguments' names
+            self.wrong(slug, *says.split(" => "))(one)
+        return code
 
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""
@@ -255,21 +269,18 @@ class Row:
         if self._draw is None:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
-        if "held_out" in more:
-            more["held_out"] = [_one_by_one(held) for held in more["held_out"]]
-        kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
-        truth = None
-        if "accept" not in more:
-            truth = _Answered(self.truth, kinds, self._fault)
+        more["held_out"] = [_one_by_one(held) for held in more.get("held_out", ())]
         if "accept" in more:
             more["accept"] = _told(more["accept"], self._fault)
-        named = lambda: [  # noqa: E731 (made when an answer is wrong)
-            Mistake(way.slug, way.says, InTurn(way.code), way.redone, way.reached)
-            for way in self.named
-        ]
-        return Ask(
-            self._draw, self.kind, truth=truth, mistakes=named, near=self.near, **more
-        )
+        else:
+            kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+            more["truth"] = _Answered(self.truth, kinds, self._fault)
+
+        def named() -> list[Mistake]:  # made when an answer is wrong
+            ways = self.named
+            return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
+
+        return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
 
     def _fault(
         self, what: str, error: BaseException | None, says: str = ""
@@ -346,17 +357,18 @@ class _Answered(InTurn):
         super().__init__(function)
         self.kinds, self.fault = kinds, fault
 
-    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+    def each(self, columns: Sequence[Any]) -> list[Any]:
         try:
-            answer = super().nth(i, columns)
+            answers = super().each(columns)
         except ValueError as error:
             raise self.fault("truth", error.__cause__ or error) from None
-        found = answer if isinstance(answer, tuple) else (answer,)
-        for one, kind in zip(found, self.kinds, strict=False):
-            if len(found) != len(self.kinds) or not kind.fits(np.shape(one)):
-                says = f"returns shape {np.shape(one)}, and its kind is {kind.expected}"
-                raise self.fault("truth", None, says)
-        return answer
+        parts = [a if isinstance(a, tuple) else (a,) for a in answers]
+        for shapes in {tuple(map(np.shape, some)) for some in parts}:
+            for got, kind in zip(shapes, self.kinds, strict=False):
+                if len(shapes) != len(self.kinds) or not kind.fits(got):
+                    says = f"returns shape {got}, and its kind is {kind.expected}"
+                    raise self.fault("truth", None, says)
+        return answers
 
 
 def _told(accept: Code, fault: Code) -> Code:

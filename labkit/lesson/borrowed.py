@@ -24,9 +24,6 @@ def kits(file: str, function: str) -> Callable[..., Any]:
     Args:
         file: the student's, `__file__`; its name says which day it is.
         function: its name.
-
-    Raises:
-        Robo47Error: the kit's complete lab is not here.
     """
     day = day_of(Path(file))
     if not day.source.is_file():

@@ -137,11 +137,7 @@ class Day:
         return self.folder / f"day{self.number}"
 
     def named_as(self, is_there: Callable[[str], bool]) -> "Day":
-        """Return the day, under a name that its script had where only that is there.
-
-        Args:
-            is_there: whether a path from the clone's top is.
-        """
+        """Return the day, under a name that its script had where only that is there."""
         before = [replace(self, script=name, was=()) for name in self.was]
         some = (day for day in (self, *before) if is_there(day.files["script"]))
         return next(some, self)
@@ -206,9 +202,6 @@ class Day:
         Args:
             check: its name.
             metric: of which there may be several to a check; "" where there is one.
-
-        Raises:
-            Robo47Error: the manifest has no such row, or several.
         """
         found = [m for m in self.metrics if m.check == check]
         found = [m for m in found if metric in ("", m.metric)]
@@ -223,45 +216,29 @@ class Day:
 
 
 def day_numbers(root: Path = ROOT) -> list[int]:
-    """Return the numbers of all days that have a manifest, in order.
-
-    Args:
-        root: the clone; its weeks name their days.
-    """
-    return sorted(_manifests(root))
+    """Return the numbers of all days that have a manifest, in order."""
+    return list(_manifests(root))
 
 
 def all_days(root: Path = ROOT) -> list[Day]:
-    """Return every day of the course, in order.
-
-    Raises:
-        Robo47Error: a manifest is not right.
-    """
-    return [load_day(path) for _, path in sorted(_manifests(root).items())]
+    """Return every day of the course, in order."""
+    return [load_day(path) for path in _manifests(root).values()]
 
 
 def days_of(week: Week) -> list[Day]:
-    """Return the days of a week, in order.
-
-    Raises:
-        Robo47Error: a manifest is not right.
-    """
+    """Return the days of a week, in order."""
     return [load_day(path) for path in week.manifests.values()]
 
 
 def find_day(number: int, root: Path = ROOT) -> Day:
-    """Return a day, from whichever week has it.
-
-    Args:
-        number: of the day.
-        root: the clone.
+    """Return a day, from whichever week of a clone has it.
 
     Raises:
         Robo47Error: no week has that day, or its manifest is not right.
     """
     manifests = _manifests(root)
     if number not in manifests:
-        known = ", ".join(str(n) for n in sorted(manifests)) or "none"
+        known = ", ".join(map(str, manifests)) or "none"
         raise Robo47Error(f"there is no day {number} yet; the kit has: {known}")
     return load_day(manifests[number])
 
@@ -283,9 +260,6 @@ def chosen_day(number: int | None, task_id: str | None = None) -> Day:
     Args:
         number: of the day; None where none was typed: the task's, or the last begun.
         task_id: such as "1.4", or None.
-
-    Raises:
-        Robo47Error: no such day or task, or a task of another day.
     """
     day = find_day(started_day() if number is None else number)
     if not task_id:
@@ -305,9 +279,6 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
     Args:
         number: of the week; None where none was typed: that of the day.
         day: its number; None where none was typed: the day begun last.
-
-    Raises:
-        Robo47Error: no such week or day.
     """
     if number is not None:
         return find_week(number)
@@ -315,39 +286,24 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
 
 
 def day_of(script: Path) -> Day:
-    """Return the day whose lab a script is, by its name.
-
-    Raises:
-        Robo47Error: the name is not like dayN_name.py.
-    """
+    """Return the day whose lab a script is, by its name: dayN_name.py."""
     found = re.match(r"day(\d+)_", script.name)
     if not found:
         raise Robo47Error(f"{script.name} is no lab; expected a name like dayN_*.py")
     return find_day(int(found[1]))
 
 
-def find_task(task_id: str, root: Path = ROOT) -> tuple[Day, Task]:
-    """Return a task and its day.
-
-    Args:
-        task_id: such as "1.4".
-        root: as `find_day`.
-
-    Raises:
-        Robo47Error: not an id, or no such day or task.
-    """
+def find_task(task_id: str) -> tuple[Day, Task]:
+    """Return the task of an id such as "1.4", and its day."""
     number = task_id.partition(".")[0]
     if not number.isdecimal():
         raise Robo47Error(f"{task_id!r} is no task; expected an id such as 1.4")
-    day = find_day(int(number), root)
+    day = find_day(int(number))
     return day, day.task(task_id)
 
 
 def load_day(manifest: Path) -> Day:
-    """Return the day of a manifest.
-
-    Args:
-        manifest: path of a `day.toml`.
+    """Return the day of a `day.toml`.
 
     Raises:
         Robo47Error: it cannot be read, or an entry is missing, empty, of a wrong type
@@ -387,10 +343,11 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
 
 
 def _manifests(root: Path) -> dict[int, Path]:
+    """Return the manifests of a clone's days, in order."""
     found: dict[int, Path] = {}
     for week in weeks(root):
         for number, path in week.manifests.items():
             other = found.setdefault(number, path)
             if other != path:
                 raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
-    return found
+    return dict(sorted(found.items()))

@@ -11,6 +11,7 @@ import types
 from functools import cache, lru_cache
 from pathlib import Path
 from types import CodeType, ModuleType
+from typing import Any
 
 from labkit.lesson.day import Day
 from labkit.lesson.starter import read_script
@@ -24,11 +25,7 @@ def has(day: Day, name: str) -> bool:
 
 
 def load(day: Day, name: str) -> ModuleType:
-    """Return a module of a day's folder.
-
-    Args:
-        day: from its manifest.
-        name: without the ending: "gains".
+    """Return a module of a day's folder, "gains".
 
     Raises:
         Robo47Error: the day has no such file, or it stops while it is loaded.
@@ -55,6 +52,26 @@ def load(day: Day, name: str) -> ModuleType:
         raise Robo47Error(f"{file}.py does not load: {why}") from error
 
 
+def offered(day: Day, name: str, lab: Path | None = None) -> dict[str, Any]:
+    """Return what a day's figures.py or films.py offers: {"dayN_name": function}.
+
+    Args:
+        day: {} where it has no such file.
+        name: "figures", for FIGURES.
+        lab: the script that the file imports from; by default the kit's.
+    """
+    if not has(day, name):
+        return {}
+    source = str((lab or day.source).parent)
+    if source not in sys.path:
+        sys.path.insert(0, source)
+    found = getattr(load(day, name), name.upper(), None)
+    if not isinstance(found, dict):
+        file = f"{shown(day.own)}/{name}.py"
+        raise Robo47Error(f"{file} has no {name.upper()}: {{name: function}}")
+    return {f"day{day.number}_{key}": made for key, made in found.items()}
+
+
 @cache
 def lab(day: Day) -> ModuleType:
     """Return a day's complete lab as a module, one for all who ask; see `load_lab`."""
@@ -62,11 +79,7 @@ def lab(day: Day) -> ModuleType:
 
 
 def load_lab(script: Path) -> ModuleType:
-    """Return a lab script as a module of its own.
-
-    Args:
-        script: its path. It does not hand on to the kit's own Python: this is that one.
-    """
+    """Return a lab script as a module of its own, in the kit's Python: this one."""
     module = ModuleType(script.stem)
     module.__file__ = str(script)
     exec(_code(read_script(script), str(script)), vars(module))

@@ -84,13 +84,7 @@ class Lab:
             print(cli.wrapped(f"to do: {gap}", "  "))
 
     def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
-        """Print a matrix or a vector with aligned columns.
-
-        Args:
-            title: what it is.
-            matrix: (m, n) or (n,).
-            decimals: to print.
-        """
+        """Print a matrix (m, n) or a vector (n,) with aligned columns."""
         print(f"  {title}")
         values = np.atleast_2d(np.round(np.asarray(matrix, dtype=float), decimals))
         for row in values + 0.0:  # + 0.0: no "-0.0"
@@ -99,11 +93,7 @@ class Lab:
     def predict(self, what: str, wanted: float, found: float, unit: str) -> None:
         """Print a prediction of the lab's, what came out, and how far apart they are.
 
-        Args:
-            what: of what; "what, unit" may be a row of the worksheet.
-            wanted: as predicted.
-            found: as measured.
-            unit: of both.
+        "what, unit" may be a row of the worksheet.
         """
         print(f"  {what}: predicted {wanted:.3f}, measured {found:.3f} {unit}")
         print(f"    difference {abs(wanted - found):.1e} {unit}")

@@ -34,16 +34,12 @@ def marks_of(script: bytes | None) -> set[str]:
 
 @dataclass(frozen=True)
 class Writers:
-    """The files that may have written a day's rows.
+    """The files that may have written a day's rows."""
 
-    Attributes:
-        kits: marks of the kit's own script.
-        own: marks of the student's file as it is now; None for somebody else's log.
-        borrowed: ids of the tasks whose functions that file borrows from the kit.
-    """
-
-    kits: Set[str] = frozenset()
+    kits: Set[str] = frozenset()  # marks of the kit's own script
+    # Marks of the student's file as it is now; None for somebody else's log.
     own: Set[str] | None = None
+    # Ids of the tasks whose functions that file borrows from the kit.
     borrowed: Sequence[str] = ()
 
     def judge(self, metric: Metric, row: Row | None) -> str:
@@ -62,7 +58,11 @@ class Writers:
 
 def writers_of(day: Day) -> Writers:
     """Return the files that may have written a day's rows in the student's log."""
-    script = _content(day.work)
+    return writers_with(day, _content(day.work))
+
+
+def writers_with(day: Day, script: bytes | None) -> Writers:
+    """Return the same where a student's file is that script."""
     text = (script or b"").decode("utf-8", "replace")
     borrowed = [task.id for task in borrowed_tasks(day, text)]
     return Writers(marks_of(_content(day.source)), marks_of(script), borrowed)

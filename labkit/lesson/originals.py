@@ -13,18 +13,16 @@ from robo47.paths import shown
 def is_kits(day: Day) -> bool:
     """Return whether a day's script in `src/` holds every task of the manifest."""
     try:
-        return not _wanted(day) - _found(day)
+        return not _lacking(day)
     except Robo47Error:  # gone, in another encoding, or with broken markers
         return False
 
 
-def _wanted(day: Day) -> set[tuple[str, str]]:
-    return {(task.id, f) for task in day.tasks for f in task.functions}
-
-
-def _found(day: Day) -> set[tuple[str, str]]:
-    text = read_script(day.source)
-    return {(r.task, r.function) for r in find_regions(text, shown(day.source))}
+def _lacking(day: Day) -> set[tuple[str, str]]:
+    """Return the task and the function of each region that a script lacks."""
+    regions = find_regions(read_script(day.source), shown(day.source))
+    wanted = {(task.id, f) for task in day.tasks for f in task.functions}
+    return wanted - {(region.task, region.function) for region in regions}
 
 
 def _fault(day: Day) -> str:
@@ -35,18 +33,14 @@ def _fault(day: Day) -> str:
     except Robo47Error:
         return ""
     try:
-        task, function = min(_wanted(day) - _found(day))
+        task, function = min(_lacking(day))
     except Robo47Error as error:
         return str(error)
     return f"{shown(day.source)} has no region {task} in {function}"
 
 
 def require_kits(day: Day) -> None:
-    """Refuse a script in `src/` that is not the kit's.
-
-    Raises:
-        Robo47Error: it lacks the markers of the tasks; says how to get ours back.
-    """
+    """Refuse a script in `src/` that lacks the marks of the kit's own."""
     if not is_kits(day):
         if fault := _fault(day):
             author = f"Do you write this day? make author DAY={day.number}"

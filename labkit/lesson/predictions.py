@@ -8,8 +8,7 @@ _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or
 def predictions(worksheet: str) -> dict[str, str]:
     """Return {number: predicted} of the rows that have a prediction.
 
-    Args:
-        worksheet: its text; a row is `| number | predicted | measured | why apart |`.
+    A row is `| number | predicted | measured | why apart |`.
     """
     found = {}
     for line in worksheet.splitlines():

@@ -25,12 +25,7 @@ sealed.run(__file__, globals())
 
 
 def seal(text: str, day: int) -> str:
-    """Return a script that runs a complete lab.
-
-    Args:
-        text: the lab.
-        day: number of its day.
-    """
+    """Return a script that runs a complete lab of a day."""
     first = (ast.get_docstring(ast.parse(text)) or "A lab.").splitlines()[0]
     packed = base64.b85encode(zlib.compress(text.encode(), 9)).decode()
     lines = [f"{MARK}{packed[i : i + 78]}" for i in range(0, len(packed), 78)]
@@ -51,12 +46,7 @@ def opened(text: str) -> str:
 
 
 def run(file: str, names: dict[str, Any]) -> None:
-    """Run a sealed lab in place of its script.
-
-    Args:
-        file: the script's `__file__`.
-        names: its `globals()`.
-    """
+    """Run a sealed lab in place of its script, given its `__file__` and `globals()`."""
     with open(file, encoding="utf-8") as script:
         text = opened(script.read())
     exec(compile(text.replace("\nimport kit ", "\n# ", 1), file, "exec"), names)

@@ -20,29 +20,17 @@ _DEF = re.compile(r"^def (?P<name>\w+)\(")
 
 @dataclass(frozen=True)
 class Region:
-    """One stretch of a solution.
+    """One stretch of a solution."""
 
-    Attributes:
-        task: its id, such as "1.4".
-        function: the function it stands in.
-        start: index of the marker's line, counted from 0.
-        end: index of the end marker's line.
-        indent: the white space before the marker.
-    """
-
-    task: str
-    function: str
-    start: int
-    end: int
-    indent: str
+    task: str  # its id, such as "1.4"
+    function: str  # the function it stands in
+    start: int  # index of the marker's line, counted from 0
+    end: int  # index of the end marker's line
+    indent: str  # the white space before the marker
 
 
 def find_regions(text: str, name: str) -> list[Region]:
-    """Return the regions of a script, in order.
-
-    Args:
-        text: the complete script.
-        name: what to call it in an error.
+    """Return the regions of a complete script, in order.
 
     Raises:
         Robo47Error: a region that is nested, unclosed, closed without being open,
@@ -91,9 +79,6 @@ def make_starter(text: str, name: str, day: int) -> str:
         text: the complete script.
         name: what to call it in an error.
         day: number of the day, for the commands in the first lines.
-
-    Raises:
-        Robo47Error: as `find_regions`.
     """
     lines = text.splitlines()
     for region in reversed(find_regions(text, name)):
@@ -113,13 +98,7 @@ def make_starter(text: str, name: str, day: int) -> str:
 
 
 def solution(text: str, name: str, task: str) -> str:
-    """Return the complete functions that a task asks for, without markers.
-
-    Args:
-        text: the complete script.
-        name: what to call it in an error.
-        task: such as "1.5".
-    """
+    """Return the complete functions that a task asks for, without markers."""
     wanted = [r.function for r in find_regions(text, name) if r.task == task]
     bodies = ["\n".join(function_lines(text, function)[2]) for function in wanted]
     kept = [ln for ln in "\n\n".join(bodies).splitlines() if not _MARKER.match(ln)]
@@ -128,10 +107,6 @@ def solution(text: str, name: str, task: str) -> str:
 
 def function_lines(text: str, function: str) -> tuple[int, int, list[str]]:
     """Return where a top-level function stands, even in a file that does not parse.
-
-    Args:
-        text: a script.
-        function: its name.
 
     Returns:
         First line's index, index past the last, and the lines; (-1, -1, []) if absent.
@@ -154,10 +129,7 @@ def function_lines(text: str, function: str) -> tuple[int, int, list[str]]:
 def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
     """Return a student's script with some functions as the starter has them.
 
-    Args:
-        text: the student's script.
-        starter: the whole starter.
-        functions: which to put back; one that is gone is put above `main`.
+    One that is gone is put above `main`.
     """
     for function in functions:
         gap = function_lines(starter, function)[2]
@@ -172,11 +144,7 @@ def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
 
 
 def read_script(path: Path) -> str:
-    """Return a script's text, of a sealed one the complete lab's.
-
-    Raises:
-        Robo47Error: it is not there, or not text in UTF-8.
-    """
+    """Return a script's text in UTF-8, of a sealed one the complete lab's."""
     try:
         return opened(path.read_text("utf-8-sig"))
     except FileNotFoundError:

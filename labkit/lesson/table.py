@@ -32,11 +32,7 @@ def entry(default: Any = dataclasses.MISSING, **how: Any) -> Any:
 
 
 def load(kind: Any, manifest: Path, **given: Any) -> Any:
-    """Return a dataclass with the entries of a TOML file, read again once it changes.
-
-    Raises:
-        Robo47Error: the file cannot be read, or `fill` refuses an entry; says which.
-    """
+    """Return a dataclass of a TOML file's entries, read again once it changes."""
     stat = manifest.stat() if manifest.is_file() else None
     return _load(kind, manifest, stat and (stat.st_mtime_ns, stat.st_size), **given)
 

@@ -50,10 +50,7 @@ class Week:
 
 
 def weeks(root: Path = ROOT) -> list[Week]:
-    """Return every week of the course, in order.
-
-    Args:
-        root: the clone.
+    """Return every week of a clone, in order.
 
     Raises:
         Robo47Error: a folder of a week without week.toml, or one that is not right.
@@ -76,11 +73,7 @@ def weeks(root: Path = ROOT) -> list[Week]:
 
 
 def find_week(number: int, root: Path = ROOT) -> Week:
-    """Return a week by its number.
-
-    Raises:
-        Robo47Error: the kit has no such week; names those it has.
-    """
+    """Return a week by its number."""
     found = {week.number: week for week in weeks(root)}
     if number not in found:
         known = ", ".join(map(str, found)) or "none"

@@ -19,13 +19,7 @@ SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
 def write_pages(
     students: Sequence[Student], week: int, folder: Path, at_once: int
 ) -> Iterator[tuple[Student, str]]:
-    """Write a page for every student.
-
-    Args:
-        students: from the roster.
-        week: its number.
-        folder: where to.
-        at_once: processes.
+    """Write a page for every student of the roster, `at_once` at a time.
 
     Yields:
         Each student, and why there is no page; "" where there is.

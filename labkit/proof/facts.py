@@ -13,9 +13,8 @@ from labkit.grade.package import Package, collect, unpack
 from labkit.grade.roster import Student
 from labkit.handin.commit import check_commit, wanted_names
 from labkit.handin.rows import rows_of
-from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import Writers, mark_of, marks_of
+from labkit.lesson.marks import mark_of, writers_with
 from labkit.log.rows import Row
 from labkit.report.series import value_of
 from labkit.sandbox.sandbox import Sandbox
@@ -26,38 +25,25 @@ CALLS = 20_000  # of a lab's functions: all of the kit's labs need fewer
 
 @dataclass(frozen=True)
 class Number:
-    """One number of a day.
+    """One number of a day."""
 
-    Attributes:
-        metric: what it must reach.
-        logged: the last row that is not the kit's; None without one.
-        worth: what that row is worth now, as `Writers.judge` says.
-        again: what the lab gave here with the student's functions; None where it did
-            not come so far.
-    """
-
-    metric: Metric
-    logged: float | None
-    worth: str
+    metric: Metric  # what it must reach
+    logged: float | None  # the last row that is not the kit's; None without one
+    worth: str  # what that row is worth now, as `Writers.judge` says
+    # What the lab gave here with theirs; None where it did not come so far.
     again: float | None
 
 
 @dataclass(frozen=True)
 class DayFacts:
-    """How a day stands.
+    """How a day stands."""
 
-    Attributes:
-        day: from the kit's manifest.
-        states: how each function stands: "passed", "borrowed", "wrong", "to do", ...
-        numbers: in the manifest's order.
-        fault: the first step of the lab that failed here, "" where none did.
-        left: what the commit lacks of what is in the folder; "" where it has all.
-    """
-
-    day: Day
+    day: Day  # from the kit's manifest
+    # How each function stands: "passed", "borrowed", "wrong", "to do", ...
     states: Mapping[str, str]
-    numbers: Sequence[Number]
-    fault: str = ""
+    numbers: Sequence[Number]  # in the manifest's order
+    fault: str = ""  # the first step of the lab that failed here, "" where none did
+    # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
 
     @property
@@ -68,16 +54,11 @@ class DayFacts:
 
 @dataclass(frozen=True)
 class Clone:
-    """Somebody's clone.
+    """Somebody's clone."""
 
-    Attributes:
-        student: name and folder.
-        own: it is the reader's own, which may be a linked worktree.
-        history: its last commit.
-    """
-
-    student: Student
-    own: bool = False
+    student: Student  # name and folder
+    own: bool = False  # it is the reader's own, which may be a linked worktree
+    # Its last commit.
     history: History = field(default_factory=lambda: History(readable=False))
 
     @property
@@ -103,13 +84,7 @@ def open_clone(path: Path, name: str = "", *, own: bool = False) -> Clone:
 
 
 def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> DayFacts:
-    """Return how a day stands; its files are left in `folder` for the capstone.
-
-    Args:
-        day: from the kit's manifest.
-        clone: whose.
-        folder: an empty one.
-        sandbox: where the functions run.
+    """Return how a day stands; its files are left in an empty folder for the capstone.
 
     Raises:
         OSError, GitError, FaultError: this machine failed.
@@ -149,11 +124,7 @@ def _numbers(
 ) -> list[Number]:
     """Return a day's numbers: those of the log, and those that the lab gave here."""
     handin = package.handin
-    source = day.source.read_bytes() if day.source.is_file() else None
-    script = handin.files.get(day.files["script"])
-    text = (script or b"").decode("utf-8", "replace")
-    borrowed = [task.id for task in borrowed_tasks(day, text)]
-    writers = Writers(marks_of(source), marks_of(script), borrowed)
+    writers = writers_with(day, handin.files.get(day.files["script"]))
     try:
         rows = rows_of(day, handin)
     except Robo47Error:  # no log that can be read

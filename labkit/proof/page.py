@@ -44,22 +44,15 @@ NOT_PROVED = (
 
 @dataclass(frozen=True)
 class Proof:
-    """All that the page says.
+    """All that the page says."""
 
-    Attributes:
-        clone: whose.
-        days: of a week, in order.
-        picked: the capstone.
-        fresh: what `make fresh` found last: commit, date, how many numbers are wrong
-            and how many things missing; {} where nobody asked.
-        teacher: whether a teacher's kit found all this.
-    """
-
-    clone: Clone
-    days: Sequence[DayFacts]
-    picked: Picked
+    clone: Clone  # whose
+    days: Sequence[DayFacts]  # of a week, in order
+    picked: Picked  # the capstone
+    # What `make fresh` found last: commit, date, how many numbers are wrong and how
+    # many things missing; {} where nobody asked.
     fresh: dict[str, Any] = field(default_factory=dict)
-    teacher: bool = False
+    teacher: bool = False  # whether a teacher's kit found all this
 
 
 def render(proof: Proof) -> str:

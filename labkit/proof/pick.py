@@ -19,29 +19,16 @@ CALLS, SECONDS = 200_000, 240.0  # of a pick; with all functions right it needs 
 
 
 class Picked(NamedTuple):
-    """What came of it.
+    """What came of it."""
 
-    Attributes:
-        result: None where the arm stopped.
-        stopped: why it did, in a line.
-        yours: how many of its functions are the student's.
-        total: of how many.
-    """
-
-    result: Result | None
-    stopped: str
-    yours: int
-    total: int
+    result: Result | None  # None where the arm stopped
+    stopped: str  # why it did, in a line
+    yours: int  # how many of its functions are the student's
+    total: int  # of how many
 
 
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
-    """Pick the cube up with the functions that pass, the library's for the rest.
-
-    Args:
-        days: of a week.
-        folders: where each day's files are.
-        sandbox: where they run.
-    """
+    """Pick the cube up with the functions that pass, the library's for the rest."""
     fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
     names = {name for some in capstone.USES.values() for name in some}
     for facts, place in zip(days, folders, strict=True):

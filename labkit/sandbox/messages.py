@@ -67,12 +67,7 @@ def robots_of(questions: Iterable[Question]) -> Robots:
 
 
 def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
-    """Return questions as JSON.
-
-    Args:
-        questions: what to call.
-        robots: those that the process was given; a question names its own by place.
-    """
+    """Return questions as JSON; they name the process's robots by place."""
     args = {id(arg): arg for question in questions for arg in question.args}
     packed: dict[int, Any] = {id(one): {"model": at} for at, one in enumerate(robots)}
     for key, arg in args.items():
@@ -93,15 +88,7 @@ def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
 
 
 def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
-    """Return messages as replies, believing nothing in them.
-
-    Args:
-        came: as they came.
-        most: numbers in an answer.
-
-    Returns:
-        One per message, up to the first that somebody forged.
-    """
+    """Return messages as replies, up to the first forged one; none is believed."""
     values = wire.unpack_values([message.get("value") for message in came], most)
     found: list[Reply] = []
     with contextlib.suppress(Exception):  # a forged message can be anything
@@ -150,22 +137,22 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
         raise Robo47Error(f"{shown(script)} is not there")
     if script.stat().st_size > LARGEST:
         raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
-    beside = {
-        path.stem: _text(path)
-        for path in sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
-        if _is_own(path) and path.stat().st_size <= LARGEST
+    found = sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
+    # A grade follows no link either.
+    own = [path for path in found if path.is_file() and not path.is_symlink()]
+    return {
+        "file": script.name,
+        "code": _text(script.read_bytes() + added.encode()),
+        "beside": {
+            path.stem: _text(path.read_bytes())
+            for path in own
+            if path.stat().st_size <= LARGEST
+        },
     }
-    code = base64.b64encode(script.read_bytes() + added.encode()).decode("ascii")
-    return {"file": script.name, "code": code, "beside": beside}
 
 
-def _is_own(path: File) -> bool:
-    """Return whether a file counts as handed in: a grade follows no link either."""
-    return path.is_file() and not path.is_symlink()
-
-
-def _text(path: File) -> str:
-    return base64.b64encode(path.read_bytes()).decode("ascii")
+def _text(code: bytes) -> str:
+    return base64.b64encode(code).decode("ascii")
 
 
 @cache
@@ -211,10 +198,6 @@ def _largest(value: Any) -> float:
     return max([float(np.abs(part).max(initial=0)) for part in arrays], default=0.0)
 
 
-def _kind(told: Any) -> str:
-    return visible(told, 80)
-
-
 def _texts(told: Any) -> tuple[str, ...]:
     return tuple(map(visible, told[:MOST])) if isinstance(told, list) else ()
 
@@ -225,15 +208,11 @@ def _lines(told: Any) -> tuple[int, ...]:
     return tuple(n for n in numbers if type(n) is int and 0 < n < 10_000_000)
 
 
-def _line(told: Any) -> int | None:
-    return next(iter(_lines([told])), None)
-
-
 # How to read each part of a reply; what the sandbox has nothing to say of is left out.
 _READ: dict[str, Callable[[Any], Any]] = {
     "error": visible,
-    "kind": _kind,
-    "line": _line,
+    "kind": lambda told: visible(told, 80),
+    "line": lambda told: next(iter(_lines([told])), None),
     "callers": _lines,
     "changed": _texts,
     "refused": _texts,

@@ -69,10 +69,7 @@ class Process:
             raise _fault(f"starts no process for the checker ({error})") from None
 
     def load(self, request: dict[str, Any]) -> None:
-        """Load a student's file.
-
-        Args:
-            request: the file and what else it is told; see `inside/__main__.py`.
+        """Load a student's file, with what else `inside/__main__.py` is told.
 
         Raises:
             LoadError: the file does not load.

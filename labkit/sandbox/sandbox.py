@@ -123,16 +123,14 @@ class Sandbox:
         added: str = "",
         limits: Limits | None = None,
     ) -> "Session":
-        """Return the student's file, loaded, for many rounds of questions.
+        """Return a student's file, loaded, for many rounds of questions.
 
         Args:
-            script: the file.
+            script, library, added, limits: see `run`.
             robots: those that questions will hold.
-            library, added, limits: see `run`.
 
         Raises:
             LoadError: the file does not load.
-            Robo47Error: there is no such file, it is no script, or no process starts.
         """
         limits = limits or Limits()
         request = messages.request(
@@ -148,7 +146,7 @@ class Sandbox:
         alive = [session for session in self._sessions if session.alive]
         self._sessions = [*alive, Session(process, robots, limits)]
         with contextlib.suppress(FaultError):  # a spare, for the next save
-            self._warm = self._new(limits.extras)
+            self._warm = Process(limits.extras)
         return self._sessions[-1]
 
     def _take(self, extras: tuple[str, ...]) -> Process:
@@ -157,10 +155,7 @@ class Sandbox:
         if process and extras and process.extras != extras:
             process.close()
             process = None
-        return process or self._new(extras)
-
-    def _new(self, extras: tuple[str, ...]) -> Process:
-        return Process(extras) if extras else Process()
+        return process or Process(extras)
 
 
 class Session:

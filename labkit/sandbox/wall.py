@@ -48,15 +48,10 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Wall:
-    """What student code is kept behind.
+    """What student code is kept behind."""
 
-    Attributes:
-        name: "bubblewrap", "landlock" or "none".
-        says: a sentence for people, without a full stop.
-    """
-
-    name: str
-    says: str
+    name: str  # "bubblewrap", "landlock" or "none"
+    says: str  # a sentence for people, without a full stop
 
 
 @functools.cache
@@ -85,11 +80,7 @@ def in_container() -> bool:
 
 
 def refusal() -> str:
-    """Return why other people's code should not run here; "" where it may.
-
-    Raises:
-        Robo47Error: ROBO47_WALL asks for a wall that this machine does not have.
-    """
+    """Return why other people's code should not run here; "" where it may."""
     if wall().name == "none":  # a container may share the home, as Toolbox's does
         return "these submissions would run with your rights"
     if hasattr(os, "geteuid") and os.geteuid() == 0 and not in_container():

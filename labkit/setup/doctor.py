@@ -17,17 +17,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from labkit.setup.probes import (
-    GL_PROBE,
-    LESSONS_PROBE,
-    MUJOCO_PROBE,
-    PYTHON_PROBE,
-    ROBOT_PROBE,
-    ROOT,
-    VERSIONS_PROBE,
-    WALL_PROBE,
-    probe,
-)
+from labkit.setup import probes
+from labkit.setup.probes import ROOT, probe
 
 VENV_PYTHON = (
     ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -52,23 +43,19 @@ class Line(NamedTuple):
 
 def kit_python() -> str:
     """Return the kit's own interpreter where it starts, else this one."""
-    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]:
+    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), probes.PYTHON_PROBE)[0]:
         return str(VENV_PYTHON)
     return sys.executable
 
 
 def check_python(python: str) -> Line:
     """Python itself, and whether the kit's environment is there."""
-    version = probe(python, PYTHON_PROBE)[0] or platform.python_version()
+    version = probe(python, probes.PYTHON_PROBE)[0] or platform.python_version()
     own = python == str(VENV_PYTHON)
     found = version + (" in .venv" if own else ", no .venv")
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST:
-        return Line(
-            "todo",
-            "Python",
-            found,
-            "The kit needs 3.11 or newer: install it, then make day1 PYTHON=python3.13",
-        )
+        remedy = "The kit needs 3.11 or newer: install it, then "
+        return Line("todo", "Python", found, remedy + "make day1 PYTHON=python3.13")
     if not own:
         broken = VENV_PYTHON.exists()
         remedy = ".venv does not start: make setup" if broken else "Set up: make day1"
@@ -80,11 +67,8 @@ def check_kit() -> Line:
     """The kit's version and commit, by which somebody else has the same."""
     text = (ROOT / "robo47" / "__init__.py").read_text("utf-8")
     version = text.partition('__version__ = "')[2].partition('"')[0]
-    command = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
-    commit = ""
-    if (ROOT / ".git").exists() and shutil.which("git"):
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        commit = done.stdout.strip()
+    own = (ROOT / ".git").exists() and shutil.which("git")
+    commit = git("rev-parse", "--short", "HEAD") if own else ""
     return Line("good", "kit", f"{version} ({commit})" if commit else version)
 
 
@@ -98,30 +82,26 @@ def check_platform() -> Line:
 
 def check_mujoco(python: str) -> Line:
     """MuJoCo: there, importable, computing; and the upgrade that leaves it broken."""
-    version, why = probe(python, MUJOCO_PROBE)
+    version, why = probe(python, probes.MUJOCO_PROBE)
     if version:
         return Line("good", "MuJoCo", version)
-    installed = probe(python, VERSIONS_PROBE)[0] or {}
+    installed = probe(python, probes.VERSIONS_PROBE)[0] or {}
     if "mujoco" not in installed:
         return Line("todo", "MuJoCo", "not installed", "make setup")
     found = "{} does not work: {}".format(installed["mujoco"], why)
     if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
-        where = VENV_PYTHON.relative_to(ROOT).as_posix()
-        return Line(
-            "todo",
-            "MuJoCo",
-            found,
-            (where if python == str(VENV_PYTHON) else "python")
-            + " -m pip install --force-reinstall --no-deps"
-            + " mujoco mujoco-core mujoco-studio",
-        )
+        own = python == str(VENV_PYTHON)
+        where = VENV_PYTHON.relative_to(ROOT).as_posix() if own else "python"
+        remedy = where + " -m pip install --force-reinstall --no-deps"
+        remedy += " mujoco mujoco-core mujoco-studio"
+        return Line("todo", "MuJoCo", found, remedy)
     return Line("todo", "MuJoCo", found, "make setup")
 
 
 def check_robot(python: str) -> Line:
     """The Panda: its source, and whether its files are as they were fetched."""
-    found, why = probe(python, ROBOT_PROBE)
+    found, why = probe(python, probes.ROBOT_PROBE)
     if found is None:
         return Line("todo", "robot", why.split("Robo47Error: ")[-1])
     if "files" not in found:
@@ -138,7 +118,7 @@ def check_robot(python: str) -> Line:
 
 def check_lessons(python: str) -> Line:
     """The lab scripts of the lessons: the kit's own, or something saved over them."""
-    found, why = probe(python, LESSONS_PROBE)
+    found, why = probe(python, probes.LESSONS_PROBE)
     if found is None:
         return Line("todo", "lessons", why.split("Robo47Error: ")[-1])
     if found["others"]:
@@ -151,7 +131,7 @@ def check_lessons(python: str) -> Line:
 def check_gl(python: str) -> Line:
     """Which OpenGL back ends really draw."""
     chosen = os.environ.get("MUJOCO_GL", "")
-    found, why = probe(python, GL_PROBE, gl=True)
+    found, why = probe(python, probes.GL_PROBE, gl=True)
     if found is None:
         return Line("note", "pictures", "not tried: " + why)
     draws = [name for name, says in found.items() if says == "renders"]
@@ -161,19 +141,16 @@ def check_gl(python: str) -> Line:
     if chosen:  # the one that was tried
         says = "MUJOCO_GL=" + chosen + " does not draw here: " + found[chosen.strip()]
         return Line("todo", "pictures", says, "Unset it: unset MUJOCO_GL")
+    says, remedy = "nothing draws: " + why, "Update the GPU's driver."
     if sys.platform.startswith("linux"):
-        return Line(
-            "todo",
-            "pictures",
-            "nothing draws (" + why + ")",
-            "Debian, Ubuntu: sudo apt install libegl1 libgl1 libosmesa6",
-        )
-    return Line("todo", "pictures", "nothing draws: " + why, "Update the GPU's driver.")
+        says = "nothing draws (" + why + ")"
+        remedy = "Debian, Ubuntu: sudo apt install libegl1 libgl1 libosmesa6"
+    return Line("todo", "pictures", says, remedy)
 
 
 def check_wall(python: str) -> Line:
     """What keeps student code from this machine, which counts for who grades."""
-    found, why = probe(python, WALL_PROBE)
+    found, why = probe(python, probes.WALL_PROBE)
     if found is None:
         return Line("note", "wall", why.split("Error: ")[-1])
     return Line("note" if found == "none" else "good", "wall", _STRENGTH[found])
@@ -202,20 +179,20 @@ def check_git() -> Line:
     """Git, and whether commits will carry a name. The name itself is not shown."""
     if not shutil.which("git"):
         return Line("todo", "git", "not installed", "https://git-scm.com/downloads")
-    missing = []
-    for key in ("user.name", "user.email"):
-        command = ["git", "-C", str(ROOT), "config", key]
-        done = subprocess.run(command, stdout=subprocess.PIPE, check=False)
-        if not done.stdout.strip():
-            missing.append(key)
+    values = {"user.name": '"Your Name"', "user.email": "you@example.org"}
+    missing = [key for key in values if not git("config", key)]
     if missing:
-        values = {"user.name": '"Your Name"', "user.email": "you@example.org"}
         each = [f"git config --global {key} {values[key]}" for key in missing]
-        remedy = " && ".join(each)
-        return Line(
-            "todo", "git", "does not know your " + " and ".join(missing), remedy
-        )
+        found = "does not know your " + " and ".join(missing)
+        return Line("todo", "git", found, " && ".join(each))
     return Line("good", "git", "name and e-mail are set")
+
+
+def git(*words: str) -> str:
+    """Return what git says of the clone; "" where it says no."""
+    command = ["git", "-C", str(ROOT), *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.stdout.strip()
 
 
 def discreet(text: str) -> str:

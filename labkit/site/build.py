@@ -21,6 +21,7 @@ SETTINGS: dict[str, Any] = {
     "html_theme": "furo",
     "html_css_files": ["style.css"],
     "html_js_files": [("film.js", {"defer": "defer"})],
+    "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
     "html_show_copyright": False,
@@ -36,6 +37,7 @@ SETTINGS: dict[str, Any] = {
     "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",
     "napoleon_use_ivar": True,  # a class's attributes are listed once
+    "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
 

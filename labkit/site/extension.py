@@ -41,8 +41,14 @@ def plain(*docstring: Any) -> None:
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
+def fields(*member: Any) -> bool | None:
+    """Leave out the fields of a named tuple: its own docstring tells them."""
+    return True if type(member[3]).__name__ == "_tuplegetter" else None
+
+
 def setup(site: Sphinx) -> dict[str, bool]:
-    """Tell Sphinx of both."""
+    """Tell Sphinx of all this."""
     site.connect("autodoc-process-docstring", plain)
+    site.connect("autodoc-skip-member", fields)
     site.add_html_math_renderer("mathml", (inline, None), (block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

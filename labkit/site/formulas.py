@@ -23,14 +23,8 @@ from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
 from robo47.paths import ROOT, TWIN_XML
 
-SITE = ROOT / "site"
+LISTED = ROOT / "site" / "ghosts.toml"  # rigid poses, each seen
 JOINTS = 7
-
-
-def _listed() -> list[tuple[int, str, str]]:
-    """Return day, function and slug of the page's mistakes: rigid poses, each seen."""
-    listed = tomllib.loads((SITE / "ghosts.toml").read_text("utf-8"))["ghosts"]
-    return [(one["day"], one["function"], one["slug"]) for one in listed]
 
 
 class Tape:
@@ -79,40 +73,34 @@ class Symbol:
         """Note the operation that gives it."""
         self.tape, self.line = tape, tape.at(line)
 
-    def _with(self, name: str, a: Any, b: Any) -> "Symbol":
+    def _with(self, name: str, a: Any, b: Any) -> Any:
+        if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+            return NotImplemented  # NumPy goes through the entries
         return Symbol(self.tape, (name, self.tape.number(a), self.tape.number(b)))
 
     def __add__(self, other: Any) -> Any:
         """Add; 0 changes nothing."""
-        if isinstance(other, np.ndarray):
-            return NotImplemented  # NumPy goes through the entries
         return self if _is(other, 0) else self._with("+", self, other)
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
         """Subtract; 0 changes nothing."""
-        if isinstance(other, np.ndarray):
-            return NotImplemented  # NumPy goes through the entries
         return self if _is(other, 0) else self._with("-", self, other)
 
     def __rsub__(self, other: Any) -> Any:
         """Subtract from a number."""
-        if isinstance(other, np.ndarray):
-            return NotImplemented  # NumPy goes through the entries
         return self._with("-", other, self)
 
     def __mul__(self, other: Any) -> Any:
         """Multiply; 0 and 1 need no operation."""
-        if isinstance(other, np.ndarray):
-            return NotImplemented  # NumPy goes through the entries
         if _is(other, 0):
             return 0.0
         return self if _is(other, 1) else self._with("*", self, other)
 
     __rmul__ = __mul__
 
-    def __neg__(self) -> "Symbol":
+    def __neg__(self) -> Any:
         """Change the sign."""
         return self._with("*", -1.0, self)
 
@@ -126,7 +114,7 @@ class Symbol:
 
 
 def _is(value: Any, number: int) -> bool:
-    return not isinstance(value, Symbol) and value == number
+    return bool(np.isscalar(value)) and value == number
 
 
 @contextmanager
@@ -152,13 +140,10 @@ def twin() -> mujoco.MjModel:
 
 
 def chosen() -> list[tuple[int, Row, Way]]:
-    """Return the day, the row and the mistake of each ghost.
-
-    Raises:
-        Robo47Error: a day no longer has one of them.
-    """
+    """Return the day, the row and the mistake of each ghost."""
     found = []
-    for number, function, slug in _listed():
+    for one in tomllib.loads(LISTED.read_text("utf-8"))["ghosts"]:
+        number, function, slug = one["day"], one["function"], one["slug"]
         row = row_of(find_day(number), function)
         ways = [way for way in row.named if way.slug == slug]
         if not ways:

@@ -24,11 +24,7 @@ class _Page(HTMLParser):
 
 
 def faults(site: Path) -> list[str]:
-    """Return links that lead nowhere, or fetch something from another host.
-
-    Args:
-        site: folder of a built site.
-    """
+    """Return links of a built site that lead nowhere, or fetch from another host."""
     found = {path: _Page(path.read_text("utf-8")) for path in site.rglob("*.html")}
     wrong = []
     for path, page in sorted(found.items()):

@@ -37,43 +37,29 @@ MODULES = (
 )
 
 
-def lay_out(
-    folder: Path, repository: Path = ROOT, filmed: Collection[str] = ()
-) -> None:
-    """Write the site's source into a folder, which is made anew.
-
-    Args:
-        folder: where to.
-        repository: whose documents.
-        filmed: names of the pictures that have a film.
-
-    Raises:
-        FileNotFoundError: a document links to a file that is not there.
-    """
-    shutil.rmtree(folder, ignore_errors=True)
-    documents = [path for each in DOCUMENTS for path in sorted(repository.glob(each))]
-    pages = {path.relative_to(repository) for path in documents}
+def lay_out(folder: Path, filmed: Collection[str]) -> None:
+    """Write the site's source into a new folder; some pictures are filmed."""
+    documents = [path for each in DOCUMENTS for path in sorted(ROOT.glob(each))]
+    pages = {path.relative_to(ROOT) for path in documents}
     for page in pages:
-        text = (repository / page).read_text("utf-8")
+        text = (ROOT / page).read_text("utf-8")
         text = _with_films(text, page, filmed)
         name = Path("index.md") if page.as_posix() == HOME else page
-        _write(folder / name, _linked(text, page, pages, repository, folder))
+        _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         home.write("\n".join(_contents(pages)))
-    shutil.copy(repository / "site" / "arm.md", folder / "arm.md")
+    shutil.copy(ROOT / "site" / "arm.md", folder / "arm.md")
     for _, modules in _modules():
         for module in modules:
             _write(folder / "library" / f"{module}.md", _reference(module))
 
 
-def _linked(
-    text: str, page: Path, pages: set[Path], repository: Path, folder: Path
-) -> str:
+def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
     """Return a document whose links to files lead to pages of theirs."""
 
     def lead(found: re.Match[str]) -> str:
-        target = (repository / page.parent / found[1]).resolve()
-        name = target.relative_to(repository)
+        target = (ROOT / page.parent / found[1]).resolve()
+        name = target.relative_to(ROOT)
         if name in pages or not target.is_file():
             return found[1]  # Sphinx says what leads nowhere
         copy = folder / name

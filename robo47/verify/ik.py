@@ -21,11 +21,17 @@ Solver = Callable[..., Array]
 
 
 class Ends(NamedTuple):
-    """Where a solver ended."""
+    """Where a solver ended.
 
-    missed: float  # share of the near targets
-    out_of_reach: Array  # misses over the least possible ones, (4,)
-    beyond: float  # radians beyond the joint limits, at worst
+    Attributes:
+        missed: share of the near targets.
+        out_of_reach: misses over the least possible ones, (4,).
+        beyond: radians beyond the joint limits, at worst.
+    """
+
+    missed: float
+    out_of_reach: Array
+    beyond: float
 
 
 def ends_of(

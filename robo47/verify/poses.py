@@ -15,7 +15,13 @@ from robo47.kinematics import fk_all, frame_names
 
 
 class Worst(NamedTuple):
-    """The largest difference between two sets of poses, and where it is."""
+    """The largest difference between two sets of poses, and where it is.
+
+    Attributes:
+        error: of the entry that is furthest off.
+        frame: its name, "body:link7".
+        q: the configuration, (n_q,).
+    """
 
     error: float
     frame: str

@@ -67,3 +67,4 @@ def _after(
 
 
 FIGURES = {"reference": reference, "order": order, "fk_error": fk_error}
+SMALL = ("order", 0, 0, 0.5)  # its left, top and width, in parts of its width

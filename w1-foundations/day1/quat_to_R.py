@@ -121,24 +121,6 @@ def _(quat):
     return R
 
 
-@row.right  # Axis and angle; the angle by atan2, so that no turn is no special case.
-def _(quat):
-    length = np.linalg.norm(quat[1:])
-    axis = quat[1:] / length if length > 0 else np.array([0, 0, 1])
-    return se3.axis_angle(axis, 2 * np.arctan2(length, quat[0]))
-
-
-@row.right  # The columns are q e q*: quaternion products, no formula for R.
-def _(quat):
-    def times(a, b):
-        w = a[0] * b[0] - a[1:] @ b[1:]
-        return np.array([w, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
-
-    there = quat / np.linalg.norm(quat)
-    back = there * [1, -1, -1, -1]
-    return np.array([times(times(there, e), back)[1:] for e in np.eye(4)[1:]]).T
-
-
 @row.wrong("few-entries-off")  # One sign slipped in one entry.
 def _(quat):
     w, x, y, z = quat / np.linalg.norm(quat)

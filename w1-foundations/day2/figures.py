@@ -150,3 +150,4 @@ FIGURES = {
     "pitch": pitch,
     "dh_conventions": dh_conventions,
 }
+SMALL = ("screws", 0, 0.04, 1)  # its left, top and width, in parts of its width

@@ -102,7 +102,16 @@ def _everywhere(
             f"The angle is more than pi for {k} of {n} turns: it goes the long way. "
             "Of the quaternions q and -q, which are one turn, take the one with w > 0.",
         )
-    return None
+    least = angle[off].min()
+    most = angle[angle < least].max(initial=0.0)
+    if most < 2.0:
+        return None
+    return Finding(
+        "large-angles",
+        f"It is right up to {np.degrees(most):.0f} degrees; what is wrong begins at "
+        f"{np.degrees(least):.0f}, by up to {difference(S, T).max():.3g} rad: is it "
+        "the part of your function that is for angles near pi?",
+    )
 
 
 def where_the_digits_go(case: Case) -> Finding | None:

@@ -102,3 +102,4 @@ def _ellipse(axes: Axes, at: Array, A: Array, colour: str, style: str) -> None:
 
 
 FIGURES = {"singularity": singularity, "ellipses": ellipses}
+SMALL = ("ellipses", 0.02, 0, 0.56)  # its left, top and width, in parts of its width

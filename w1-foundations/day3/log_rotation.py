@@ -38,7 +38,10 @@ row = Row(
 
 @row.inputs
 def _(rng):
-    """From 0 to nearly pi; the docstring's first, drawn ones last."""
+    """From 0 to nearly pi; the docstring's first, drawn ones last.
+
+    Two axes leave a column of R + R^T empty, to the last digit: the cosine is exact.
+    """
     small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.3]
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
     drawn, first = rng.uniform(0.2, 3.0, 5), [0.01, 0.05, 0.1]
@@ -46,7 +49,11 @@ def _(rng):
     R = exp_rotation(draw.units(rng, len(turns)), turns)
     R = [*R[-3:], *R[:-3]]
     rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
-    return [(se3.Rz(np.pi / 2),), (np.eye(3),), (rounded,), *((one,) for one in R)]
+    c = -1.0 + 2.0**-40
+    s = np.sqrt(1.0 - c * c)
+    x = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+    z = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    return [(one,) for one in (se3.Rz(np.pi / 2), np.eye(3), rounded, x, z, *R)]
 
 
 def vee(R):
@@ -66,10 +73,10 @@ def parts(R):
     return a, sine, np.arctan2(sine, cosine(R))
 
 
-def column(R):
-    """Return the axis but for its sign, from the largest column of R + R^T."""
+def column(R, k=None):
+    """Return the axis but for its sign, from column k of R + R^T, or the largest."""
     B = (R + R.T) / 2 - cosine(R) * np.eye(3)
-    b = B[:, np.argmax(np.diag(B))]
+    b = B[:, np.argmax(np.diag(B)) if k is None else k]
     return b / np.linalg.norm(b)
 
 
@@ -186,6 +193,33 @@ def nan_at_0(R):
     return angle * signed(column(R), a)
 
 
+def from_column(R, k):
+    """Return the right answer, but near pi from column k."""
+    a, _, angle = parts(R)
+    return angle * signed(column(R, k), a) if cosine(R) < -0.9 else log_rotation(R)
+
+
+@row.wrong("fixed-column")
+def _(R):
+    """near pi the axis is always taken from the first column, and that is 0 where the
+    axis has no x: take the largest => column 0, with its NaN,"""
+    return from_column(R, 0)
+
+
+@row.wrong("fixed-column", hidden="its half turn is about y")
+def _(R):
+    """near pi the axis is always taken from the second column, and that is 0 where the
+    axis has no y: take the largest => column 1, with its NaN,"""
+    return from_column(R, 1)
+
+
+@row.wrong("fixed-column")
+def _(R):
+    """near pi the axis is always taken from the last column, and that is 0 where the
+    axis has no z: take the largest => column 2, with its NaN,"""
+    return from_column(R, 2)
+
+
 @row.wrong(hidden="its identity is exact")
 def arccosine_beyond_1(R):
     """NaN comes back where rounding makes (trace - 1) / 2 a bit more than 1, or less
@@ -225,6 +259,11 @@ def _(R):
     if cosine(R) > -0.999999:
         return a * (angle / sine) if sine > 0 else a
     return angle * np.sqrt(np.clip((np.diag(R) + 1) / 2, 0, None))
+
+
+@row.wrong("large-angles")  # From 154 degrees on the axis alone.
+def _(R):
+    return log_rotation(R) if cosine(R) > -0.9 else signed(column(R), vee(R))
 
 
 @row.wrong("pi-for-the-angle")  # From 1e-4 below pi on.
@@ -287,12 +326,6 @@ def _(R):
 @row.close("rounded")  # To 6 decimals.
 def _(R):
     return np.round(log_rotation(R), 6)
-
-
-@row.close("rounded-somewhere")  # A pi typed by hand.
-def _(R):
-    angle = np.linalg.norm(log_rotation(R))
-    return axis(R) * (3.1415927 - (np.pi - angle))
 
 
 @row.right  # The axis is what R leaves alone: an eigenvector of its symmetric part.

@@ -144,15 +144,10 @@ def screw_for_translation(T, T_goal):
 row.reached_by(
     "log_rotation",
     "in the rotation, ",
-    but=("textbook-formula", "nan-at-0", "arccosine-beyond-1"),
+    but=("textbook-formula", "nan-at-0", "arccosine-beyond-1", "fixed-column"),
 )
 
 
 @row.wrong("halves-swapped")  # The translation above.
 def _(T, T_goal):
     return np.roll(pose_error(T, T_goal), 3)
-
-
-@row.wrong("all-signs")  # From the goal to the hand.
-def _(T, T_goal):
-    return pose_error(T_goal, T)

@@ -156,8 +156,9 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     )
     return Finding(
         "not-the-best",
-        f"{says} (radians and metres). Is the q returned whose error was the shortest, "
-        "and are the steps and their damping those of the docstring?",
+        f"{says} (radians and metres). Is the q returned whose error was the shortest "
+        "(a copy, if q changes in place), and are the steps and their damping those of "
+        "the docstring?",
     )
 
 

@@ -57,15 +57,15 @@ def test_by_hand_the_larger_circle_is_12_mm_too_far():
 
 
 @pytest.mark.kit
-@pytest.mark.parametrize("radius", [0.36, 0.366, 0.37, 0.38])
+@pytest.mark.parametrize("radius", [0.36, 0.366, 0.368, 0.38])
 def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
     best = out_of_reach(radius)
-    assert (best.max() > 1e-3) == (radius > 0.368)
+    assert (best.max() > 1e-3) == (radius > 0.367)
     if radius == lab.RADIUS:  # the joint limits are not the reason
         free = out_of_reach(radius, np.tile([-9.0, 9.0], (7, 1)))
         assert (free > 1e-3).sum() == (best > 1e-3).sum() == 33
         assert f"miss it by {best.max():.2f} mm" in GUIDE
-    assert "(0.366 is in reach, 0.37 is not)" in GUIDE
+    assert "(0.366 is in reach, 0.368 is not)" in GUIDE
 
 
 @pytest.mark.kit
@@ -88,6 +88,8 @@ def test_where_the_arm_can_go_the_plain_pseudo_inverse_is_the_better_one(radius)
     assert damped.max() > 6 * plain.max()
     assert rate.max() < 1.0
     if radius == lab.EASY:
+        assert plain.max() < 1.0
+        assert rate.max() < 0.6
         says = f"{plain.max():.1f} mm off the smaller circle ({damped.max():.1f} with"
         assert says in GUIDE
 
@@ -98,17 +100,18 @@ def test_what_the_damping_costs_shows_at_the_bottom():
     off, _, path = drawn(lab.RADIUS, lab.DAMPING)
     worst = (off - best).argmax()
     assert best[worst] < 1e-3
-    assert f"after {worst * lab.DT:.2f} s" in GUIDE
-    assert f"the hand is {(off - best).max():.1f} mm off" in GUIDE
-    J = site_jacobian(path[200:260])
-    least = np.linalg.svd(J)[1][:, -1].min()
-    assert f"a least singular value of {least:.3f}" in GUIDE
+    says = f"after {worst * lab.DT:.2f} s the hand is {(off - best).max():.1f} mm off"
+    assert says in GUIDE
+    least = np.linalg.svd(site_jacobian(path[200:260]))[1][:, -1]
+    says = f"after {4 + least.argmin() * lab.DT:.2f} s it has a least singular value"
+    assert f"{says} of {least.min():.3f}" in GUIDE
     # The plain one, from where the damped one is after 3 s: the same circle, shifted.
     later, _ = circle(lab.RADIUS, first=3.0)
     plain, speeds, _ = lab.draw_circle(ARM[:2], later, path[150], 0.0)
     plain, speeds = plain[:145], speeds[:145]
     assert f"within {plain[10:].max():.2f} mm, at" in GUIDE
     assert f"at {(speeds / lab.SPEED).max():.2f} of the speed limits" in GUIDE
+    assert drawn(lab.RADIUS, 0.0)[1][200:].max() > 1.0  # from the top on, as drawn
 
 
 @pytest.mark.kit
@@ -128,7 +131,7 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
     off, rate, path = drawn(lab.RADIUS, 0.0)
     assert rate.max() > 5
     assert verify.beyond(ARM[2], path) > 1.0
-    assert f"double the {off.max() / 1000:.2f} m" in GUIDE
+    assert f"the hand is {off.max() / 1000:.2f} m off in steps of 0.02 s" in GUIDE
     assert abs(drawn(lab.RADIUS, 0.0, 1e-12)[0].max() - off.max()) < 1e-3
     monkeypatch.setattr(lab, "DT", 0.019)
     assert drawn(lab.RADIUS, 0.0)[0].max() > 2 * off.max()
@@ -140,12 +143,6 @@ def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
     assert off.max() < 20.0
     assert share.max() < 1.0
     assert verify.beyond(ARM[2], path) < 0.01
-
-
-def test_the_easy_circle_needs_no_damping():
-    off, share, _ = drawn(lab.EASY, 0.0)
-    assert off.max() < 1.0
-    assert share.max() < 0.6
 
 
 def test_the_elbow_swings_while_the_hand_stands():

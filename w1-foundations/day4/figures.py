@@ -134,3 +134,4 @@ def _bars(axes: Axes, name: str, q: Array) -> None:
 
 
 FIGURES = {"momentum": momentum, "torques": torques, "float": float_and_push}
+SMALL = ("torques", 0, 0, 1)  # its left, top and width, in parts of its width

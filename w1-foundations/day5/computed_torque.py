@@ -36,184 +36,105 @@ def _(rng):
         yield M[i], bias[i], friction, qd[i], *wanted, omega**2, 1.8 * omega
 
 
-@row.wrong
-def gains_outside_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the gains stand outside the product with M. It tracks well, but heavy and light
-    joints then answer differently, and errors do not decay as designed"""
-    return M @ qdd_ref + kp * e + kd * ed + bias + damping * qd
+@row.wrongs
+def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """gains-outside-M: the gains stand outside the product with M. It tracks well, but
+      heavy and light joints then answer differently, and errors do not decay as
+      designed
+    damping-forgotten: the joints' friction is missing: bias does not hold it, MuJoCo
+      counts it as a passive force
+    damping-sign: the joints' friction has the wrong sign: the motor has to overcome it
+    friction-of-the-error: friction is multiplied by ed; the joint rubs with its
+      measured velocity
+    friction-of-the-reference: friction is multiplied by the reference's velocity, qd +
+      ed; the joint rubs with its measured velocity
+    friction-without-velocity: damping is added as it is: it becomes a torque once it is
+      multiplied by qd
+    friction-twice: the joints' friction is in it twice; bias does not hold it, so once
+      is enough
+    bias-forgotten: bias is missing: gravity and Coriolis forces are left to the springs
+    bias-sign: bias has the wrong sign: it is what the motors must give
+    bias-twice: bias is in it twice
+    everything-through-M: bias and friction go through M as well; they are torques
+      already
+    bias-through-M: bias goes through M as well; it is a torque already
+    reference-outside-M: the reference's acceleration stands outside the product with M
+    bias-alone-at-the-goal: where e is 0 only bias comes back, but the arm may be moving
+      there
+    """
+    rub, springs = damping * qd, kd * ed + kp * e
+    acc = qdd_ref + springs
+    push = M @ acc
+    return {
+        "gains-outside-M": M @ qdd_ref + springs + bias + rub,
+        "damping-forgotten": push + bias,
+        "damping-sign": push + bias - rub,
+        "friction-of-the-error": push + bias + damping * ed,
+        "friction-of-the-reference": push + bias + damping * (qd + ed),
+        "friction-without-velocity": push + bias + damping,
+        "friction-twice": push + bias + 2.0 * rub,
+        "bias-forgotten": push + rub,
+        "bias-sign": push - bias + rub,
+        "bias-twice": push + 2.0 * bias + rub,
+        "everything-through-M": M @ (acc + bias + rub),
+        "bias-through-M": M @ (acc + bias) + rub,
+        "reference-outside-M": M @ springs + qdd_ref + bias + rub,
+        "bias-alone-at-the-goal": push + bias + rub if np.any(e) else bias.copy(),
+    }
 
 
-@row.wrong
-def damping_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the joints' friction is missing: bias does not hold it, MuJoCo counts it as a
-    passive force"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias
+@row.wrongs
+def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """qdd-ref-forgotten: the reference's own acceleration is missing: the springs must
+      be stretched before the arm speeds up
+    qdd-ref-sign: the reference's acceleration has the wrong sign
+    springs-forgotten: there are no springs in it: errors stay what they are
+    damper-forgotten: there is a spring and no damper: edd + kp e = 0 swings for ever
+    error-sign: the spring pushes away from the goal
+    velocity-error-sign: the damper drives the motion: ed enters with a plus
+    both-signs: kp e and kd ed both have the wrong sign: e and ed are the reference
+      minus what is measured
+    gains-swapped: kp and kd are swapped
+    measured-velocity-damped: the damper works on the measured velocity, minus kd qd, so
+      it brakes the reference's own motion too; ed is what it has to work on
+    errors-in-degrees: the errors are converted to degrees; everything else is in
+      radians
+    """
+    acc = {
+        "qdd-ref-forgotten": kd * ed + kp * e,
+        "qdd-ref-sign": kd * ed + kp * e - qdd_ref,
+        "springs-forgotten": qdd_ref,
+        "damper-forgotten": qdd_ref + kp * e,
+        "error-sign": qdd_ref + kd * ed - kp * e,
+        "velocity-error-sign": qdd_ref - kd * ed + kp * e,
+        "both-signs": qdd_ref - kd * ed - kp * e,
+        "gains-swapped": qdd_ref + kp * ed + kd * e,
+        "measured-velocity-damped": qdd_ref - kd * qd + kp * e,
+        "errors-in-degrees": qdd_ref + np.rad2deg(kp * e + kd * ed),
+    }
+    return {slug: M @ some + bias + damping * qd for slug, some in acc.items()}
 
 
-@row.wrong
-def damping_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the joints' friction has the wrong sign: the motor has to overcome it"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias - damping * qd
-
-
-@row.wrong
-def friction_of_the_error(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """friction is multiplied by ed; the joint rubs with its measured velocity"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * ed
-
-
-@row.wrong
-def friction_of_the_reference(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """friction is multiplied by the reference's velocity, qd + ed; the joint rubs with
-    its measured velocity"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * (qd + ed)
-
-
-@row.wrong
-def friction_without_velocity(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """damping is added as it is: it becomes a torque once it is multiplied by qd"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping
-
-
-@row.wrong
-def friction_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the joints' friction is in it twice; bias does not hold it, so once is enough"""
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + 2.0 * damping * qd
-
-
-@row.wrong
-def bias_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """bias is missing: gravity and Coriolis forces are left to the springs"""
-    return M @ (qdd_ref + kd * ed + kp * e) + damping * qd
-
-
-@row.wrong
-def bias_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """bias has the wrong sign: it is what the motors must give"""
-    return M @ (qdd_ref + kd * ed + kp * e) - bias + damping * qd
-
-
-@row.wrong
-def bias_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """bias is in it twice"""
-    return M @ (qdd_ref + kd * ed + kp * e) + 2.0 * bias + damping * qd
-
-
-@row.wrong
-def qdd_ref_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the reference's own acceleration is missing: the springs must be stretched before
-    the arm speeds up"""
-    return M @ (kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def qdd_ref_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the reference's acceleration has the wrong sign"""
-    return M @ (kd * ed + kp * e - qdd_ref) + bias + damping * qd
-
-
-@row.wrong
-def springs_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """there are no springs in it: errors stay what they are"""
-    return M @ qdd_ref + bias + damping * qd
-
-
-@row.wrong
-def damper_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """there is a spring and no damper: edd + kp e = 0 swings for ever"""
-    return M @ (qdd_ref + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def error_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the spring pushes away from the goal"""
-    return M @ (qdd_ref + kd * ed - kp * e) + bias + damping * qd
-
-
-@row.wrong
-def velocity_error_sign(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the damper drives the motion: ed enters with a plus"""
-    return M @ (qdd_ref - kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def both_signs(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """kp e and kd ed both have the wrong sign: e and ed are the reference minus what is
-    measured"""
-    return M @ (qdd_ref - kd * ed - kp * e) + bias + damping * qd
+@row.wrongs
+def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
+    """inverse-of-M: the acceleration is divided by M; a torque is M times an
+      acceleration
+    M-forgotten: M is missing: an acceleration is added to torques
+    diagonal-of-M: only the diagonal of M is used; a joint that speeds up pushes the
+      others too
+    armature-twice: the armature, 0.1 kg m2, is added to M; M has it already
+    """
+    acc = qdd_ref + kd * ed + kp * e
+    push = {
+        "inverse-of-M": np.linalg.solve(M, acc),
+        "M-forgotten": acc,
+        "diagonal-of-M": np.diag(M) * acc,
+        "armature-twice": M @ acc + ARMATURE * acc,
+    }
+    return {slug: some + bias + damping * qd for slug, some in push.items()}
 
 
 row.of_argument("e", WRAPPED)
-
-
-@row.wrong
-def gains_swapped(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """kp and kd are swapped"""
-    return M @ (qdd_ref + kp * ed + kd * e) + bias + damping * qd
-
-
-@row.wrong
-def measured_velocity_damped(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the damper works on the measured velocity, minus kd qd, so it brakes the
-    reference's own motion too; ed is what it has to work on"""
-    return M @ (qdd_ref - kd * qd + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def inverse_of_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the acceleration is divided by M; a torque is M times an acceleration"""
-    return np.linalg.solve(M, qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def M_forgotten(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """M is missing: an acceleration is added to torques"""
-    return qdd_ref + kd * ed + kp * e + bias + damping * qd
-
-
-@row.wrong
-def diagonal_of_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """only the diagonal of M is used; a joint that speeds up pushes the others too"""
-    return np.diag(M) * (qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def everything_through_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """bias and friction go through M as well; they are torques already"""
-    return M @ (qdd_ref + kd * ed + kp * e + bias + damping * qd)
-
-
-@row.wrong
-def bias_through_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """bias goes through M as well; it is a torque already"""
-    return M @ (qdd_ref + kd * ed + kp * e + bias) + damping * qd
-
-
-@row.wrong
-def armature_twice(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the armature, 0.1 kg m2, is added to M; M has it already"""
-    M = M + ARMATURE * np.eye(7)
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def bias_alone_at_the_goal(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """where e is 0 only bias comes back, but the arm may be moving there"""
-    if np.all(e == 0.0):
-        return bias.copy()
-    return M @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
-
-
-@row.wrong
-def reference_outside_M(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the reference's acceleration stands outside the product with M"""
-    return M @ (kd * ed + kp * e) + qdd_ref + bias + damping * qd
-
-
-@row.wrong
-def errors_in_degrees(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """the errors are converted to degrees; everything else is in radians"""
-    return M @ (qdd_ref + np.rad2deg(kp * e + kd * ed)) + bias + damping * qd
 
 
 @row.right  # With einsum, each term through M.

@@ -56,21 +56,28 @@ def _(rng):
     return [drawn[0], *near, *mixed, *drawn[1:]]
 
 
-def damped(omega, zeta):
-    """Return the frequency of the swing under zeta = 1."""
-    return omega * np.sqrt(1.0 - zeta**2)
-
-
-def rates(omega, zeta):
-    """Return the slow and the fast rate of the decay over zeta = 1."""
-    spread = omega * np.sqrt(zeta**2 - 1.0)
-    return zeta * omega - spread, zeta * omega + spread
-
-
-@row.wrong
-def one_formula_for_all(t, omega, zeta):
-    """zeta is not looked at: this is critical damping, every time"""
-    return (1.0 + omega * t) * np.exp(-omega * t)
+@row.wrongs
+def _(t, omega, zeta):
+    """one-formula-for-all: zeta is not looked at: this is critical damping, every time
+    envelope-alone: this is the envelope, e^(-zeta omega t); the error starts at rest,
+      and this curve starts with a slope
+    envelope-of-omega: this is e^(-omega t), whatever zeta is; the error starts at rest,
+      and this curve starts with a slope
+    half-the-damping: this is the curve of half the zeta: the equation has 2 zeta omega
+      before ed
+    output-in-place-of-error: this rises from 0 to 1: it is what the joint does, and the
+      error is the rest
+    omega-in-turns: omega is taken for turns per second and multiplied by 2 pi; it comes
+      in rad/s
+    """
+    return {
+        "one-formula-for-all": (1.0 + omega * t) * np.exp(-omega * t),
+        "envelope-alone": np.exp(-zeta * omega * t),
+        "envelope-of-omega": np.exp(-omega * t),
+        "half-the-damping": error_response(t, omega, zeta / 2.0),
+        "output-in-place-of-error": 1.0 - error_response(t, omega, zeta),
+        "omega-in-turns": error_response(t, 2.0 * np.pi * omega, zeta),
+    }
 
 
 @row.wrong
@@ -80,26 +87,6 @@ def one_formula_for_all(t, omega, zeta):
     return (1.0 + zeta * omega * t) * np.exp(-zeta * omega * t)
 
 
-@row.wrong
-def envelope_alone(t, omega, zeta):
-    """this is the envelope, e^(-zeta omega t); the error starts at rest, and this curve
-    starts with a slope"""
-    return np.exp(-zeta * omega * t)
-
-
-@row.wrong
-def envelope_of_omega(t, omega, zeta):
-    """this is e^(-omega t), whatever zeta is; the error starts at rest, and this curve
-    starts with a slope"""
-    return np.exp(-omega * t)
-
-
-@row.wrong
-def half_the_damping(t, omega, zeta):
-    """this is the curve of half the zeta: the equation has 2 zeta omega before ed"""
-    return error_response(t, omega, zeta / 2.0)
-
-
 @row.wrong(hidden="no zeta there is so near to 1")
 def window_around_one(t, omega, zeta):
     """zeta near 1 gets the formula of zeta = 1, which is right at 1 alone; only
@@ -107,184 +94,117 @@ def window_around_one(t, omega, zeta):
     return error_response(t, omega, 1.0 if abs(zeta - 1.0) < 0.05 else zeta)
 
 
-@row.wrong(
-    "time-from-the-first",
-    "time is counted from the first of t; t = 0 is where the error was 1, whether it "
-    "is in t or not",
-    hidden=FROM_0,
-)
-def _(t, omega, zeta):
+@row.wrong(hidden=FROM_0)
+def time_from_the_first(t, omega, zeta):
+    """time is counted from the first of t; t = 0 is where the error was 1, whether it
+    is in t or not"""
     return error_response(t - t[0], omega, zeta)
 
 
-@row.wrong(
-    "times-sorted",
-    "the times are sorted first; entry i of the answer belongs to entry i of t",
-    hidden=FROM_0,
-)
-def _(t, omega, zeta):
+@row.wrong(hidden=FROM_0)
+def times_sorted(t, omega, zeta):
+    """the times are sorted first; entry i of the answer belongs to entry i of t"""
     return error_response(np.sort(t), omega, zeta)
 
 
-@row.wrong(
-    "first-entry-one",
-    "the first entry is set to 1, whatever the first time is; only at t = 0 the error "
-    "is 1",
-    hidden=FROM_0,
-)
+@row.wrong(hidden=FROM_0)
+def first_entry_one(t, omega, zeta):
+    """the first entry is set to 1, whatever the first time is; only at t = 0 the error
+    is 1"""
+    return np.append(1.0, error_response(t, omega, zeta)[1:])
+
+
+def where(case, inside):
+    """Take mistakes of one case; elsewhere the library answers.
+
+    Args:
+        case: says of a zeta whether it is one of the case.
+        inside: a zeta that is, whose slugs are those of all.
+    """
+
+    def keep(curves):
+        def law(t, omega, zeta):
+            if case(zeta):
+                return curves(t, omega, zeta)
+            return dict.fromkeys(
+                curves(t, omega, inside), error_response(t, omega, zeta)
+            )
+
+        law.__doc__ = curves.__doc__
+        row.wrongs(law)
+
+    return keep
+
+
+@where(lambda zeta: zeta == 1.0, inside=1.0)
 def _(t, omega, zeta):
-    e = error_response(t, omega, zeta)
-    e[0] = 1.0
-    return e
+    """second-solution-forgotten: for zeta = 1 the term omega t e^(-omega t) is missing:
+      this curve does not start at rest
+    second-solution-sign: for zeta = 1 the term with omega t has the wrong sign: the
+      error starts with a slope and becomes negative, which critical damping never does
+    second-solution-without-omega: for zeta = 1 it is 1 + t instead of 1 + omega t:
+      seconds are added to 1
+    """
+    return {
+        "second-solution-forgotten": np.exp(-omega * t),
+        "second-solution-sign": (1.0 - omega * t) * np.exp(-omega * t),
+        "second-solution-without-omega": (1.0 + t) * np.exp(-omega * t),
+    }
 
 
-@row.wrong
-def output_in_place_of_error(t, omega, zeta):
-    """this rises from 0 to 1: it is what the joint does, and the error is the rest"""
-    return 1.0 - error_response(t, omega, zeta)
+@where(lambda zeta: zeta < 1.0, inside=0.5)
+def _(t, omega, zeta):
+    """undamped-frequency: under zeta = 1 it swings with omega; damping makes it swing
+      more slowly
+    sine-forgotten: under zeta = 1 the sine is missing: this curve does not start at
+      rest
+    sine-sign: under zeta = 1 the sine has the wrong sign: this curve does not start at
+      rest
+    sine-unscaled: under zeta = 1 the sine lacks its factor: this curve does not start
+      at rest
+    sine-divided-by-omega: under zeta = 1 the sine's factor is zeta; what divides is the
+      damped frequency, not omega
+    decays-with-omega: under zeta = 1 it decays with omega; the envelope falls with zeta
+      omega
+    root-forgotten: under zeta = 1 the damped frequency lacks its square root
+    """
+    rate, w, w_2 = zeta * omega, omega * np.sqrt(1 - zeta**2), omega * (1 - zeta**2)
+    cos_0, cos, cos_2 = (np.cos(one * t) for one in (omega, w, w_2))
+    sin_0, sin, sin_2 = (np.sin(one * t) for one in (omega, w, w_2))
+    envelope = np.exp(-rate * t)
+    return {
+        "undamped-frequency": envelope * (cos_0 + zeta * sin_0),
+        "sine-forgotten": envelope * cos,
+        "sine-sign": envelope * (cos - rate / w * sin),
+        "sine-unscaled": envelope * (cos + sin),
+        "sine-divided-by-omega": envelope * (cos + zeta * sin),
+        "decays-with-omega": np.exp(-omega * t) * (cos + rate / w * sin),
+        "root-forgotten": envelope * (cos_2 + rate / w_2 * sin_2),
+    }
 
 
-@row.wrong
-def omega_in_turns(t, omega, zeta):
-    """omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s"""
-    return error_response(t, 2.0 * np.pi * omega, zeta)
-
-
-@row.wrong
-def second_solution_forgotten(t, omega, zeta):
-    """for zeta = 1 the term omega t e^(-omega t) is missing: this curve does not start
-    at rest"""
-    if zeta != 1.0:
-        return error_response(t, omega, zeta)
-    return np.exp(-omega * t)
-
-
-@row.wrong
-def second_solution_sign(t, omega, zeta):
-    """for zeta = 1 the term with omega t has the wrong sign: the error starts with a
-    slope and becomes negative, which critical damping never does"""
-    if zeta != 1.0:
-        return error_response(t, omega, zeta)
-    return (1.0 - omega * t) * np.exp(-omega * t)
-
-
-@row.wrong
-def second_solution_without_omega(t, omega, zeta):
-    """for zeta = 1 it is 1 + t instead of 1 + omega t: seconds are added to 1"""
-    if zeta != 1.0:
-        return error_response(t, omega, zeta)
-    return (1.0 + t) * np.exp(-omega * t)
-
-
-@row.wrong
-def undamped_frequency(t, omega, zeta):
-    """under zeta = 1 it swings with omega; damping makes it swing more slowly"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    return np.exp(-zeta * omega * t) * (np.cos(omega * t) + zeta * np.sin(omega * t))
-
-
-@row.wrong
-def sine_forgotten(t, omega, zeta):
-    """under zeta = 1 the sine is missing: this curve does not start at rest"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    return np.exp(-zeta * omega * t) * np.cos(damped(omega, zeta) * t)
-
-
-@row.wrong
-def sine_sign(t, omega, zeta):
-    """under zeta = 1 the sine has the wrong sign: this curve does not start at rest"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    w = damped(omega, zeta)
-    return np.exp(-zeta * omega * t) * (
-        np.cos(w * t) - zeta * omega / w * np.sin(w * t)
-    )
-
-
-@row.wrong
-def sine_unscaled(t, omega, zeta):
-    """under zeta = 1 the sine lacks its factor: this curve does not start at rest"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    w = damped(omega, zeta)
-    return np.exp(-zeta * omega * t) * (np.cos(w * t) + np.sin(w * t))
-
-
-@row.wrong
-def sine_divided_by_omega(t, omega, zeta):
-    """under zeta = 1 the sine's factor is zeta; what divides is the damped frequency,
-    not omega"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    w = damped(omega, zeta)
-    return np.exp(-zeta * omega * t) * (np.cos(w * t) + zeta * np.sin(w * t))
-
-
-@row.wrong
-def decays_with_omega(t, omega, zeta):
-    """under zeta = 1 it decays with omega; the envelope falls with zeta omega"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    w = damped(omega, zeta)
-    return np.exp(-omega * t) * (np.cos(w * t) + zeta * omega / w * np.sin(w * t))
-
-
-@row.wrong
-def root_forgotten(t, omega, zeta):
-    """under zeta = 1 the damped frequency lacks its square root"""
-    if zeta >= 1.0:
-        return error_response(t, omega, zeta)
-    w = omega * (1.0 - zeta**2)
-    swing = np.cos(w * t) + zeta * omega / w * np.sin(w * t)
-    return np.exp(-zeta * omega * t) * swing
-
-
-@row.wrong
-def slow_exponential_alone(t, omega, zeta):
-    """over zeta = 1 only the slow exponential is there: this curve does not start at
-    rest"""
-    if zeta <= 1.0:
-        return error_response(t, omega, zeta)
-    return np.exp(-rates(omega, zeta)[0] * t)
-
-
-@row.wrong
-def both_halves(t, omega, zeta):
-    """over zeta = 1 the two exponentials have equal weights: this curve does not start
-    at rest"""
-    if zeta <= 1.0:
-        return error_response(t, omega, zeta)
-    slow, fast = rates(omega, zeta)
-    return (np.exp(-slow * t) + np.exp(-fast * t)) / 2.0
-
-
-@row.wrong
-def weights_swapped(t, omega, zeta):
-    """over zeta = 1 each exponential has the weight of the other"""
-    if zeta <= 1.0:
-        return error_response(t, omega, zeta)
-    slow, fast = rates(omega, zeta)
-    return (fast * np.exp(-fast * t) - slow * np.exp(-slow * t)) / (fast - slow)
-
-
-@row.wrong
-def weights_summed(t, omega, zeta):
-    """over zeta = 1 the weights have the wrong sign between them: this curve does not
-    start at rest"""
-    if zeta <= 1.0:
-        return error_response(t, omega, zeta)
-    slow, fast = rates(omega, zeta)
-    return (fast * np.exp(-slow * t) + slow * np.exp(-fast * t)) / (fast + slow)
-
-
-@row.wrong
-def critical_above_one(t, omega, zeta):
-    """over zeta = 1 it is the curve of zeta = 1; more damping makes it slower"""
-    if zeta <= 1.0:
-        return error_response(t, omega, zeta)
-    return (1.0 + omega * t) * np.exp(-omega * t)
+@where(lambda zeta: zeta > 1.0, inside=2.0)
+def _(t, omega, zeta):
+    """slow-exponential-alone: over zeta = 1 only the slow exponential is there: this
+      curve does not start at rest
+    both-halves: over zeta = 1 the two exponentials have equal weights: this curve does
+      not start at rest
+    weights-swapped: over zeta = 1 each exponential has the weight of the other
+    weights-summed: over zeta = 1 the weights have the wrong sign between them: this
+      curve does not start at rest
+    critical-above-one: over zeta = 1 it is the curve of zeta = 1; more damping makes it
+      slower
+    """
+    spread = omega * np.sqrt(zeta**2 - 1.0)
+    a, b = zeta * omega - spread, zeta * omega + spread
+    slow, fast = np.exp(-a * t), np.exp(-b * t)
+    return {
+        "slow-exponential-alone": slow,
+        "both-halves": (slow + fast) / 2.0,
+        "weights-swapped": (b * fast - a * slow) / (b - a),
+        "weights-summed": (b * slow + a * fast) / (b + a),
+        "critical-above-one": (1.0 + omega * t) * np.exp(-omega * t),
+    }
 
 
 @row.right  # One complex formula for under and over.

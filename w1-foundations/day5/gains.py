@@ -16,54 +16,29 @@ def _(rng):
     yield from zip(omega.tolist(), zeta.tolist(), strict=True)
 
 
-@row.wrong
-def two_forgotten(omega, zeta):
-    """kd is zeta omega; the standard form has a factor of its own before them, and
-    without it the joint is damped half as much as you asked"""
-    return np.array([omega**2, zeta * omega])
-
-
-@row.wrong
-def kp_is_omega(omega, zeta):
-    """kp is omega, not its square: compare the units, kp is in 1/s2"""
-    return np.array([omega, 2.0 * zeta * omega])
-
-
-@row.wrong
-def kd_is_omega(omega, zeta):
-    """kd is omega whatever zeta is, which is right for zeta = 0.5 alone. It tracks well
-    and overshoots by a sixth"""
-    return np.array([omega**2, omega])
-
-
-@row.wrong
-def zeta_ignored(omega, zeta):
-    """kd does not depend on zeta: it is right for critical damping alone"""
-    return np.array([omega**2, 2.0 * omega])
-
-
-@row.wrong
-def swapped(omega, zeta):
-    """kp and kd are swapped"""
-    return np.array([2.0 * zeta * omega, omega**2])
-
-
-@row.wrong
-def root_of_omega(omega, zeta):
-    """kd has the square root of omega in it, as if omega were kp already"""
-    return np.array([omega**2, 2.0 * zeta * np.sqrt(omega)])
-
-
-@row.wrong
-def kd_with_omega_squared(omega, zeta):
-    """kd has omega squared in it: compare the units, kd is in 1/s"""
-    return np.array([omega**2, 2.0 * zeta * omega**2])
-
-
-@row.wrong
-def zeta_squared_in_kp(omega, zeta):
-    """kp has zeta in it; damping changes kd alone"""
-    return np.array([(zeta * omega) ** 2, 2.0 * zeta * omega])
+@row.wrongs
+def _(omega, zeta):
+    """two-forgotten: kd is zeta omega; the standard form has a factor of its own before
+      them, and without it the joint is damped half as much as you asked
+    kp-is-omega: kp is omega, not its square: compare the units, kp is in 1/s2
+    kd-is-omega: kd is omega whatever zeta is, which is right for zeta = 0.5 alone. It
+      tracks well and overshoots by a sixth
+    zeta-ignored: kd does not depend on zeta: it is right for critical damping alone
+    swapped: kp and kd are swapped
+    root-of-omega: kd has the square root of omega in it, as if omega were kp already
+    kd-with-omega-squared: kd has omega squared in it: compare the units, kd is in 1/s
+    zeta-squared-in-kp: kp has zeta in it; damping changes kd alone
+    """
+    return {
+        "two-forgotten": np.array([omega**2, zeta * omega]),
+        "kp-is-omega": np.array([omega, 2.0 * zeta * omega]),
+        "kd-is-omega": np.array([omega**2, omega]),
+        "zeta-ignored": np.array([omega**2, 2.0 * omega]),
+        "swapped": np.array([2.0 * zeta * omega, omega**2]),
+        "root-of-omega": np.array([omega**2, 2.0 * zeta * np.sqrt(omega)]),
+        "kd-with-omega-squared": np.array([omega**2, 2.0 * zeta * omega**2]),
+        "zeta-squared-in-kp": np.array([(zeta * omega) ** 2, 2.0 * zeta * omega]),
+    }
 
 
 @row.wrong
@@ -71,13 +46,6 @@ def omega_in_turns(omega, zeta):
     """omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s"""
     omega = 2.0 * np.pi * omega
     return np.array([omega**2, 2.0 * zeta * omega])
-
-
-@row.right  # From the two roots of the polynomial.
-def _(omega, zeta):
-    root = np.sqrt(complex(zeta**2 - 1))
-    a, b = omega * (-zeta + root), omega * (-zeta - root)
-    return np.array([(a * b).real, -(a + b).real])
 
 
 @row.right  # A plain list.

@@ -4,15 +4,7 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .joints import (
-    ONE,
-    TORQUE,
-    one_gain,
-    seven,
-    springs,
-    springs_of_one_gain,
-    stiff,
-)
+from .joints import ONE, TORQUE, one_gain, seven, springs, springs_of_one_gain, stiff
 
 
 def gravity_of_one_gain(rng):
@@ -32,60 +24,36 @@ def _(rng):
     return [(*case, seven(rng, -40, 40)) for case in cases]
 
 
-@row.wrong
-def gravity_forgotten(e, ed, kp, kd, g_at_q):
-    """gravity's torque is not in it: these springs sag like those of 5.1"""
-    return kp * e + kd * ed
-
-
-@row.wrong
-def gravity_sign(e, ed, kp, kd, g_at_q):
-    """gravity's torque has the wrong sign: g is what the motors must give to hold the
-    arm, and this pushes the arm down"""
-    return kp * e + kd * ed - g_at_q
-
-
-@row.wrong
-def gravity_twice(e, ed, kp, kd, g_at_q):
-    """gravity's torque is in it twice"""
-    return kp * e + kd * ed + 2.0 * g_at_q
-
-
-@row.wrong
-def gravity_through_the_gain(e, ed, kp, kd, g_at_q):
-    """gravity's torque goes through kp; it is a torque already"""
-    return kp * (e + g_at_q) + kd * ed
-
-
-@row.wrong
-def springs_forgotten(e, ed, kp, kd, g_at_q):
-    """only gravity's torque is there: the arm floats and goes nowhere"""
-    return g_at_q.copy()
-
-
-@row.wrong
-def gravity_through_both_gains(e, ed, kp, kd, g_at_q):
-    """gravity's torque is multiplied by the whole of it; torques add"""
-    return (kp * e + kd * ed) * g_at_q
-
-
-@row.wrong
-def gravity_at_the_goal_only(e, ed, kp, kd, g_at_q):
-    """at the goal only gravity's torque is there, and elsewhere only the springs'; the
-    arm has its weight everywhere, and its springs too"""
-    return g_at_q.copy() if np.all(e == 0.0) else kp * e + kd * ed
-
-
-@row.wrong
-def gravity_at_rest_only(e, ed, kp, kd, g_at_q):
-    """gravity's torque is there only where ed is 0; a moving arm has its weight too"""
-    return kp * e + kd * ed + g_at_q * (ed == 0.0)
-
-
-@row.wrong
-def nothing_at_the_goal(e, ed, kp, kd, g_at_q):
-    """where e is 0, no torque comes back: the arm has its weight at the goal too"""
-    return np.zeros(7) if np.all(e == 0.0) else kp * e + kd * ed + g_at_q
+@row.wrongs
+def _(e, ed, kp, kd, g_at_q):
+    """gravity-forgotten: gravity's torque is not in it: these springs sag like those of
+      5.1
+    gravity-sign: gravity's torque has the wrong sign: g is what the motors must give to
+      hold the arm, and this pushes the arm down
+    gravity-twice: gravity's torque is in it twice
+    gravity-through-the-gain: gravity's torque goes through kp; it is a torque already
+    springs-forgotten: only gravity's torque is there: the arm floats and goes nowhere
+    gravity-through-both-gains: gravity's torque is multiplied by the whole of it;
+      torques add
+    gravity-at-the-goal-only: at the goal only gravity's torque is there, and elsewhere
+      only the springs'; the arm has its weight everywhere, and its springs too
+    gravity-at-rest-only: gravity's torque is there only where ed is 0; a moving arm has
+      its weight too
+    nothing-at-the-goal: where e is 0, no torque comes back: the arm has its weight at
+      the goal too
+    """
+    springs, away = kp * e + kd * ed, np.any(e)
+    return {
+        "gravity-forgotten": springs,
+        "gravity-sign": springs - g_at_q,
+        "gravity-twice": springs + 2.0 * g_at_q,
+        "gravity-through-the-gain": kp * (e + g_at_q) + kd * ed,
+        "springs-forgotten": g_at_q.copy(),
+        "gravity-through-both-gains": springs * g_at_q,
+        "gravity-at-the-goal-only": springs if away else g_at_q.copy(),
+        "gravity-at-rest-only": springs + g_at_q * (ed == 0.0),
+        "nothing-at-the-goal": springs + g_at_q if away else np.zeros(7),
+    }
 
 
 row.reached_by("pd_torque", "gravity is right; in the springs, ")

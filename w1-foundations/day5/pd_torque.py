@@ -4,100 +4,53 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .joints import (
-    TORQUE,
-    WRAPPED,
-    one_gain,
-    springs,
-    springs_of_one_gain,
-)
+from .joints import TORQUE, WRAPPED, one_gain, springs, springs_of_one_gain
 
 row = Row(TORQUE, held_out=[one_gain(springs_of_one_gain)])
 row.inputs(springs)
 
 
-@row.wrong
-def error_sign(e, ed, kp, kd):
-    """the spring pushes away from the goal: e is the goal minus the measured angle, so
-    it enters with a plus"""
-    return kd * ed - kp * e
-
-
-@row.wrong
-def velocity_error_sign(e, ed, kp, kd):
-    """the damper drives the motion: ed is the wanted minus the measured velocity, so it
-    enters with a plus as well"""
-    return kp * e - kd * ed
-
-
-@row.wrong
-def all_signs(e, ed, kp, kd):
-    """spring and damper both push away from the goal: every sign is wrong"""
-    return -kp * e - kd * ed
-
-
-@row.wrong
-def damper_forgotten(e, ed, kp, kd):
-    """there is a spring, but no damper: the arm would swing for long"""
-    return kp * e
-
-
-@row.wrong
-def spring_forgotten(e, ed, kp, kd):
-    """there is a damper, but no spring: nothing pulls the joint to its goal"""
-    return kd * ed
-
-
-@row.wrong
-def gains_swapped(e, ed, kp, kd):
-    """kp and kd are swapped: the spring has the damper's gain"""
-    return kd * e + kp * ed
-
-
-@row.wrong
-def one_gain_for_all(e, ed, kp, kd):
-    """all joints get the first joint's gains; each has its own here"""
-    return kp[0] * e + kd[0] * ed
-
-
-@row.wrong
-def in_degrees(e, ed, kp, kd):
-    """the errors are converted to degrees; the gains are per radian"""
-    return np.rad2deg(kp * e + kd * ed)
-
-
-@row.wrong
-def error_in_degrees(e, ed, kp, kd):
-    """e is converted to degrees and ed is not; the gains are per radian"""
-    return kp * np.rad2deg(e) + kd * ed
-
-
-@row.wrong
-def summed_over_joints(e, ed, kp, kd):
-    """the joints are summed into one number; every joint has its own spring"""
-    return np.full(7, kp @ e + kd @ ed)
+@row.wrongs
+def _(e, ed, kp, kd):
+    """error-sign: the spring pushes away from the goal: e is the goal minus the
+      measured angle, so it enters with a plus
+    velocity-error-sign: the damper drives the motion: ed is the wanted minus the
+      measured velocity, so it enters with a plus as well
+    all-signs: spring and damper both push away from the goal: every sign is wrong
+    damper-forgotten: there is a spring, but no damper: the arm would swing for long
+    spring-forgotten: there is a damper, but no spring: nothing pulls the joint to its
+      goal
+    gains-swapped: kp and kd are swapped: the spring has the damper's gain
+    one-gain-for-all: all joints get the first joint's gains; each has its own here
+    summed-over-joints: the joints are summed into one number; every joint has its own
+      spring
+    in-degrees: the errors are converted to degrees; the gains are per radian
+    error-in-degrees: e is converted to degrees and ed is not; the gains are per radian
+    damper-through-both-gains: kd ed is multiplied by kp as well; kp and kd each have
+      one error of their own
+    velocity-error-forgotten: kd is added as it is: it becomes a torque once it is
+      multiplied by ed
+    mean-gains: all joints get the mean of the gains; each has its own here => the right
+      one with mean(kp) and mean(kd)
+    """
+    return {
+        "error-sign": kd * ed - kp * e,
+        "velocity-error-sign": kp * e - kd * ed,
+        "all-signs": -kp * e - kd * ed,
+        "damper-forgotten": kp * e,
+        "spring-forgotten": kd * ed,
+        "gains-swapped": kd * e + kp * ed,
+        "one-gain-for-all": lambda: kp[0] * e + kd[0] * ed,
+        "summed-over-joints": lambda: np.full(7, kp @ e + kd @ ed),
+        "in-degrees": np.rad2deg(kp * e + kd * ed),
+        "error-in-degrees": kp * np.rad2deg(e) + kd * ed,
+        "damper-through-both-gains": kp * (e + kd * ed),
+        "velocity-error-forgotten": kp * e + kd,
+        "mean-gains": np.mean(kp) * e + np.mean(kd) * ed,
+    }
 
 
 row.of_argument("e", WRAPPED)
-
-
-@row.wrong
-def damper_through_both_gains(e, ed, kp, kd):
-    """kd ed is multiplied by kp as well; kp and kd each have one error of their own"""
-    return kp * (e + kd * ed)
-
-
-@row.wrong
-def velocity_error_forgotten(e, ed, kp, kd):
-    """kd is added as it is: it becomes a torque once it is multiplied by ed"""
-    return kp * e + kd
-
-
-@row.wrong
-def mean_gains(e, ed, kp, kd):
-    """all joints get the mean of the gains; each has its own here => the right one with
-    mean(kp) and mean(kd)"""
-    return np.mean(kp) * e + np.mean(kd) * ed
 
 
 @row.right  # Gains as matrices.

@@ -68,290 +68,160 @@ def at_the_clamp(rng):
     yield 0.0 * ONE, seven(rng, -2, 2), near + 0.0, *gains, 0.01, 0.3
 
 
-@row.wrong
-def dt_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the error is added without dt: the sum then depends on how often you ask"""
-    integral = np.clip(integral + e, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
+def summed(sums):
+    """Take mistakes of the integral alone: a function that returns {slug: integral}."""
+
+    def law(e, ed, integral, kp, kd, ki, dt, clamp):
+        springs = kp * e + kd * ed
+        found = sums(e, ed, integral, ki, dt, clamp)
+        return {slug: (springs + ki * new, new) for slug, new in found.items()}
+
+    law.__doc__ = sums.__doc__
+    row.wrongs(law)
 
 
-@row.wrong
-def divided_by_dt(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the error is divided by dt; the area of one step is the error times dt"""
-    integral = np.clip(integral + e / dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
+@summed
+def _(e, ed, integral, ki, dt, clamp):
+    """dt-forgotten: the error is added without dt: the sum then depends on how often
+      you ask
+    divided-by-dt: the error is divided by dt; the area of one step is the error times
+      dt
+    half-the-step: half of e dt is added; this call's area is e dt
+    velocity-error-summed: ed is summed instead of e: that gives the error again, not
+      its integral
+    integral-sign: the error is taken off the integral, not added to it
+    starts-anew: the integral starts anew at every call; it has to go on from the one
+      that is given
+    never-grows: the integral never changes: this call's error is not added to it
+    trapezoid-of-the-error: ed is in the area, as the mean of this error and the one
+      before; this call's area is e dt
+    """
+    sums = {
+        "dt-forgotten": integral + e,
+        "divided-by-dt": integral + e / dt,
+        "half-the-step": integral + e * dt / 2.0,
+        "velocity-error-summed": integral + ed * dt,
+        "integral-sign": integral - e * dt,
+        "starts-anew": e * dt,
+        "never-grows": integral,
+        "trapezoid-of-the-error": integral + (e - ed * dt / 2) * dt,
+    }
+    return {slug: np.clip(new, -clamp, clamp) for slug, new in sums.items()}
 
 
-@row.wrong
-def half_the_step(e, ed, integral, kp, kd, ki, dt, clamp):
-    """half of e dt is added; this call's area is e dt"""
-    integral = np.clip(integral + e * dt / 2.0, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
+@summed
+def _(e, ed, integral, ki, dt, clamp):
+    """not-clamped: the integral has no bound: it winds up while the motors are at their
+      limit, and the arm overshoots until it has unwound
+    old-sum-clamped: the old sum is clamped, and then e dt is added: clamp the new one
+    step-clamped: only e dt is clamped, and the sum can still grow without a bound:
+      clamp the new sum
+    frozen-at-the-limit: at the limit the old value is kept; clamp the new sum to the
+      limit
+    emptied-at-the-limit: at the limit the integral becomes 0: all that it has learned
+      is lost; clamp it to the limit
+    clamped-on-one-side: the integral is bounded above and not below
+    never-negative: the integral is kept between 0 and clamp; it must be able to be
+      negative
+    clamped-as-a-vector: the length of all seven together is kept within clamp; each
+      joint's integral has that bound for itself
+    term-clamped: ki times the integral is clamped; clamp is the bound of the integral
+      itself
+    """
+    step, new = e * dt, integral + e * dt
+    length = max(np.linalg.norm(new), 1e-12)
+    return {
+        "not-clamped": new,
+        "old-sum-clamped": np.clip(integral, -clamp, clamp) + step,
+        "step-clamped": integral + np.clip(step, -clamp, clamp),
+        "frozen-at-the-limit": np.where(np.abs(new) > clamp, integral, new),
+        "emptied-at-the-limit": np.where(np.abs(new) > clamp, 0.0, new),
+        "clamped-on-one-side": np.minimum(new, clamp),
+        "never-negative": np.clip(new, 0.0, clamp),
+        "clamped-as-a-vector": new * min(1.0, clamp / length),
+        "term-clamped": np.clip(ki * new, -clamp, clamp) / ki,
+    }
 
 
-@row.wrong
-def velocity_error_summed(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ed is summed instead of e: that gives the error again, not its integral"""
-    integral = np.clip(integral + ed * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
+@summed
+def _(e, ed, integral, ki, dt, clamp):
+    """old-sum-clamped: the old sum and e dt are clamped one by one, and then added:
+      clamp the new sum
+    frozen-at-the-limit: an integral at its limit stays there for ever; an error of the
+      other sign must be able to unwind it
+    clamped-on-one-side: the integral is bounded below and not above
+    trapezoid-of-the-error: ed is in the area, as the mean of this error and the next;
+      this call's area is e dt
+    """
+    step, stays = e * dt, np.abs(integral) >= clamp
+    mean = integral + (e + ed * dt / 2) * dt
+    both = np.clip(integral, -clamp, clamp) + np.clip(step, -clamp, clamp)
+    return {
+        "old-sum-clamped": both,
+        "frozen-at-the-limit": np.where(stays, integral, integral + step),
+        "clamped-on-one-side": np.maximum(integral + step, -clamp),
+        "trapezoid-of-the-error": np.clip(mean, -clamp, clamp),
+    }
 
 
-@row.wrong
-def integral_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the error is taken off the integral, not added to it"""
-    integral = np.clip(integral - e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
+@row.wrongs
+def _(e, ed, integral, kp, kd, ki, dt, clamp):
+    """integral-term-sign: ki times the integral is subtracted: it pushes away from the
+      goal, ever more
+    clamped-too-late: the acceleration uses the integral before it is bounded
+    bound-not-handed-back: the acceleration uses the bounded integral, but the unbounded
+      one comes back and goes on growing
+    old-integral-used: the acceleration uses the integral from before this step
+    old-integral-kept: the integral that was given comes back unchanged
+    ki-forgotten: the integral is added without its gain
+    no-integral-term: the integral is not in the acceleration
+    this-step-alone-used: ki multiplies this step's e dt alone; the acceleration needs
+      the whole sum
+    dt-twice: the integral is multiplied by dt once more in the acceleration; dt is in
+      it already
+    ki-in-the-integral: the gain is inside the integral, so clamp bounds something else
+    term-handed-back: what comes back is ki times the integral; hand the integral itself
+      back
+    swapped: the two answers are swapped: the acceleration comes first
+    """
+    raw, springs = integral + e * dt, kp * e + kd * ed
+    new, scaled = (np.clip(x, -clamp, clamp) for x in (raw, integral + ki * e * dt))
+    acc = springs + ki * new
+    return {
+        "integral-term-sign": (springs - ki * new, new),
+        "clamped-too-late": (springs + ki * raw, new),
+        "bound-not-handed-back": (acc, raw),
+        "old-integral-used": (springs + ki * integral, new),
+        "old-integral-kept": (acc, integral.copy()),
+        "ki-forgotten": (springs + new, new),
+        "no-integral-term": (springs, new),
+        "this-step-alone-used": (springs + ki * e * dt, new),
+        "dt-twice": (springs + ki * new * dt, new),
+        "ki-in-the-integral": (springs + scaled, scaled),
+        "term-handed-back": (acc, ki * new),
+        "swapped": (new, acc),
+    }
 
 
-@row.wrong
-def integral_term_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ki times the integral is subtracted: it pushes away from the goal, ever more"""
-    integral = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed - ki * integral, integral
-
-
-@row.wrong
-def starts_anew(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral starts anew at every call; it has to go on from the one that is
-    given"""
-    integral = np.clip(e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def never_grows(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral never changes: this call's error is not added to it"""
-    integral = np.clip(integral, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def not_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral has no bound: it winds up while the motors are at their limit, and
-    the arm overshoots until it has unwound"""
-    integral = integral + e * dt
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def old_sum_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the old sum is clamped, and then e dt is added: clamp the new one"""
-    integral = np.clip(integral, -clamp, clamp) + e * dt
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def old_sum_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the old sum and e dt are clamped one by one, and then added: clamp the new sum"""
-    integral = np.clip(integral, -clamp, clamp) + np.clip(e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def step_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """only e dt is clamped, and the sum can still grow without a bound: clamp the new
-    sum"""
-    integral = integral + np.clip(e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def frozen_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
-    """at the limit the old value is kept; clamp the new sum to the limit"""
-    raw = integral + e * dt
-    new = np.where(np.abs(raw) > clamp, integral, raw)
-    return kp * e + kd * ed + ki * new, new
-
-
-@row.wrong
-def frozen_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
-    """an integral at its limit stays there for ever; an error of the other sign must be
-    able to unwind it"""
-    integral = np.where(np.abs(integral) >= clamp, integral, integral + e * dt)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def emptied_at_the_limit(e, ed, integral, kp, kd, ki, dt, clamp):
-    """at the limit the integral becomes 0: all that it has learned is lost; clamp it to
-    the limit"""
-    raw = integral + e * dt
-    new = np.where(np.abs(raw) > clamp, 0.0, raw)
-    return kp * e + kd * ed + ki * new, new
-
-
-@row.wrong
-def clamped_on_one_side(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is bounded above and not below"""
-    integral = np.minimum(integral + e * dt, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def clamped_on_one_side(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is bounded below and not above"""
-    integral = np.maximum(integral + e * dt, -clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def never_negative(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is kept between 0 and clamp; it must be able to be negative"""
-    integral = np.clip(integral + e * dt, 0.0, clamp)
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def clamped_too_late(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the acceleration uses the integral before it is bounded"""
-    integral = integral + e * dt
-    return kp * e + kd * ed + ki * integral, np.clip(integral, -clamp, clamp)
-
-
-@row.wrong
-def bound_not_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the acceleration uses the bounded integral, but the unbounded one comes back and
-    goes on growing"""
+@row.wrongs
+def _(e, ed, integral, kp, kd, ki, dt, clamp):
+    """springs-forgotten: only the integral's part is there: kp e and kd ed are missing
+    spring-forgotten: kp e is missing
+    damper-forgotten: kd ed is missing
+    gains-swapped: kp and kd are swapped: kp belongs to e and kd to ed
+    error-sign: kp e has the wrong sign
+    velocity-error-sign: kd ed has the wrong sign
+    """
     new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, integral + e * dt
-
-
-@row.wrong
-def clamped_as_a_vector(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the length of all seven together is kept within clamp; each joint's integral has
-    that bound for itself"""
-    new = integral + e * dt
-    new = new * min(1.0, clamp / max(np.linalg.norm(new), 1e-12))
-    return kp * e + kd * ed + ki * new, new
-
-
-@row.wrong
-def trapezoid_of_the_error(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ed is in the area, as the mean of this error and the one before; this call's area
-    is e dt"""
-    new = np.clip(integral + (e - ed * dt / 2) * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, new
-
-
-@row.wrong
-def trapezoid_of_the_error(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ed is in the area, as the mean of this error and the next; this call's area is
-    e dt"""
-    new = np.clip(integral + (e + ed * dt / 2) * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, new
-
-
-@row.wrong
-def term_clamped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ki times the integral is clamped; clamp is the bound of the integral itself"""
-    integral = np.clip(ki * (integral + e * dt), -clamp, clamp) / ki
-    return kp * e + kd * ed + ki * integral, integral
-
-
-@row.wrong
-def old_integral_used(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the acceleration uses the integral from before this step"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * integral, new
-
-
-@row.wrong
-def old_integral_kept(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral that was given comes back unchanged"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, integral.copy()
-
-
-@row.wrong
-def ki_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is added without its gain"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + new, new
-
-
-@row.wrong
-def no_integral_term(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is not in the acceleration"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed, new
-
-
-@row.wrong
-def this_step_alone_used(e, ed, integral, kp, kd, ki, dt, clamp):
-    """ki multiplies this step's e dt alone; the acceleration needs the whole sum"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * e * dt, new
-
-
-@row.wrong
-def dt_twice(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the integral is multiplied by dt once more in the acceleration; dt is in it
-    already"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new * dt, new
-
-
-@row.wrong
-def ki_in_the_integral(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the gain is inside the integral, so clamp bounds something else"""
-    integral = np.clip(integral + ki * e * dt, -clamp, clamp)
-    return kp * e + kd * ed + integral, integral
-
-
-@row.wrong
-def term_handed_back(e, ed, integral, kp, kd, ki, dt, clamp):
-    """what comes back is ki times the integral; hand the integral itself back"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + kd * ed + ki * new, ki * new
-
-
-@row.wrong
-def springs_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """only the integral's part is there: kp e and kd ed are missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return ki * new, new
-
-
-@row.wrong
-def spring_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp e is missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * ed + ki * new, new
-
-
-@row.wrong
-def damper_forgotten(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kd ed is missing"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e + ki * new, new
-
-
-@row.wrong
-def gains_swapped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp and kd are swapped: kp belongs to e and kd to ed"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * e + kp * ed + ki * new, new
-
-
-@row.wrong
-def error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kp e has the wrong sign"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kd * ed - kp * e + ki * new, new
-
-
-@row.wrong
-def velocity_error_sign(e, ed, integral, kp, kd, ki, dt, clamp):
-    """kd ed has the wrong sign"""
-    new = np.clip(integral + e * dt, -clamp, clamp)
-    return kp * e - kd * ed + ki * new, new
-
-
-@row.wrong
-def swapped(e, ed, integral, kp, kd, ki, dt, clamp):
-    """the two answers are swapped: the acceleration comes first"""
-    integral = np.clip(integral + e * dt, -clamp, clamp)
-    return integral, kp * e + kd * ed + ki * integral
+    springs = {
+        "springs-forgotten": 0.0,
+        "spring-forgotten": kd * ed,
+        "damper-forgotten": kp * e,
+        "gains-swapped": kd * e + kp * ed,
+        "error-sign": kd * ed - kp * e,
+        "velocity-error-sign": kp * e - kd * ed,
+    }
+    return {slug: (some + ki * new, new) for slug, some in springs.items()}
 
 
 @row.right  # A list of two, in plain Python.

@@ -30,79 +30,41 @@ def _(rng):
         yield q, seven(rng, -40, 40), seven(rng, 50, 600)
 
 
-@row.wrong
-def sags_upwards(q_goal, g_at_q, kp):
-    """the arm rests above its goal; a spring that has to give +g is stretched, so the
-    joint stays below"""
-    return q_goal + g_at_q / kp
-
-
-@row.wrong
-def times_stiffness(q_goal, g_at_q, kp):
-    """gravity is multiplied by the stiffness: a stiffer spring would sag more"""
-    return q_goal - g_at_q * kp
-
-
-@row.wrong
-def goal_forgotten(q_goal, g_at_q, kp):
-    """this is how far the arm sags; asked is where it then is"""
-    return -g_at_q / kp
-
-
-@row.wrong
-def sag_only(q_goal, g_at_q, kp):
-    """this is how far the arm sags; asked is where it then is"""
-    return g_at_q / kp
-
-
-@row.wrong
-def stiffness_forgotten(q_goal, g_at_q, kp):
-    """gravity's torque is taken for an angle; stiffness turns one into the other"""
-    return q_goal - g_at_q
-
-
-@row.wrong
-def one_gain_for_all(q_goal, g_at_q, kp):
-    """all joints get the first joint's stiffness; each has its own here"""
-    return q_goal - g_at_q / kp[0]
-
-
-@row.wrong
-def does_not_sag(q_goal, g_at_q, kp):
-    """the goal comes back as it is; a spring gives torque only where there is an
-    error"""
-    return q_goal.copy()
-
-
-@row.wrong
-def sag_in_degrees(q_goal, g_at_q, kp):
-    """the sag is in degrees, the goal in radians"""
-    return q_goal - np.rad2deg(g_at_q / kp)
-
-
-@row.wrong
-def goal_scaled_too(q_goal, g_at_q, kp):
-    """the goal is divided by the stiffness as well"""
-    return (q_goal - g_at_q) / kp
-
-
-@row.wrong
-def always_below(q_goal, g_at_q, kp):
-    """gravity's sign is lost: where g is negative, the joint rests above its goal"""
-    return q_goal - np.abs(g_at_q) / kp
-
-
-@row.wrong
-def stiffness_squared(q_goal, g_at_q, kp):
-    """gravity's torque is divided by kp twice: compare the units"""
-    return q_goal - g_at_q / kp**2
-
-
-@row.wrong
-def answer_wrapped(q_goal, g_at_q, kp):
-    """the angle is taken to within +-pi; these joints have stops, so a whole turn is
-    not the same as none, and joint6 goes beyond pi"""
-    return wrapped(q_goal - g_at_q / kp)
+@row.wrongs
+def _(q_goal, g_at_q, kp):
+    """sags-upwards: the arm rests above its goal; a spring that has to give +g is
+      stretched, so the joint stays below
+    times-stiffness: gravity is multiplied by the stiffness: a stiffer spring would sag
+      more
+    goal-forgotten: this is how far the arm sags; asked is where it then is
+    sag-only: this is how far the arm sags; asked is where it then is
+    stiffness-forgotten: gravity's torque is taken for an angle; stiffness turns one
+      into the other
+    does-not-sag: the goal comes back as it is; a spring gives torque only where there
+      is an error
+    sag-in-degrees: the sag is in degrees, the goal in radians
+    goal-scaled-too: the goal is divided by the stiffness as well
+    always-below: gravity's sign is lost: where g is negative, the joint rests above its
+      goal
+    one-gain-for-all: all joints get the first joint's stiffness; each has its own here
+    stiffness-squared: gravity's torque is divided by kp twice: compare the units
+    answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
+      whole turn is not the same as none, and joint6 goes beyond pi
+    """
+    return {
+        "sags-upwards": q_goal + g_at_q / kp,
+        "times-stiffness": q_goal - g_at_q * kp,
+        "goal-forgotten": -g_at_q / kp,
+        "sag-only": g_at_q / kp,
+        "stiffness-forgotten": q_goal - g_at_q,
+        "does-not-sag": q_goal.copy(),
+        "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),
+        "goal-scaled-too": (q_goal - g_at_q) / kp,
+        "always-below": q_goal - np.abs(g_at_q) / kp,
+        "one-gain-for-all": lambda: q_goal - g_at_q / kp[0],
+        "stiffness-squared": q_goal - g_at_q / kp**2,
+        "answer-wrapped": wrapped(q_goal - g_at_q / kp),
+    }
 
 
 @row.right  # On one fraction bar.

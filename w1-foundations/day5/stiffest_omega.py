@@ -14,47 +14,27 @@ def _(rng):
         yield (float(h),)
 
 
-@row.wrong
-def undamped_limit(h):
-    """2 / h is the limit of a spring without a damper; critical damping breaks earlier,
-    because the damper acts a step late"""
-    return 2.0 / h
-
-
-@row.wrong
-def one_over_h(h):
-    """1 / h is a rule of thumb; ask when the step's eigenvalue reaches -1"""
-    return 1.0 / h
-
-
-@row.wrong
-def larger_root(h):
-    """the quadratic equation has two roots, and the loop breaks at the smaller one"""
-    return 2.0 * (np.sqrt(2.0) + 1.0) / h
-
-
-@row.wrong
-def nyquist(h):
-    """pi / h is how fast a signal may be to be seen at all, not to be controlled"""
-    return np.pi / h
-
-
-@row.wrong
-def factor_two_forgotten(h):
-    """it is half as much as it should be"""
-    return (np.sqrt(2.0) - 1.0) / h
-
-
-@row.wrong
-def in_hertz(h):
-    """this is in turns per second; asked is rad/s"""
-    return (np.sqrt(2.0) - 1.0) / h / np.pi
-
-
-@row.wrong
-def times_h(h):
-    """it grows with the time step; a longer step must allow less"""
-    return 2.0 * (np.sqrt(2.0) - 1.0) * h
+@row.wrongs
+def _(h):
+    """undamped-limit: 2 / h is the limit of a spring without a damper; critical damping
+      breaks earlier, because the damper acts a step late
+    one-over-h: 1 / h is a rule of thumb; ask when the step's eigenvalue reaches -1
+    larger-root: the quadratic equation has two roots, and the loop breaks at the
+      smaller one
+    nyquist: pi / h is how fast a signal may be to be seen at all, not to be controlled
+    factor-two-forgotten: it is half as much as it should be
+    in-hertz: this is in turns per second; asked is rad/s
+    times-h: it grows with the time step; a longer step must allow less
+    """
+    return {
+        "undamped-limit": 2.0 / h,
+        "one-over-h": 1.0 / h,
+        "larger-root": 2.0 * (np.sqrt(2.0) + 1.0) / h,
+        "nyquist": np.pi / h,
+        "factor-two-forgotten": (np.sqrt(2.0) - 1.0) / h,
+        "in-hertz": (np.sqrt(2.0) - 1.0) / h / np.pi,
+        "times-h": 2.0 * (np.sqrt(2.0) - 1.0) * h,
+    }
 
 
 @row.right  # By halving, on the eigenvalues.

@@ -5,10 +5,7 @@ import numpy as np
 from labkit.judge import Symmetric, draw
 from labkit.judge.row import Row
 
-from .states import (
-    model,
-    states,
-)
+from .states import model, states
 
 row = Row(Symmetric((6, 6), scale=10.0))
 
@@ -23,16 +20,17 @@ def root(A):
 def _(rng):
     drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
-    light, stiff = (K, 0.004 * Lambda), (20.0 * K, Lambda)
+    light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
     slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
 
-def _sum(root_L, root_k):
+def total(root_L, root_k):
+    """Return the two products of the roots, in both orders."""
     return root_L * root_k + root_k[:, None] * root_L
 
 
-def _by_modes(K, L):
+def by_modes(K, L):
     """Critical in every mode: another D that does not ring."""
     low = np.linalg.cholesky(L)
     back = np.linalg.inv(low)
@@ -41,31 +39,94 @@ def _by_modes(K, L):
     return 2.0 * Q @ np.diag(np.sqrt(k)) @ Q.T
 
 
-def _turned(L):
-    values, V = np.linalg.eigh(L)
-    return V.T @ np.diag(np.sqrt(values)) @ V
+@row.wrongs
+def _(K, Lambda):
+    """Lambda-ignored: Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each
+      spring => diag(2 sqrt(K))
+    another-design: this does not ring either: you take Lambda and K to axes in which
+      both are diagonal. Here the damping is the sum of two products of the roots of
+      Lambda and K => that other design
+    diagonal-only: this is 2 sqrt(k m) for each axis alone; Lambda couples the axes =>
+      the right one with Lambda's diagonal
+    one-order-only: the product of the two roots is taken in one order, twice; with both
+      orders, once each, it is symmetric => 2 sqrt(Lambda) sqrt(K)
+    half-of-it: the product of the two roots is there in one order only => sqrt(Lambda)
+      sqrt(K)
+    factor-two: there is a 2 too many: the two orders are the 2 already => twice the
+      right one
+    factor-two-missing: half of it is missing: the two orders are added, not averaged =>
+      half of the right one
+    K-not-rooted: K is used as it is; its square root belongs there => the right one
+      with K for its root
+    root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
+      Lambda))
+    no-roots: the square roots are missing: this grows with K, where a damping grows
+      with its root => Lambda K + K Lambda
+    """
+    k, half = np.sqrt(K), root(Lambda)
+    return {
+        "Lambda-ignored": np.diag(2.0 * k),
+        "another-design": by_modes(K, Lambda),
+        "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
+        "one-order-only": 2.0 * half * k,
+        "half-of-it": half * k,
+        "factor-two": 2.0 * total(half, k),
+        "factor-two-missing": 0.5 * total(half, k),
+        "K-not-rooted": total(half, K),
+        "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
+        "no-roots": total(Lambda, K),
+    }
 
 
-@row.wrong
-def Lambda_ignored(K, Lambda):
-    """Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each spring => diag(2
-    sqrt(K))"""
-    return np.diag(2.0 * np.sqrt(K))
+@row.wrongs
+def _(K, Lambda):
+    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
+      right one with Lambda for its root
+    entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
+      a matrix is the one that, times itself, is the matrix => the right one with
+      np.sqrt(Lambda)
+    eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
+      columns, so the root is V diag V^T => the right one with V^T diag V
+    eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
+      diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
+    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
+      => the right one with the Cholesky factor
+    root-of-inverse: the root is that of Lambda's inverse => the right one with the
+      inverse root
+    """
+    values, V = np.linalg.eigh(Lambda)
+    roots = {
+        "Lambda-not-rooted": Lambda,
+        "entries-square-rooted": np.sqrt(Lambda),
+        "eigenvectors-transposed": V.T @ np.diag(np.sqrt(values)) @ V,
+        "eigenvalues-not-rooted-back": np.diag(np.sqrt(values)),
+        "cholesky": np.linalg.cholesky(Lambda),
+        "root-of-inverse": np.linalg.inv(root(Lambda)),
+    }
+    return {slug: total(one, np.sqrt(K)) for slug, one in roots.items()}
 
 
-@row.wrong
-def another_design(K, Lambda):
-    """this does not ring either: you take Lambda and K to axes in which both are
-    diagonal. Here the damping is the sum of two products of the roots of Lambda and K
-    => that other design"""
-    return _by_modes(K, Lambda)
-
-
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """np.sqrt takes the root of every entry of Lambda; the root of a matrix is the one
-    that, times itself, is the matrix => the right one with np.sqrt(Lambda)"""
-    return _sum(np.sqrt(Lambda), np.sqrt(K))
+@row.wrongs
+def _(K, Lambda):
+    """entries-square-rooted: the root is taken of the size of every entry of Lambda;
+      the root of a matrix is the one that, times itself, is the matrix => the right
+      one with np.sqrt(abs(Lambda))
+    one-order-only: the product of the two roots is taken in one order, twice; with
+      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
+    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
+      Lambda => L sqrt(K) + sqrt(K) L^T
+    eigenvectors-transposed: the last transpose is missing: the root is V diag V^T =>
+      the right one with V diag V
+    """
+    k = np.sqrt(K)
+    values, V = np.linalg.eigh(Lambda)
+    half = np.linalg.cholesky(Lambda) * k
+    return {
+        "entries-square-rooted": total(np.sqrt(np.abs(Lambda)), k),
+        "one-order-only": 2.0 * k[:, None] * root(Lambda),
+        "cholesky": half + half.T,
+        "eigenvectors-transposed": total(V @ np.diag(np.sqrt(values)) @ V, k),
+    }
 
 
 @row.wrong
@@ -73,118 +134,8 @@ def entries_square_rooted(K, Lambda):
     """np.sqrt takes the root of every entry of Lambda, NaN where it is negative; the
     root of a matrix is the one that, times itself, is the matrix => the right one with
     np.sqrt(Lambda)"""
-    return np.sqrt(Lambda) @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ np.sqrt(Lambda)
-
-
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """the root is taken of the size of every entry of Lambda; the root of a matrix is
-    the one that, times itself, is the matrix => the right one with
-    np.sqrt(abs(Lambda))"""
-    return _sum(np.sqrt(np.abs(Lambda)), np.sqrt(K))
-
-
-@row.wrong
-def diagonal_only(K, Lambda):
-    """this is 2 sqrt(k m) for each axis alone; Lambda couples the axes => the right one
-    with Lambda's diagonal"""
-    return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
-
-
-@row.wrong
-def one_order_only(K, Lambda):
-    """the product of the two roots is taken in one order, twice; with both orders, once
-    each, it is symmetric => 2 sqrt(Lambda) sqrt(K)"""
-    return 2.0 * root(Lambda) @ np.diag(np.sqrt(K))
-
-
-@row.wrong
-def one_order_only(K, Lambda):
-    """the product of the two roots is taken in one order, twice; with both orders, once
-    each, it is symmetric => 2 sqrt(K) sqrt(Lambda)"""
-    return 2.0 * np.diag(np.sqrt(K)) @ root(Lambda)
-
-
-@row.wrong
-def half_of_it(K, Lambda):
-    """the product of the two roots is there in one order only => sqrt(Lambda)
-    sqrt(K)"""
-    return root(Lambda) @ np.diag(np.sqrt(K))
-
-
-@row.wrong
-def factor_two(K, Lambda):
-    """there is a 2 too many: the two orders are the 2 already => twice the right one"""
-    return 2.0 * _sum(root(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def factor_two_missing(K, Lambda):
-    """half of it is missing: the two orders are added, not averaged => half of the
-    right one"""
-    return 0.5 * _sum(root(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def K_not_rooted(K, Lambda):
-    """K is used as it is; its square root belongs there => the right one with K for its
-    root"""
-    return _sum(root(Lambda), K)
-
-
-@row.wrong
-def Lambda_not_rooted(K, Lambda):
-    """Lambda is used as it is; its square root belongs there => the right one with
-    Lambda for its root"""
-    return _sum(Lambda, np.sqrt(K))
-
-
-@row.wrong
-def eigenvectors_transposed(K, Lambda):
-    """the eigenvectors are transposed: those of eigh are the columns, so the root is V
-    diag V^T => the right one with V^T diag V"""
-    return _sum(_turned(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def eigenvalues_not_rooted_back(K, Lambda):
-    """the root is left in the eigenvectors' axes: diag(sqrt(values)) has to be turned
-    back => the right one with diag(sqrt(values))"""
-    return _sum(np.diag(np.sqrt(np.linalg.eigvalsh(Lambda))), np.sqrt(K))
-
-
-@row.wrong
-def cholesky(K, Lambda):
-    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => the
-    right one with the Cholesky factor"""
-    return _sum(np.linalg.cholesky(Lambda), np.sqrt(K))
-
-
-@row.wrong
-def cholesky(K, Lambda):
-    """a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda => L
-    sqrt(K) + sqrt(K) L^T"""
-    half = np.linalg.cholesky(Lambda) * np.sqrt(K)
-    return half + half.T
-
-
-@row.wrong
-def root_of_inverse(K, Lambda):
-    """the root is that of Lambda's inverse => the right one with the inverse root"""
-    return _sum(np.linalg.inv(root(Lambda)), np.sqrt(K))
-
-
-@row.wrong
-def root_of_the_product(K, Lambda):
-    """this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K Lambda))"""
-    return 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda))
-
-
-@row.wrong
-def no_roots(K, Lambda):
-    """the square roots are missing: this grows with K, where a damping grows with its
-    root => Lambda K + K Lambda"""
-    return Lambda @ np.diag(K) + np.diag(K) @ Lambda
+    half = np.sqrt(Lambda)
+    return half @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ half
 
 
 @row.right  # The root by Newton's iteration (Denman and Beavers).
@@ -194,11 +145,3 @@ def _(K, Lambda):
         Y, Z = (Y + np.linalg.inv(Z)) / 2, (Z + np.linalg.inv(Y)) / 2
     k = np.diag(np.sqrt(K))
     return Y @ k + k @ Y
-
-
-@row.right  # The root by an SVD.
-def _(K, Lambda):
-    U, s, _ = np.linalg.svd(Lambda)
-    root = U @ np.diag(np.sqrt(s)) @ U.T
-    k = np.sqrt(K)
-    return root * k + root * k[:, None]

@@ -5,16 +5,7 @@ import numpy as np
 from labkit.judge import draw
 from labkit.judge.row import Row
 
-from .states import (
-    J_CASE,
-    SWAP,
-    TORQUE,
-    model,
-    some,
-    states,
-)
-
-pinv = np.linalg.pinv
+from .states import J_CASE, SWAP, TORQUE, model, some, states
 
 row = Row(TORQUE)
 
@@ -24,16 +15,10 @@ def _(rng):
     rest = np.zeros(7)
     case = (J_CASE, np.zeros(6), np.arange(7.0), np.ones(7), rest, rest)
     drawn = [
-        (
-            model(now)[0],
-            some(rng, 20, 6),
-            some(rng, 20, 7),
-            draw.numbers(rng, 0.5, 2, 7),
-            some(rng, 2, 7),
-            some(rng, 5, 7),
-        )
+        (model(now)[0], some(rng, 20, 6), some(rng, 20, 7),
+         draw.numbers(rng, 0.5, 2, 7), some(rng, 2, 7), some(rng, 5, 7))
         for now in states(rng)
-    ]
+    ]  # fmt: skip
     J, F, bias, damping, qd, idle = drawn[0]
     parts = [
         (J, np.zeros(6), bias, damping, qd, idle),
@@ -43,101 +28,54 @@ def _(rng):
     return [case, *parts, *drawn]
 
 
-pinv = np.linalg.pinv
-
-
-@row.wrong
-def damping_summed(J, wrench, bias, damping, qd, tau_null):
-    """damping @ qd adds seven products up, and every joint gets the sum; each joint has
-    its own => the right one with damping @ qd"""
-    return J.T @ wrench + bias + damping @ qd + tau_null
-
-
-@row.wrong
-def bias_twice(J, wrench, bias, damping, qd, tau_null):
-    """bias is added twice => the right one with 2 bias"""
-    return J.T @ wrench + 2.0 * bias + damping * qd + tau_null
-
-
-@row.wrong
-def bias_forgotten(J, wrench, bias, damping, qd, tau_null):
-    """bias is missing: the arm sags under its weight, decimetres at a soft hand => the
-    right one without bias"""
-    return J.T @ wrench + damping * qd + tau_null
-
-
-@row.wrong
-def bias_sign(J, wrench, bias, damping, qd, tau_null):
-    """bias is taken away; your torques have to hold it, so it is added => the right one
-    with -bias"""
-    return J.T @ wrench - bias + damping * qd + tau_null
-
-
-@row.wrong
-def damping_forgotten(J, wrench, bias, damping, qd, tau_null):
-    """the joints' damping is not made up for => the right one without damping qd"""
-    return J.T @ wrench + bias + tau_null
-
-
-@row.wrong
-def damping_sign(J, wrench, bias, damping, qd, tau_null):
-    """the joints' damping is taken away: the joints rub already, so your torques have
-    to make up for it => the right one with -damping qd"""
-    return J.T @ wrench + bias - damping * qd + tau_null
-
-
-@row.wrong
-def damping_without_qd(J, wrench, bias, damping, qd, tau_null):
-    """damping is added as it is; it is a torque only once it is times qd => the right
-    one with damping for damping qd"""
-    return J.T @ wrench + bias + damping + tau_null
-
-
-@row.wrong
-def wrench_sign(J, wrench, bias, damping, qd, tau_null):
-    """the wrench has the wrong sign: the hand pulls where it should push => the right
-    one with -J^T F"""
-    return -J.T @ wrench + bias + damping * qd + tau_null
-
-
-@row.wrong
-def wrench_forgotten(J, wrench, bias, damping, qd, tau_null):
-    """the wrench is missing: the hand floats => the right one without J^T F"""
-    return bias + damping * qd + tau_null
-
-
-@row.wrong
-def pinv_for_transpose(J, wrench, bias, damping, qd, tau_null):
-    """pinv(J) takes the wrench to the joints; pushes go to torques with J^T, and the
-    pseudo-inverse is for speeds => the right one with pinv(J)"""
-    return pinv(J) @ wrench + bias + damping * qd + tau_null
-
-
-@row.wrong
-def null_forgotten(J, wrench, bias, damping, qd, tau_null):
-    """tau_null is missing: nothing holds the elbow back => the right one without
-    tau_null"""
-    return J.T @ wrench + bias + damping * qd
-
-
-@row.wrong
-def null_sign(J, wrench, bias, damping, qd, tau_null):
-    """tau_null is taken away; it is a torque to add => the right one with -tau_null"""
-    return J.T @ wrench + bias + damping * qd - tau_null
-
-
-@row.wrong
-def halves_swapped(J, wrench, bias, damping, qd, tau_null):
-    """the wrench is read as (force; moment); the moment comes first => the right one
-    with its halves swapped"""
-    return J.T @ wrench[SWAP] + bias + damping * qd + tau_null
+@row.wrongs
+def _(J, wrench, bias, damping, qd, tau_null):
+    """damping-summed: damping @ qd adds seven products up, and every joint gets the
+      sum; each joint has its own => the right one with damping @ qd
+    bias-twice: bias is added twice => the right one with 2 bias
+    bias-forgotten: bias is missing: the arm sags under its weight, decimetres at a soft
+      hand => the right one without bias
+    bias-sign: bias is taken away; your torques have to hold it, so it is added => the
+      right one with -bias
+    damping-forgotten: the joints' damping is not made up for => the right one without
+      damping qd
+    damping-sign: the joints' damping is taken away: the joints rub already, so your
+      torques have to make up for it => the right one with -damping qd
+    damping-without-qd: damping is added as it is; it is a torque only once it is times
+      qd => the right one with damping for damping qd
+    wrench-sign: the wrench has the wrong sign: the hand pulls where it should push =>
+      the right one with -J^T F
+    wrench-forgotten: the wrench is missing: the hand floats => the right one without
+      J^T F
+    pinv-for-transpose: pinv(J) takes the wrench to the joints; pushes go to torques
+      with J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
+    null-forgotten: tau_null is missing: nothing holds the elbow back => the right one
+      without tau_null
+    null-sign: tau_null is taken away; it is a torque to add => the right one with
+      -tau_null
+    halves-swapped: the wrench is read as (force; moment); the moment comes first => the
+      right one with its halves swapped
+    """
+    push, rub = J.T @ wrench, damping * qd
+    rest = bias + rub + tau_null
+    return {
+        "damping-summed": push + bias + damping @ qd + tau_null,
+        "bias-twice": push + bias + rest,
+        "bias-forgotten": push + rub + tau_null,
+        "bias-sign": push - bias + rub + tau_null,
+        "damping-forgotten": push + bias + tau_null,
+        "damping-sign": push + bias - rub + tau_null,
+        "damping-without-qd": push + bias + damping + tau_null,
+        "wrench-sign": rest - push,
+        "wrench-forgotten": rest,
+        "pinv-for-transpose": np.linalg.pinv(J) @ wrench + rest,
+        "null-forgotten": push + bias + rub,
+        "null-sign": push + bias + rub - tau_null,
+        "halves-swapped": J.T @ wrench[SWAP] + rest,
+    }
 
 
 @row.right  # Joint by joint.
 def _(J, wrench, bias, damping, qd, tau_null):
-    return np.array(
-        [
-            J[:, i] @ wrench + bias[i] + damping[i] * qd[i] + tau_null[i]
-            for i in range(7)
-        ]
-    )
+    rest = zip(J.T, bias, damping, qd, tau_null)
+    return np.array([S @ wrench + b + d * v + tau for S, b, d, v, tau in rest])

@@ -5,16 +5,8 @@ import numpy as np
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
-from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    M_CASE,
-    TORQUE,
-    model,
-    some,
-    states,
-)
+from .states import J_CASE, M_CASE, TORQUE, model, some, states
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
 
@@ -45,120 +37,63 @@ def _(rng):
     return [case, *((*model(now), some(rng, 10, 7)) for now in states(rng))]
 
 
-def _elbow(J: Array) -> Array:
-    """Return the joint speeds, of length 1, that leave the hand at rest."""
-    return np.linalg.svd(J)[2][-1]
-
-
-@row.wrong
-def another_projector(J, M, Lambda, tau):
-    """it does not accelerate the hand either, but what you took away is no push at the
-    hand: that would be J^T times a wrench, whose size Lambda knows => M n n^T M^-1
-    tau"""
-    return M @ _elbow(J) * (_elbow(J) @ solve(M, tau))
-
-
-@row.wrong
-def acceleration(J, M, Lambda, tau):
-    """this is an acceleration of the joints that the hand does not feel; M makes a
-    torque of it => M^-1 times the right one"""
-    return solve(M, tau - J.T @ Lambda @ J @ solve(M, tau))
-
-
-@row.wrong
-def not_projected(J, M, Lambda, tau):
-    """tau is returned as it is: all of it reaches the hand => tau"""
-    return tau
-
-
-@row.wrong
-def kinematic_projector(J, M, Lambda, tau):
-    """I - J^+ J keeps speeds from the hand, not torques: how a torque accelerates the
-    hand depends on the masses, so M is needed. It still draws the circle, and yet the
-    hand is accelerated by metres per second squared => tau - J^+ J tau"""
-    return tau - pinv(J) @ (J @ tau)
-
-
-@row.wrong
-def M_for_identity(J, M, Lambda, tau):
-    """M stands where the identity belongs: M tau is no torque (its unit is kg m2 times
-    Nm), so nothing can be taken away from it => (M - J^T Lambda J M^-1) tau"""
-    return M @ tau - J.T @ Lambda @ J @ solve(M, tau)
-
-
-@row.wrong
-def projector_transposed(J, M, Lambda, tau):
-    """the projector is transposed: M^-1 J^T Lambda J is for joint accelerations; for
-    torques M^-1 is on the other side => tau - M^-1 J^T Lambda J tau"""
-    return tau - solve(M, J.T @ Lambda @ J @ tau)
-
-
-@row.wrong
-def the_other_part(J, M, Lambda, tau):
-    """this is what is to be taken away: the part that the hand feels => tau minus the
-    right one"""
-    return J.T @ Lambda @ J @ solve(M, tau)
-
-
-@row.wrong
-def added(J, M, Lambda, tau):
-    """the part that the hand feels is added, so it feels it twice => the right one with
-    a plus"""
-    return tau + J.T @ Lambda @ J @ solve(M, tau)
-
-
-@row.wrong
-def negative(J, M, Lambda, tau):
-    """every sign is wrong: tau is taken away from the part that the hand feels => minus
-    the right one"""
-    return J.T @ Lambda @ J @ solve(M, tau) - tau
-
-
-@row.wrong
-def M_left_out(J, M, Lambda, tau):
-    """M is missing: J tau is no acceleration of the hand, tau has to become one of the
-    joints first => tau - J^T Lambda J tau"""
-    return tau - J.T @ Lambda @ J @ tau
-
-
-@row.wrong
-def M_not_inverted(J, M, Lambda, tau):
-    """M multiplies tau; torques become accelerations through M^-1 => the right one with
-    M for M^-1"""
-    return tau - J.T @ Lambda @ J @ M @ tau
-
-
-@row.wrong
-def Lambda_left_out(J, M, Lambda, tau):
-    """Lambda is missing: the hand's acceleration is used as if it were a push => the
-    right one with Lambda = I"""
-    return tau - J.T @ J @ solve(M, tau)
-
-
-@row.wrong
-def Lambda_inverted(J, M, Lambda, tau):
-    """Lambda is inverted => the right one with Lambda^-1"""
-    return tau - J.T @ solve(Lambda, J @ solve(M, tau))
-
-
-@row.wrong
-def pinv_for_transpose(J, M, Lambda, tau):
-    """pinv(J) takes the push back to the joints; pushes go to torques with J^T => the
-    right one with pinv(J)"""
-    return tau - pinv(J) @ Lambda @ J @ solve(M, tau)
-
-
-@row.wrong
-def pinv_of_transpose(J, M, Lambda, tau):
-    """J^T and its pseudo-inverse stand in the order of a projector of pushes: I - J^T
-    pinv(J^T) keeps speeds from the hand, not torques => tau - J^T pinv(J^T) tau"""
-    return tau - J.T @ pinv(J.T) @ tau
-
-
-@row.right  # With the dynamically consistent inverse: I - J^T Jbar^T.
+@row.wrongs
 def _(J, M, Lambda, tau):
-    Jbar = np.linalg.inv(M) @ J.T @ Lambda
-    return (np.eye(7) - J.T @ Jbar.T) @ tau
+    """another-projector: it does not accelerate the hand either, but what you took away
+      is no push at the hand: that would be J^T times a wrench, whose size Lambda
+      knows => M n n^T M^-1 tau
+    acceleration: this is an acceleration of the joints that the hand does not feel; M
+      makes a torque of it => M^-1 times the right one
+    not-projected: tau is returned as it is: all of it reaches the hand => tau
+    kinematic-projector: I - J^+ J keeps speeds from the hand, not torques: how a torque
+      accelerates the hand depends on the masses, so M is needed. It still draws the
+      circle, and yet the hand is accelerated by metres per second squared => tau - J^+
+      J tau
+    M-for-identity: M stands where the identity belongs: M tau is no torque (its unit is
+      kg m2 times Nm), so nothing can be taken away from it => (M - J^T Lambda J M^-1)
+      tau
+    projector-transposed: the projector is transposed: M^-1 J^T Lambda J is for joint
+      accelerations; for torques M^-1 is on the other side => tau - M^-1 J^T Lambda J
+      tau
+    the-other-part: this is what is to be taken away: the part that the hand feels =>
+      tau minus the right one
+    added: the part that the hand feels is added, so it feels it twice => the right one
+      with a plus
+    negative: every sign is wrong: tau is taken away from the part that the hand feels
+      => minus the right one
+    M-left-out: M is missing: J tau is no acceleration of the hand, tau has to become
+      one of the joints first => tau - J^T Lambda J tau
+    M-not-inverted: M multiplies tau; torques become accelerations through M^-1 => the
+      right one with M for M^-1
+    Lambda-left-out: Lambda is missing: the hand's acceleration is used as if it were a
+      push => the right one with Lambda = I
+    Lambda-inverted: Lambda is inverted => the right one with Lambda^-1
+    pinv-for-transpose: pinv(J) takes the push back to the joints; pushes go to torques
+      with J^T => the right one with pinv(J)
+    pinv-of-transpose: J^T and its pseudo-inverse stand in the order of a projector of
+      pushes: I - J^T pinv(J^T) keeps speeds from the hand, not torques => tau - J^T
+      pinv(J^T) tau
+    """
+    acc = solve(M, tau)
+    a, elbow = J @ acc, np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand
+    felt = J.T @ Lambda @ a
+    return {
+        "another-projector": M @ elbow * (elbow @ acc),
+        "acceleration": solve(M, tau - felt),
+        "not-projected": tau,
+        "kinematic-projector": tau - pinv(J) @ (J @ tau),
+        "M-for-identity": M @ tau - felt,
+        "projector-transposed": tau - solve(M, J.T @ Lambda @ J @ tau),
+        "the-other-part": felt,
+        "added": tau + felt,
+        "negative": felt - tau,
+        "M-left-out": tau - J.T @ Lambda @ J @ tau,
+        "M-not-inverted": tau - J.T @ Lambda @ J @ M @ tau,
+        "Lambda-left-out": tau - J.T @ a,
+        "Lambda-inverted": tau - J.T @ solve(Lambda, a),
+        "pinv-for-transpose": tau - pinv(J) @ Lambda @ a,
+        "pinv-of-transpose": tau - J.T @ pinv(J.T) @ tau,
+    }
 
 
 @row.right  # By the accelerations of a constrained arm.

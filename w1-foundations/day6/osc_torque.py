@@ -3,16 +3,8 @@
 import numpy as np
 
 from labkit.judge.row import Row
-from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    SWAP,
-    TORQUE,
-    model,
-    some,
-    states,
-)
+from .states import J_CASE, SWAP, TORQUE, model, some, states
 
 pinv, solve = np.linalg.pinv, np.linalg.solve
 
@@ -34,100 +26,52 @@ def _(rng):
     return [case, *asked, *drawn]
 
 
-def _elbow(J: Array) -> Array:
-    """Return the joint speeds, of length 1, that leave the hand at rest."""
-    return np.linalg.svd(J)[2][-1]
-
-
-@row.wrong
-def site_bias_forgotten(J, Lambda, bias, site_bias, acc):
-    """site_bias is not taken away: the hand would accelerate by acc and by that too =>
-    J^T Lambda acc + bias"""
-    return J.T @ Lambda @ acc + bias
-
-
-@row.wrong
-def site_bias_added(J, Lambda, bias, site_bias, acc):
-    """site_bias is added to acc; the hand has it already, so it is taken away => the
-    right one with acc + site_bias"""
-    return J.T @ Lambda @ (acc + site_bias) + bias
-
-
-@row.wrong
-def bias_forgotten(J, Lambda, bias, site_bias, acc):
-    """bias is missing: the arm falls under its weight, and what speed does to it is not
-    made up for => the right one without bias"""
-    return J.T @ Lambda @ (acc - site_bias)
-
-
-@row.wrong
-def bias_sign(J, Lambda, bias, site_bias, acc):
-    """bias is taken away; your torques have to hold it, so it is added => the right one
-    with -bias"""
-    return J.T @ Lambda @ (acc - site_bias) - bias
-
-
-@row.wrong
-def Lambda_left_out(J, Lambda, bias, site_bias, acc):
-    """Lambda is missing: an acceleration is used as if it were a push => the right one
-    with Lambda = I"""
-    return J.T @ (acc - site_bias) + bias
-
-
-@row.wrong
-def Lambda_inverted(J, Lambda, bias, site_bias, acc):
-    """Lambda is inverted: a heavy hand would get a small push => the right one with
-    Lambda^-1"""
-    return J.T @ solve(Lambda, acc - site_bias) + bias
-
-
-@row.wrong
-def Lambda_by_entries(J, Lambda, bias, site_bias, acc):
-    """only the diagonal of Lambda is used; the six directions are coupled => the right
-    one with Lambda's diagonal"""
-    return J.T @ (np.diag(Lambda) * (acc - site_bias)) + bias
-
-
-@row.wrong
-def pinv_for_transpose(J, Lambda, bias, site_bias, acc):
-    """pinv(J) takes the push to the joints; pushes go to torques with J^T, and the
-    pseudo-inverse is for speeds => the right one with pinv(J)"""
-    return pinv(J) @ Lambda @ (acc - site_bias) + bias
-
-
-@row.wrong
-def site_bias_not_weighed(J, Lambda, bias, site_bias, acc):
-    """site_bias is taken away after Lambda: it is an acceleration, so it has to be
-    taken from acc first => J^T (Lambda acc - site_bias) + bias"""
-    return J.T @ (Lambda @ acc - site_bias) + bias
-
-
-@row.wrong
-def acc_sign(J, Lambda, bias, site_bias, acc):
-    """the wanted acceleration is taken away from site_bias: the hand is pushed the
-    other way, further and further from where it should be => the right one with
-    site_bias - acc"""
-    return J.T @ Lambda @ (site_bias - acc) + bias
-
-
-@row.wrong
-def bias_at_the_hand(J, Lambda, bias, site_bias, acc):
-    """bias is subtracted within the brackets, at the hand; it is a torque of joints =>
-    J^T (Lambda (acc - site_bias) + J bias)"""
-    return J.T @ (Lambda @ (acc - site_bias) + J @ bias)
-
-
-@row.wrong
-def halves_swapped(J, Lambda, bias, site_bias, acc):
-    """the accelerations are put in the order (linear; angular); the angular three come
-    first => the right one with its halves swapped"""
-    return J.T @ Lambda @ (acc - site_bias)[SWAP] + bias
-
-
-@row.wrong
-def gravity_twice(J, Lambda, bias, site_bias, acc):
-    """bias is added twice => the right one with 2 bias"""
-    return J.T @ Lambda @ (acc - site_bias) + 2.0 * bias
+@row.wrongs
+def _(J, Lambda, bias, site_bias, acc):
+    """site-bias-forgotten: site_bias is not taken away: the hand would accelerate by
+      acc and by that too => J^T Lambda acc + bias
+    site-bias-added: site_bias is added to acc; the hand has it already, so it is taken
+      away => the right one with acc + site_bias
+    bias-forgotten: bias is missing: the arm falls under its weight, and what speed does
+      to it is not made up for => the right one without bias
+    bias-sign: bias is taken away; your torques have to hold it, so it is added => the
+      right one with -bias
+    Lambda-left-out: Lambda is missing: an acceleration is used as if it were a push =>
+      the right one with Lambda = I
+    Lambda-inverted: Lambda is inverted: a heavy hand would get a small push => the
+      right one with Lambda^-1
+    Lambda-by-entries: only the diagonal of Lambda is used; the six directions are
+      coupled => the right one with Lambda's diagonal
+    pinv-for-transpose: pinv(J) takes the push to the joints; pushes go to torques with
+      J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
+    site-bias-not-weighed: site_bias is taken away after Lambda: it is an acceleration,
+      so it has to be taken from acc first => J^T (Lambda acc - site_bias) + bias
+    acc-sign: the wanted acceleration is taken away from site_bias: the hand is pushed
+      the other way, further and further from where it should be => the right one with
+      site_bias - acc
+    bias-at-the-hand: bias is subtracted within the brackets, at the hand; it is a
+      torque of joints => J^T (Lambda (acc - site_bias) + J bias)
+    halves-swapped: the accelerations are put in the order (linear; angular); the
+      angular three come first => the right one with its halves swapped
+    gravity-twice: bias is added twice => the right one with 2 bias
+    """
+    own = acc - site_bias
+    push = J.T @ Lambda @ own
+    return {
+        "site-bias-forgotten": J.T @ Lambda @ acc + bias,
+        "site-bias-added": J.T @ Lambda @ (acc + site_bias) + bias,
+        "bias-forgotten": push,
+        "bias-sign": push - bias,
+        "Lambda-left-out": J.T @ own + bias,
+        "Lambda-inverted": J.T @ solve(Lambda, own) + bias,
+        "Lambda-by-entries": J.T @ (np.diag(Lambda) * own) + bias,
+        "pinv-for-transpose": pinv(J) @ Lambda @ own + bias,
+        "site-bias-not-weighed": J.T @ (Lambda @ acc - site_bias) + bias,
+        "acc-sign": bias - push,
+        "bias-at-the-hand": push + J.T @ J @ bias,
+        "halves-swapped": J.T @ Lambda @ own[SWAP] + bias,
+        "gravity-twice": push + 2.0 * bias,
+    }
 
 
 @row.right  # With einsum, and bias first.

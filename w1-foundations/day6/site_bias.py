@@ -1,6 +1,7 @@
 """6.2 `site_bias(J_space, qd, p)`: its questions and its mistakes."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -8,11 +9,7 @@ from labkit.judge.row import Row
 from robo47.checks import Array
 from robo47.screws import ad, adjoint, exp_screw
 
-from .states import (
-    Acceleration,
-    some,
-    states,
-)
+from .states import Acceleration, some, states
 
 row = Row(Acceleration())
 
@@ -29,165 +26,89 @@ def _(rng):
     return [case, *drawn]
 
 
+FORWARDS = np.kron([[1, 1], [0, 1]], np.ones((3, 3)))  # without the lower left block
+
+
 def bias(
     J: Array,
     qd: Array,
     p: Array,
     *,
     rate: Callable[[Array, Array], Array] = lambda V, S: ad(V) @ S,
+    own: Array | None = None,
     turn: float = 1.0,
     centre: float = 1.0,
     move: float = 1.0,
 ) -> Array:
     """Return the hand's bias; the right one unless told otherwise."""
-    parts = (J * qd).T
-    V = np.cumsum(parts, axis=0)
+    V = np.cumsum((J * qd).T, axis=0)
+    parts = (J * (qd if own is None else own)).T
     A = sum(rate(v, s) for v, s in zip(V, parts, strict=True))
-    total = parts.sum(axis=0)
-    omega, alpha = total[:3], A[:3]
-    velocity = move * total[3:] + centre * np.cross(omega, p)
+    omega, alpha = V[-1, :3], A[:3]
+    velocity = move * V[-1, 3:] + centre * np.cross(omega, p)
     linear = A[3:] + turn * np.cross(alpha, p) + np.cross(omega, velocity)
     return np.append(alpha, linear)
 
 
-def _own_bracket(V: Array, S: Array) -> Array:
-    """ad(V)^T S, which is for wrenches."""
-    return ad(V).T @ S
+@row.wrongs
+def _(J_space, qd, p):
+    """of-the-origin: this is the twist's rate about the world's origin, the sum of
+      ad(V) S qd; the acceleration of the point p is another thing: the linear half is
+      to be converted => the sum alone
+    no-centripetal: the part omega x (velocity of p) is missing: a point on a circle
+      accelerates towards its centre though the speed is steady => the right one
+      without it
+    no-alpha-cross-p: the angular acceleration is not converted to the point: alpha x p
+      is missing => the right one without it
+    velocity-of-origin: omega is crossed with v, the velocity of the point at the
+      world's origin; p itself moves at v + omega x p => the right one with v there
+    v-forgotten: the velocity of p is taken to be omega x p alone; v belongs to it =>
+      the right one without v
+    coriolis-twice: omega x v counts twice: ad(V) S has it already, and 2 omega x v
+      belongs to accelerations measured in the moving frame => the right one with
+      another omega x v
+    ad-swapped: V and S have changed places, or the twists are summed from the tip:
+      ad(S) V is minus ad(V) S, and a joint is carried by those before it => the right
+      one with ad(S) V
+    ad-transposed: ad(V) is transposed: that one is for wrenches, screws take it as it
+      is => the right one with ad(V)^T
+    ad-half: ad(V) lacks its lower left block [v] => the right one without it
+    twist-of-the-hand: every joint is taken to ride on the hand; joint i rides on link
+      i, which only the joints up to it move; ad(V) V is 0, so nothing is left of the
+      sum => the right one without the sum of ad(V) S qd
+    qd-once: the screws are not multiplied by their own joint's speed: the sum is of
+      ad(V) S, and qd is missing => the right one without that qd
+    """
+    changed = {
+        "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},
+        "no-centripetal": {"centre": 0.0, "move": 0.0},
+        "no-alpha-cross-p": {"turn": 0.0},
+        "velocity-of-origin": {"centre": 0.0},
+        "v-forgotten": {"move": 0.0},
+        "coriolis-twice": {"move": 2.0},
+        "ad-swapped": {"rate": lambda V, S: ad(S) @ V},
+        "ad-transposed": {"rate": lambda V, S: ad(V).T @ S},
+        "ad-half": {"rate": lambda V, S: (FORWARDS * ad(V)) @ S},
+        "twist-of-the-hand": {"rate": lambda V, S: 0.0 * S},
+        "qd-once": {"own": np.ones(7)},
+    }
+    return {slug: partial(bias, J_space, qd, p, **how) for slug, how in changed.items()}
 
 
-def _without_lower_block(V: Array, S: Array) -> Array:
-    B = ad(V).copy()
-    B[3:, :3] = 0.0
-    return B @ S
-
-
-def _rate_only(J: Array, qd: Array, p: Array) -> Array:
-    parts = (J * qd).T
-    V = np.cumsum(parts, axis=0)
-    return (ad(V) @ parts[..., None])[..., 0].sum(axis=0)
-
-
-def _no_joint_speed(J: Array, qd: Array, p: Array) -> Array:
-    """The screws are not multiplied by their own joint's speed."""
-    V = np.cumsum((J * qd).T, axis=0)
-    A = (ad(V) @ J.T[..., None])[..., 0].sum(axis=0)
-    omega = V[-1, :3]
-    velocity = V[-1, 3:] + np.cross(omega, p)
-    linear = A[3:] + np.cross(A[:3], p) + np.cross(omega, velocity)
-    return np.append(A[:3], linear)
-
-
-def _coriolis(J: Array, qd: Array) -> Array:
-    return np.cross((J @ qd)[:3], (J @ qd)[3:])
-
-
-def _nothing(V: Array, S: Array) -> Array:
-    return np.zeros(6)
-
-
-row.wrong(
-    "of-the-origin",
-    "this is the twist's rate about the world's origin, the sum of ad(V) S qd; the "
-    "acceleration of the point p is another thing: the linear half is to be "
-    "converted",
-    "the sum alone",
-)(_rate_only)
-
-
-@row.wrong
-def no_centripetal(J_space, qd, p):
-    """the part omega x (velocity of p) is missing: a point on a circle accelerates
-    towards its centre though the speed is steady => the right one without it"""
-    return _rate_only(J_space, qd, p) + np.append(
-        np.zeros(3), np.cross(_rate_only(J_space, qd, p)[:3], p)
-    )
-
-
-@row.wrong
-def no_alpha_cross_p(J_space, qd, p):
-    """the angular acceleration is not converted to the point: alpha x p is missing =>
-    the right one without it"""
-    return bias(J_space, qd, p, turn=0.0)
-
-
-@row.wrong
-def velocity_of_origin(J_space, qd, p):
-    """omega is crossed with v, the velocity of the point at the world's origin; p
-    itself moves at v + omega x p => the right one with v there"""
-    return bias(J_space, qd, p, centre=0.0)
-
-
-@row.wrong
-def v_forgotten(J_space, qd, p):
-    """the velocity of p is taken to be omega x p alone; v belongs to it => the right
-    one without v"""
-    return bias(J_space, qd, p, move=0.0)
-
-
-@row.wrong
-def p_sign(J_space, qd, p):
-    """the cross products with p have their factors swapped: p x omega is minus omega x
-    p => the right one with -p"""
-    return bias(J_space, qd, -p)
-
-
-@row.wrong
-def ad_swapped(J_space, qd, p):
-    """V and S have changed places, or the twists are summed from the tip: ad(S) V is
-    minus ad(V) S, and a joint is carried by those before it => the right one with ad(S)
-    V"""
-    return bias(J_space, qd, p, rate=lambda V, S: ad(S) @ V)
-
-
-@row.wrong
-def ad_transposed(J_space, qd, p):
-    """ad(V) is transposed: that one is for wrenches, screws take it as it is => the
-    right one with ad(V)^T"""
-    return bias(J_space, qd, p, rate=_own_bracket)
-
-
-@row.wrong
-def ad_half(J_space, qd, p):
-    """ad(V) lacks its lower left block [v] => the right one without it"""
-    return bias(J_space, qd, p, rate=_without_lower_block)
-
-
-@row.wrong
-def twist_of_the_hand(J_space, qd, p):
-    """every joint is taken to ride on the hand; joint i rides on link i, which only the
-    joints up to it move; ad(V) V is 0, so nothing is left of the sum => the right one
-    without the sum of ad(V) S qd"""
-    return bias(J_space, qd, p, rate=_nothing)
-
-
-@row.wrong
-def last_joint_left_out(J_space, qd, p):
-    """the last joint is left out: range(6) ends with joint6 => the right one of six
-    joints"""
-    return bias(J_space[:, :6], qd[:6], p)
-
-
-@row.wrong
-def coriolis_twice(J_space, qd, p):
-    """omega x v counts twice: ad(V) S has it already, and 2 omega x v belongs to
-    accelerations measured in the moving frame => the right one with another omega x
-    v"""
-    return bias(J_space, qd, p) + np.append(np.zeros(3), _coriolis(J_space, qd))
-
-
-row.wrong(
-    "qd-once",
-    "the screws are not multiplied by their own joint's speed: the sum is of "
-    "ad(V) S, and qd is missing",
-    "the right one without that qd",
-)(_no_joint_speed)
-
-
-@row.wrong
-def negative(J_space, qd, p):
-    """every sign is wrong: this is what has to be taken away from acc, not the
-    acceleration itself => minus the right one"""
-    return -bias(J_space, qd, p)
+@row.wrongs
+def _(J_space, qd, p):
+    """p-sign: the cross products with p have their factors swapped: p x omega is minus
+      omega x p => the right one with -p
+    last-joint-left-out: the last joint is left out: range(6) ends with joint6 => the
+      right one of six joints
+    negative: every sign is wrong: this is what has to be taken away from acc, not the
+      acceleration itself => minus the right one
+    """
+    return {
+        "p-sign": bias(J_space, qd, -p),
+        "last-joint-left-out": bias(J_space[:, :6], qd[:6], p),
+        "negative": -bias(J_space, qd, p),
+    }
 
 
 @row.right  # Every pair of joints, as Christoffel did.
@@ -211,17 +132,6 @@ def _(J_space, qd, p):
     A = sum(ad(Vi) @ Si for Vi, Si in zip(V, S))
     A[3:] += np.cross(V[-1, :3], V[-1, 3:])
     return A
-
-
-@row.right  # Cross products written out, no library.
-def _(J_space, qd, p):
-    w, v, alpha, a = np.zeros((4, 3))
-    for S, speed in zip(J_space.T, qd):
-        sw, sv = S[:3] * speed, S[3:] * speed
-        alpha = alpha + np.cross(w, sw)
-        a = a + np.cross(v, sw) + np.cross(w, sv)
-        w, v = w + sw, v + sv
-    return np.append(alpha, a + np.cross(alpha, p) + np.cross(w, v + np.cross(w, p)))
 
 
 @row.close("rounded-somewhere")  # By a difference quotient of the moving screws.

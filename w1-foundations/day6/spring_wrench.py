@@ -4,10 +4,7 @@ import numpy as np
 
 from labkit.judge.row import Row
 
-from .states import (
-    WRENCH,
-    springs,
-)
+from .states import WRENCH, springs
 
 row = Row(WRENCH)
 
@@ -15,78 +12,42 @@ row = Row(WRENCH)
 row.inputs(springs)
 
 
-@row.wrong
-def spring_sign(e, V_err, K, D):
-    """the spring pushes the hand away: e points to the target, so pull along it => -K e
-    + D V_err"""
-    return -K @ e + D @ V_err
-
-
-@row.wrong
-def damper_sign(e, V_err, K, D):
-    """the damper drives the hand on: V_err is the target's twist minus the hand's, so
-    it is added => K e - D V_err"""
-    return K @ e - D @ V_err
-
-
-@row.wrong
-def damper_forgotten(e, V_err, K, D):
-    """the damper is missing: the hand never comes to rest => K e"""
-    return K @ e
-
-
-@row.wrong
-def spring_forgotten(e, V_err, K, D):
-    """the spring is missing: the hand stays wherever it is pushed => D V_err"""
-    return D @ V_err
-
-
-@row.wrong
-def spring_and_damper_swapped(e, V_err, K, D):
-    """K and D have changed places => D e + K V_err"""
-    return D @ e + K @ V_err
-
-
-@row.wrong
-def diagonal_of_D(e, V_err, K, D):
-    """only the diagonal of D is used; the six directions are coupled => the right one
-    with D's diagonal"""
-    return K @ e + np.diag(D) * V_err
-
-
-@row.wrong
-def D_transposed(e, V_err, K, D):
-    """D is taken from the wrong side, as V_err @ D: its rows belong to the wrench => K
-    e + D^T V_err"""
-    return K @ e + V_err @ D
-
-
-@row.wrong
-def halves_swapped(e, V_err, K, D):
-    """the halves of the answer are (force; moment); the moment comes first => the right
-    one with its halves swapped"""
-    return np.roll(K @ e + D @ V_err, 3)
-
-
-@row.wrong
-def millimetres(e, V_err, K, D):
-    """the error is put into millimetres; here everything is in metres => the right one
-    with e in mm"""
-    return K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err
-
-
-@row.wrong
-def half_a_spring(e, V_err, K, D):
-    """the spring has a factor 1/2: that is its energy's, not its force's => the right
-    one with K e / 2"""
-    return 0.5 * K @ e + D @ V_err
-
-
-@row.wrong
-def diagonal_of_K(e, V_err, K, D):
-    """only the diagonal of K is used; a spring may couple its directions => the right
-    one with K's diagonal"""
-    return np.diag(K) * e + D @ V_err
+@row.wrongs
+def _(e, V_err, K, D):
+    """spring-sign: the spring pushes the hand away: e points to the target, so pull
+      along it => -K e + D V_err
+    damper-sign: the damper drives the hand on: V_err is the target's twist minus the
+      hand's, so it is added => K e - D V_err
+    damper-forgotten: the damper is missing: the hand never comes to rest => K e
+    spring-forgotten: the spring is missing: the hand stays wherever it is pushed => D
+      V_err
+    spring-and-damper-swapped: K and D have changed places => D e + K V_err
+    diagonal-of-D: only the diagonal of D is used; the six directions are coupled => the
+      right one with D's diagonal
+    D-transposed: D is taken from the wrong side, as V_err @ D: its rows belong to the
+      wrench => K e + D^T V_err
+    halves-swapped: the halves of the answer are (force; moment); the moment comes first
+      => the right one with its halves swapped
+    millimetres: the error is put into millimetres; here everything is in metres => the
+      right one with e in mm
+    half-a-spring: the spring has a factor 1/2: that is its energy's, not its force's =>
+      the right one with K e / 2
+    diagonal-of-K: only the diagonal of K is used; a spring may couple its directions =>
+      the right one with K's diagonal
+    """
+    return {
+        "spring-sign": -K @ e + D @ V_err,
+        "damper-sign": K @ e - D @ V_err,
+        "damper-forgotten": K @ e,
+        "spring-forgotten": D @ V_err,
+        "spring-and-damper-swapped": D @ e + K @ V_err,
+        "diagonal-of-D": K @ e + np.diag(D) * V_err,
+        "D-transposed": K @ e + V_err @ D,
+        "halves-swapped": np.roll(K @ e + D @ V_err, 3),
+        "millimetres": K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err,
+        "half-a-spring": 0.5 * K @ e + D @ V_err,
+        "diagonal-of-K": np.diag(K) * e + D @ V_err,
+    }
 
 
 @row.wrong("diagonal-of-D")

@@ -8,15 +8,7 @@ from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 from robo47.checks import Array
 
-from .states import (
-    J_CASE,
-    M_CASE,
-    SWAP,
-    model,
-    states,
-)
-
-pinv = np.linalg.pinv
+from .states import J_CASE, M_CASE, SWAP, model, states
 
 
 def damped(case: Case) -> Finding | None:
@@ -49,18 +41,45 @@ def inertia(J: Array, M: Array) -> Array:
     return np.linalg.inv(J @ np.linalg.solve(M, J.T))
 
 
-@row.wrong
-def inverse_forgotten(J, M):
-    """this is the inverse of Lambda: it says how far a push accelerates the hand, not
-    how heavy the hand is => J M^-1 J^T"""
-    return J @ np.linalg.solve(M, J.T)
-
-
-@row.wrong
-def M_not_inverted(J, M):
-    """M stands between J and J^T as it is; a push meets the joints' torques first, and
-    torques make accelerations through M^-1 => J M J^T"""
-    return J @ M @ J.T
+@row.wrongs
+def _(J, M):
+    """inverse-forgotten: this is the inverse of Lambda: it says how far a push
+      accelerates the hand, not how heavy the hand is => J M^-1 J^T
+    M-not-inverted: M stands between J and J^T as it is; a push meets the joints'
+      torques first, and torques make accelerations through M^-1 => J M J^T
+    pinv-both-sides: pinv(J)^T M pinv(J) is right for an arm of six joints; with seven
+      the elbow is free to give way, and the hand is lighter => pinv(J)^T M pinv(J)
+    M-left-out: M is not in it: (J J^T)^-1 knows where the joints are, not what they
+      carry => (J J^T)^-1
+    armature-left-out: the armature is taken out of M; the rotors turn with the joints,
+      so somebody who pushes the hand feels them => Lambda of M - 0.1 I
+    armature-twice: the armature is added to M; M has it already => Lambda of M + 0.1 I
+    rows-swapped: the rows of J are put in the order (v; omega); here the angular three
+      come first, in J as in every wrench => Lambda of J with its halves swapped
+    diagonal-of-M: only the diagonal of M is used; the joints pull at each other =>
+      Lambda of M's diagonal
+    diagonal-inverted: only the diagonal of J M^-1 J^T is inverted; the six directions
+      are coupled => that diagonal
+    entries-inverted: 1 / A inverts every entry; the inverse of a matrix is another
+      thing => 1 / (J M^-1 J^T)
+    blocks-alone: the two 3x3 blocks are inverted alone; a push turns the hand, too, so
+      the directions are coupled => the inverse of each block
+    """
+    A, back = J @ np.linalg.solve(M, J.T), np.linalg.pinv(J)
+    block = np.kron(np.eye(2), np.ones((3, 3)))
+    return {
+        "inverse-forgotten": A,
+        "M-not-inverted": J @ M @ J.T,
+        "pinv-both-sides": back.T @ M @ back,
+        "M-left-out": np.linalg.inv(J @ J.T),
+        "armature-left-out": inertia(J, M - ARMATURE * np.eye(7)),
+        "armature-twice": inertia(J, M + ARMATURE * np.eye(7)),
+        "rows-swapped": inertia(J[SWAP], M),
+        "diagonal-of-M": inertia(J, np.diag(np.diag(M))),
+        "diagonal-inverted": np.diag(1.0 / np.diag(A)),
+        "entries-inverted": 1.0 / A,
+        "blocks-alone": np.linalg.inv(A * block),
+    }
 
 
 @row.wrong
@@ -70,83 +89,11 @@ def M_not_inverted(J, M):
     return np.linalg.inv(J @ M @ J.T)
 
 
-@row.wrong
-def pinv_both_sides(J, M):
-    """pinv(J)^T M pinv(J) is right for an arm of six joints; with seven the elbow is
-    free to give way, and the hand is lighter => pinv(J)^T M pinv(J)"""
-    return np.linalg.pinv(J).T @ M @ np.linalg.pinv(J)
-
-
-@row.wrong
-def M_left_out(J, M):
-    """M is not in it: (J J^T)^-1 knows where the joints are, not what they carry => (J
-    J^T)^-1"""
-    return np.linalg.inv(J @ J.T)
-
-
-@row.wrong
-def armature_left_out(J, M):
-    """the armature is taken out of M; the rotors turn with the joints, so somebody who
-    pushes the hand feels them => Lambda of M - 0.1 I"""
-    return inertia(J, M - ARMATURE * np.eye(7))
-
-
-@row.wrong
-def armature_twice(J, M):
-    """the armature is added to M; M has it already => Lambda of M + 0.1 I"""
-    return inertia(J, M + ARMATURE * np.eye(7))
-
-
-@row.wrong
-def rows_swapped(J, M):
-    """the rows of J are put in the order (v; omega); here the angular three come first,
-    in J as in every wrench => Lambda of J with its halves swapped"""
-    return inertia(J[SWAP], M)
-
-
-@row.wrong
-def diagonal_of_M(J, M):
-    """only the diagonal of M is used; the joints pull at each other => Lambda of M's
-    diagonal"""
-    return inertia(J, np.diag(np.diag(M)))
-
-
-@row.wrong
-def diagonal_inverted(J, M):
-    """only the diagonal of J M^-1 J^T is inverted; the six directions are coupled =>
-    that diagonal"""
-    return np.diag(1.0 / np.diag(J @ np.linalg.solve(M, J.T)))
-
-
-@row.wrong
-def entries_inverted(J, M):
-    """1 / A inverts every entry; the inverse of a matrix is another thing => 1 / (J
-    M^-1 J^T)"""
-    return 1.0 / (J @ np.linalg.solve(M, J.T))
-
-
-@row.wrong
-def blocks_alone(J, M):
-    """the two 3x3 blocks are inverted alone; a push turns the hand, too, so the
-    directions are coupled => the inverse of each block"""
-    A = J @ np.linalg.solve(M, J.T)
-    out = np.zeros((6, 6))
-    out[:3, :3], out[3:, 3:] = np.linalg.inv(A[:3, :3]), np.linalg.inv(A[3:, 3:])
-    return out
-
-
 @row.right  # By a Cholesky factor of M.
 def _(J, M):
     L = np.linalg.cholesky(M)
     A = np.linalg.solve(L, J.T)
     return np.linalg.inv(A.T @ A)
-
-
-@row.right  # One unit acceleration after the other.
-def _(J, M):
-    A = J @ np.linalg.inv(M) @ J.T
-    columns = [np.linalg.solve(A, unit) for unit in np.eye(6)]
-    return np.array(columns).T
 
 
 @row.right  # By the singular values of J M^-1/2.
@@ -155,11 +102,6 @@ def _(J, M):
     half = V / np.sqrt(values) @ V.T
     U, s, _ = np.linalg.svd(J @ half, full_matrices=False)
     return U / s**2 @ U.T
-
-
-@row.right  # A pseudo-inverse, which away from singularities is the inverse.
-def _(J, M):
-    return np.linalg.pinv(J @ np.linalg.pinv(M) @ J.T)
 
 
 @row.close("rounded-somewhere")  # float32 inside.

@@ -37,189 +37,116 @@ def ten(m, c, inertia):
     return np.array([m, *c, *inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]])
 
 
-def about(c, m1, c1, I1, m2, c2, I2):
-    """Return the answer with another centre."""
-    return ten(
-        m1 + m2, c, I1 + m1 * parallel_axes(c1 - c) + I2 + m2 * parallel_axes(c2 - c)
-    )
-
-
-def by_theorem(theorem, m1, c1, I1, m2, c2, I2):
-    """Return the answer with another theorem instead of `parallel_axes`."""
-    c = centre(m1, c1, m2, c2)
+def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
+    """Return the answer with another centre, or another theorem."""
     return ten(m1 + m2, c, I1 + m1 * theorem(c1 - c) + I2 + m2 * theorem(c2 - c))
 
 
-@row.wrong
-def no_parallel_axes(m1, c1, I1, m2, c2, I2):
-    """the inertias are added as they are; each is about its own centre, and has to be
-    moved to the common one first => the answer without parallel axes"""
-    return ten(m1 + m2, centre(m1, c1, m2, c2), I1 + I2)
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """no-parallel-axes: the inertias are added as they are; each is about its own
+      centre, and has to be moved to the common one first => the answer without
+      parallel axes
+    about-the-origin: the inertia is about the frame's origin; it belongs to the common
+      centre => the answer about the origin
+    only-the-second-moved: only the second body's inertia is moved; the first one's
+      centre is not the common one either => the answer with only the second moved
+    only-the-first-moved: only the first body's inertia is moved => the answer with only
+      the first moved
+    about-the-first-centre: the inertia is about the first body's centre; it belongs to
+      the common one => the answer about the first centre
+    distance-of-the-two: the distance between the two centres is used for both; each
+      moves to the common centre => the answer with that distance twice
+    mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
+      => the answer without the masses there
+    total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
+      has its own => the answer with m1 + m2 there
+    masses-exchanged: in the theorem, each body has the mass of the other => the answer
+      with m1 and m2 exchanged there
+    inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
+    """
+    m, c, own = m1 + m2, centre(m1, c1, m2, c2), I1 + I2
+    first, second = parallel_axes(c1 - c), parallel_axes(c2 - c)
+    both = parallel_axes(c2 - c1)
+    about = {
+        "no-parallel-axes": own,
+        "about-the-origin": own + m1 * parallel_axes(c1) + m2 * parallel_axes(c2),
+        "only-the-second-moved": own + m2 * second,
+        "only-the-first-moved": own + m1 * first,
+        "about-the-first-centre": own + m2 * both,
+        "distance-of-the-two": own + m * both,
+        "mass-not-in-the-theorem": own + first + second,
+        "total-mass-for-each": own + m * (first + second),
+        "masses-exchanged": own + m2 * first + m1 * second,
+        "inertia-of-one": I1 + m1 * first + m2 * second,
+    }
+    return {slug: ten(m, c, inertia) for slug, inertia in about.items()}
 
 
-@row.wrong
-def about_the_origin(m1, c1, I1, m2, c2, I2):
-    """the inertia is about the frame's origin; it belongs to the common centre => the
-    answer about the origin"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m1 * parallel_axes(c1) + I2 + m2 * parallel_axes(c2))
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """parallel-axes-sign: moving away from the centre of mass adds inertia; here it is
+      taken off => the answer with a minus
+    along-the-way-too: the term d.d I alone resists a turn about the line between the
+      centres too; d d^T has to come off => the answer without d d^T
+    only-the-dyad: d d^T alone is what comes off; d.d I is missing => the answer with d
+      d^T
+    dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
+    distance-not-squared: the theorem takes the distance squared => the answer with |d|
+    """
+    c = centre(m1, c1, m2, c2)
+    theorems = {
+        "parallel-axes-sign": lambda d: -parallel_axes(d),
+        "along-the-way-too": lambda d: d @ d * np.eye(3),
+        "only-the-dyad": lambda d: np.outer(d, d),
+        "dyad-sign": lambda d: d @ d * np.eye(3) + np.outer(d, d),
+        "distance-not-squared": lambda d: np.sqrt(d @ d) * np.eye(3) - np.outer(d, d),
+    }
+    return {
+        slug: whole(m1, c1, I1, m2, c2, I2, c, some) for slug, some in theorems.items()
+    }
 
 
-@row.wrong
-def only_the_second_moved(m1, c1, I1, m2, c2, I2):
-    """only the second body's inertia is moved; the first one's centre is not the common
-    one either => the answer with only the second moved"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c))
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """plain-mean: the common centre is half way; the heavier body counts for more =>
+      the answer with the plain mean
+    weights-swapped: the centre is nearer to the lighter body: the masses are swapped =>
+      the answer with the masses swapped
+    not-divided-by-the-mass: the sum of m c is not divided by the mass => the answer
+      with the sum of m c
+    first-centre-kept: the centre of mass stays that of the first body => the answer
+      with the first centre
+    """
+    centres = {
+        "plain-mean": (c1 + c2) / 2,
+        "weights-swapped": centre(m2, c1, m1, c2),
+        "not-divided-by-the-mass": m1 * c1 + m2 * c2,
+        "first-centre-kept": c1,
+    }
+    return {slug: whole(m1, c1, I1, m2, c2, I2, c) for slug, c in centres.items()}
 
 
-@row.wrong
-def only_the_first_moved(m1, c1, I1, m2, c2, I2):
-    """only the first body's inertia is moved => the answer with only the first moved"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m1 * parallel_axes(c1 - c) + I2)
-
-
-@row.wrong
-def about_the_first_centre(m1, c1, I1, m2, c2, I2):
-    """the inertia is about the first body's centre; it belongs to the common one => the
-    answer about the first centre"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m2 * parallel_axes(c2 - c1))
-
-
-@row.wrong
-def distance_of_the_two(m1, c1, I1, m2, c2, I2):
-    """the distance between the two centres is used for both; each moves to the common
-    centre => the answer with that distance twice"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + I2 + m * parallel_axes(c2 - c1))
-
-
-@row.wrong
-def parallel_axes_sign(m1, c1, I1, m2, c2, I2):
-    """moving away from the centre of mass adds inertia; here it is taken off => the
-    answer with a minus"""
-    return by_theorem(lambda d: -parallel_axes(d), m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def along_the_way_too(m1, c1, I1, m2, c2, I2):
-    """the term d.d I alone resists a turn about the line between the centres too; d d^T
-    has to come off => the answer without d d^T"""
-    return by_theorem(lambda d: d @ d * np.eye(3), m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def only_the_dyad(m1, c1, I1, m2, c2, I2):
-    """d d^T alone is what comes off; d.d I is missing => the answer with d d^T"""
-    return by_theorem(lambda d: np.outer(d, d), m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def dyad_sign(m1, c1, I1, m2, c2, I2):
-    """d d^T has to come off, not to be added => the answer with + d d^T"""
-    return by_theorem(
-        lambda d: d @ d * np.eye(3) + np.outer(d, d), m1, c1, I1, m2, c2, I2
-    )
-
-
-@row.wrong
-def distance_not_squared(m1, c1, I1, m2, c2, I2):
-    """the theorem takes the distance squared => the answer with |d|"""
-    return by_theorem(
-        lambda d: np.linalg.norm(d) * np.eye(3) - np.outer(d, d), m1, c1, I1, m2, c2, I2
-    )
-
-
-@row.wrong
-def mass_not_in_the_theorem(m1, c1, I1, m2, c2, I2):
-    """the theorem is m (d.d I - d d^T); here the mass is missing => the answer without
-    the masses there"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + parallel_axes(c1 - c) + I2 + parallel_axes(c2 - c))
-
-
-@row.wrong
-def total_mass_for_each(m1, c1, I1, m2, c2, I2):
-    """in the theorem, both bodies have the mass of the whole; each has its own => the
-    answer with m1 + m2 there"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m * parallel_axes(c1 - c) + I2 + m * parallel_axes(c2 - c))
-
-
-@row.wrong
-def masses_exchanged(m1, c1, I1, m2, c2, I2):
-    """in the theorem, each body has the mass of the other => the answer with m1 and m2
-    exchanged there"""
-    m, c = m1 + m2, centre(m1, c1, m2, c2)
-    return ten(m, c, I1 + m2 * parallel_axes(c1 - c) + I2 + m1 * parallel_axes(c2 - c))
-
-
-@row.wrong
-def inertia_of_one(m1, c1, I1, m2, c2, I2):
-    """the second body's own inertia I2 is missing => the answer without I2"""
-    return carry(m1, c1, I1, m2, c2, 0.0 * I2)
-
-
-@row.wrong
-def inertia_of_one(m1, c1, I1, m2, c2, I2):
-    """the first body's own inertia I1 is missing => the answer without I1"""
-    return carry(m1, c1, 0.0 * I1, m2, c2, I2)
-
-
-@row.wrong
-def plain_mean(m1, c1, I1, m2, c2, I2):
-    """the common centre is half way; the heavier body counts for more => the answer
-    with the plain mean"""
-    return about((c1 + c2) / 2, m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def weights_swapped(m1, c1, I1, m2, c2, I2):
-    """the centre is nearer to the lighter body: the masses are swapped => the answer
-    with the masses swapped"""
-    return about(centre(m2, c1, m1, c2), m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def not_divided_by_the_mass(m1, c1, I1, m2, c2, I2):
-    """the sum of m c is not divided by the mass => the answer with the sum of m c"""
-    return about(m1 * c1 + m2 * c2, m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def first_centre_kept(m1, c1, I1, m2, c2, I2):
-    """the centre of mass stays that of the first body => the answer with the first
-    centre"""
-    return about(c1, m1, c1, I1, m2, c2, I2)
-
-
-@row.wrong
-def by_rows(m1, c1, I1, m2, c2, I2):
-    """the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes first => the
-    answer with the six by rows"""
-    return carry(m1, c1, I1, m2, c2, I2)[[0, 1, 2, 3, 4, 7, 8, 5, 9, 6]]
-
-
-@row.wrong
-def xy_last(m1, c1, I1, m2, c2, I2):
-    """the last three are in the order yz, xz, xy; xy comes first => the answer with yz,
-    xz, xy"""
-    return carry(m1, c1, I1, m2, c2, I2)[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]]
-
-
-@row.wrong
-def products_negated(m1, c1, I1, m2, c2, I2):
-    """the last three have the other sign: here they are entries of the matrix => the
-    answer with the signs of xy, xz, yz turned"""
-    return carry(m1, c1, I1, m2, c2, I2) * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1]
-
-
-@row.wrong
-def mass_of_the_first(m1, c1, I1, m2, c2, I2):
-    """the mass is that of the first body alone => the answer with the first mass"""
-    return np.append(m1, carry(m1, c1, I1, m2, c2, I2)[1:])
+@row.wrongs
+def _(m1, c1, I1, m2, c2, I2):
+    """by-rows: the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes
+      first => the answer with the six by rows
+    xy-last: the last three are in the order yz, xz, xy; xy comes first => the answer
+      with yz, xz, xy
+    products-negated: the last three have the other sign: here they are entries of the
+      matrix => the answer with the signs of xy, xz, yz turned
+    mass-of-the-first: the mass is that of the first body alone => the answer with the
+      first mass
+    inertia-of-one: the first body's own inertia I1 is missing => the answer without I1
+    """
+    right = carry(m1, c1, I1, m2, c2, I2)
+    return {
+        "by-rows": right[[0, 1, 2, 3, 4, 7, 8, 5, 9, 6]],
+        "xy-last": right[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]],
+        "products-negated": right * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1],
+        "mass-of-the-first": np.append(m1, right[1:]),
+        "inertia-of-one": carry(m1, c1, 0.0 * I1, m2, c2, I2),
+    }
 
 
 @row.right  # The reduced mass and the distance of the two, in a list.

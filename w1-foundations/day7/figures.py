@@ -155,3 +155,4 @@ FIGURES = {
     "pick": pick,
     "letters": forty_seven,
 }
+SMALL = ("pick", 0.1, 0.08, 0.8)  # its left, top and width, in parts of its width

@@ -1,5 +1,7 @@
 """7.7 `grasp_pose(T_world_cube, above)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -30,111 +32,64 @@ def _(rng):
     return [*rows[:4], *((se3.make_T(se3.Rz(a), p), h) for a, h in low), *rows[4:]]
 
 
-def yaw_of(T):
-    """Return how far a cube is turned about z."""
-    return np.arctan2(T[1, 0], T[0, 0])
-
-
 def tool(T_world_cube, above, yaw):
     """Return the tool's pose over the cube, turned by a yaw of one's own."""
-    T = se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3])
-    T[2, 3] += above
-    return T
+    return se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3] + [0.0, 0.0, above])
 
 
-def turned_over(T, other):
-    """Return the tool's pose with another matrix instead of DOWN."""
-    T = T.copy()
-    T[:3, :3] = T[:3, :3] @ DOWN @ other
-    return T
+@row.wrongs
+def _(T_world_cube, above):
+    """yaw-not-folded: the tool turns with the cube all the way; a cube looks the same
+      after a quarter turn, and joint 7 has an end => the pose with the cube's own
+      yaw
+    folded-to-90: the yaw is folded into 0..90 degrees; into +-45 the tool turns less =>
+      the pose with yaw mod 90 degrees
+    rounded-towards-zero: the number of quarter turns is cut off, not rounded: up to 90
+      degrees stay => the pose with whole quarter turns cut off
+    folded-by-half-turns: half turns are taken off; a cube looks the same after a
+      quarter already => the pose with half turns taken off
+    yaw-forgotten: the tool does not turn with the cube: the fingers meet its edges =>
+      the pose at yaw 0
+    turned-the-wrong-way: the tool turns the other way than the cube: look at the yaw
+      (its sign, and which entries atan2 takes), then at the order of the turn and
+      diag(1, -1, -1) => the pose with -yaw
+    """
+    yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
+    yaws = {
+        "yaw-not-folded": yaw,
+        "folded-to-90": np.mod(yaw, QUARTER),
+        "rounded-towards-zero": yaw - np.trunc(yaw / QUARTER) * QUARTER,
+        "folded-by-half-turns": yaw - np.round(yaw / np.pi) * np.pi,
+        "yaw-forgotten": 0.0,
+        "turned-the-wrong-way": np.round(yaw / QUARTER) * QUARTER - yaw,
+    }
+    return {slug: partial(tool, T_world_cube, above, one) for slug, one in yaws.items()}
 
 
-@row.wrong
-def yaw_not_folded(T_world_cube, above):
-    """the tool turns with the cube all the way; a cube looks the same after a quarter
-    turn, and joint 7 has an end => the pose with the cube's own yaw"""
-    return tool(T_world_cube, above, yaw_of(T_world_cube))
-
-
-@row.wrong
-def folded_to_90(T_world_cube, above):
-    """the yaw is folded into 0..90 degrees; into +-45 the tool turns less => the pose
-    with yaw mod 90 degrees"""
-    return tool(T_world_cube, above, np.mod(yaw_of(T_world_cube), QUARTER))
-
-
-@row.wrong
-def rounded_towards_zero(T_world_cube, above):
-    """the number of quarter turns is cut off, not rounded: up to 90 degrees stay => the
-    pose with whole quarter turns cut off"""
-    yaw = yaw_of(T_world_cube)
-    return tool(T_world_cube, above, yaw - np.trunc(yaw / QUARTER) * QUARTER)
-
-
-@row.wrong
-def folded_by_half_turns(T_world_cube, above):
-    """half turns are taken off; a cube looks the same after a quarter already => the
-    pose with half turns taken off"""
-    yaw = yaw_of(T_world_cube)
-    return tool(T_world_cube, above, yaw - np.round(yaw / np.pi) * np.pi)
-
-
-@row.wrong
-def yaw_forgotten(T_world_cube, above):
-    """the tool does not turn with the cube: the fingers meet its edges => the pose at
-    yaw 0"""
-    return tool(T_world_cube, above, 0.0)
-
-
-@row.wrong
-def turned_the_wrong_way(T_world_cube, above):
-    """the tool turns the other way than the cube: look at the yaw (its sign, and which
-    entries atan2 takes), then at the order of the turn and diag(1, -1, -1) => the pose
-    with -yaw"""
-    yaw = yaw_of(T_world_cube)
-    return tool(T_world_cube, above, np.round(yaw / QUARTER) * QUARTER - yaw)
-
-
-@row.wrong
-def tool_up(T_world_cube, above):
-    """the tool looks up: its z axis has to point down => the pose with z up"""
-    return turned_over(grasp_pose(T_world_cube, above), np.eye(3))
-
-
-@row.wrong
-def about_y(T_world_cube, above):
-    """the tool is turned over about y: at yaw 0 its x points backwards => the pose
-    turned over about y"""
-    return turned_over(grasp_pose(T_world_cube, above), np.diag([-1.0, 1.0, -1.0]))
-
-
-@row.wrong
-def left_handed(T_world_cube, above):
-    """turning only z over makes a mirror image: the determinant is -1 => the pose with
-    diag(1, 1, -1)"""
-    return turned_over(grasp_pose(T_world_cube, above), np.diag([1.0, 1.0, -1.0]))
-
-
-@row.wrong
-def height_subtracted(T_world_cube, above):
-    """the tool is below the cube: above counts up, and the tool's own z points down =>
-    the pose below the cube"""
-    return grasp_pose(T_world_cube, -above)
-
-
-@row.wrong
-def height_forgotten(T_world_cube, above):
-    """the tool is in the cube's centre: above is not added => the pose at the cube's
-    centre"""
-    return grasp_pose(T_world_cube, 0.0)
-
-
-@row.wrong
-def place_forgotten(T_world_cube, above):
-    """the tool is over the world's origin: the cube's place is missing => the pose over
-    the origin"""
-    R = grasp_pose(T_world_cube, above)[:3, :3]
-    return se3.make_T(R, [0.0, 0.0, above])
+@row.wrongs
+def _(T_world_cube, above):
+    """tool-up: the tool looks up: its z axis has to point down => the pose with z up
+    about-y: the tool is turned over about y: at yaw 0 its x points backwards => the
+      pose turned over about y
+    left-handed: turning only z over makes a mirror image: the determinant is -1 => the
+      pose with diag(1, 1, -1)
+    height-subtracted: the tool is below the cube: above counts up, and the tool's own z
+      points down => the pose below the cube
+    height-forgotten: the tool is in the cube's centre: above is not added => the pose
+      at the cube's centre
+    place-forgotten: the tool is over the world's origin: the cube's place is missing =>
+      the pose over the origin
+    """
+    right = grasp_pose(T_world_cube, above)
+    own = right @ np.diag([1.0, -1.0, -1.0, 1.0])
+    return {
+        "tool-up": own,
+        "about-y": own @ np.diag([-1.0, 1.0, -1.0, 1.0]),
+        "left-handed": own @ np.diag([1.0, 1.0, -1.0, 1.0]),
+        "height-subtracted": grasp_pose(T_world_cube, -above),
+        "height-forgotten": grasp_pose(T_world_cube, 0.0),
+        "place-forgotten": se3.make_T(right[:3, :3], [0.0, 0.0, above]),
+    }
 
 
 @row.right  # T_world_cube @ T_cube_tcp, the best of four.

@@ -17,65 +17,38 @@ def _(rng):
     return [(0.9247, 1.0, 0.0), *down, *map(tuple, draw.rounded(drawn).tolist())]
 
 
-@row.wrong
-def one_finger(grip, mu, acceleration):
-    """one finger's friction is missing: two faces hold the cube => half of it"""
-    return mu * grip / (G + acceleration)
-
-
-@row.wrong
-def acceleration_forgotten(grip, mu, acceleration):
-    """the cube's acceleration does not count; while it speeds up it needs more => the
-    mass at rest"""
-    return 2 * mu * grip / G
-
-
-@row.wrong
-def acceleration_sign(grip, mu, acceleration):
-    """the acceleration is taken off gravity; upwards it comes on top => the mass with g
-    - a"""
-    return 2 * mu * grip / (G - acceleration)
-
-
-@row.wrong
-def gravity_forgotten(grip, mu, acceleration):
-    """gravity is missing: at rest nothing would have to be lifted => the mass without
-    gravity"""
-    return np.divide(2 * mu * grip, acceleration)
-
-
-@row.wrong
-def weight_for_mass(grip, mu, acceleration):
-    """this is the force in newtons; the mass is that force over g + a => the friction's
-    force"""
-    return 2 * mu * grip
-
-
-@row.wrong
-def friction_forgotten(grip, mu, acceleration):
-    """friction does not count; without mu nothing is lifted => the mass with mu = 1"""
-    return 2 * grip / (G + acceleration)
-
-
-@row.wrong
-def divided_by_friction(grip, mu, acceleration):
-    """the friction mu stands below the line; more friction lifts more => the mass with
-    1 / mu"""
-    return 2 * grip / (mu * (G + acceleration))
-
-
-@row.wrong
-def gravity_negative(grip, mu, acceleration):
-    """gravity has the wrong sign here: its z is -9.81, and it pulls down => the mass
-    with -9.81"""
-    return 2 * mu * grip / (acceleration - G)
-
-
-@row.wrong
-def acceleration_without_sign(grip, mu, acceleration):
-    """the acceleration's sign is lost: downwards, it takes weight off the fingers =>
-    the mass with |a|"""
-    return 2 * mu * grip / (G + abs(acceleration))
+@row.wrongs
+def _(grip, mu, acceleration):
+    """one-finger: one finger's friction is missing: two faces hold the cube => half of
+      it
+    acceleration-forgotten: the cube's acceleration does not count; while it speeds up
+      it needs more => the mass at rest
+    acceleration-sign: the acceleration is taken off gravity; upwards it comes on top =>
+      the mass with g - a
+    gravity-forgotten: gravity is missing: at rest nothing would have to be lifted =>
+      the mass without gravity
+    weight-for-mass: this is the force in newtons; the mass is that force over g + a =>
+      the friction's force
+    friction-forgotten: friction does not count; without mu nothing is lifted => the
+      mass with mu = 1
+    divided-by-friction: the friction mu stands below the line; more friction lifts more
+      => the mass with 1 / mu
+    gravity-negative: gravity has the wrong sign here: its z is -9.81, and it pulls down
+      => the mass with -9.81
+    acceleration-without-sign: the acceleration's sign is lost: downwards, it takes
+      weight off the fingers => the mass with |a|
+    """
+    return {
+        "one-finger": mu * grip / (G + acceleration),
+        "acceleration-forgotten": 2 * mu * grip / G,
+        "acceleration-sign": 2 * mu * grip / (G - acceleration),
+        "gravity-forgotten": np.divide(2 * mu * grip, acceleration),
+        "weight-for-mass": 2 * mu * grip,
+        "friction-forgotten": 2 * grip / (G + acceleration),
+        "divided-by-friction": 2 * grip / (mu * (G + acceleration)),
+        "gravity-negative": 2 * mu * grip / (acceleration - G),
+        "acceleration-without-sign": 2 * mu * grip / (G + abs(acceleration)),
+    }
 
 
 @row.wrong

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Matrix, draw
 from labkit.judge.row import Row
-from robo47.trajectory import joint_move, quintic_scaling
+from robo47.trajectory import quintic_scaling
 
 from .quintic_scaling import times
 
@@ -23,94 +23,53 @@ def _(rng):
     return [*rows[:6], (q0[0], far, 1.8, 2.0), (far, q1[0], 0.3, 2.0), *rows[6:]]
 
 
-def along(q0, way, t, T):
-    """Return what a move from q0 along a way would be."""
-    return joint_move(q0, q0 + way, t, T)
-
-
 def wrapped(angles):
     """Return angles within half a turn of 0."""
     return np.mod(angles + np.pi, 2 * np.pi) - np.pi
 
 
-@row.wrong
-def start_everywhere(q0, q1, t, T):
-    """the start q0 is added to the speed and the acceleration too; it does not move =>
-    the answer with q0 in every row"""
-    return q0 + np.outer(quintic_scaling(t, T), q1 - q0)
-
-
-@row.wrong
-def start_forgotten(q0, q1, t, T):
-    """the way is there, but not where it starts: q0 is missing => the answer without
-    q0"""
-    return np.outer(quintic_scaling(t, T), q1 - q0)
-
-
-@row.wrong
-def goal_for_way(q0, q1, t, T):
-    """the goal q1 stands where the way from q0 to q1 belongs: it ends at q0 + q1 => the
-    answer with q1 for the way"""
-    return along(q0, q1, t, T)
-
-
-@row.wrong
-def way_reversed(q0, q1, t, T):
-    """the way points from q1 to q0: it moves away from the goal => the answer with the
-    way reversed"""
-    return along(q0, q0 - q1, t, T)
-
-
-@row.wrong
-def backwards(q0, q1, t, T):
-    """it goes from q1 to q0 => the move the other way"""
-    return along(q1, q0 - q1, t, T)
-
-
-@row.wrong
-def speed_forwards_only(q0, q1, t, T):
-    """the way has lost its sign: every joint goes forwards => the answer with |q1 -
-    q0|"""
-    return along(q0, np.abs(q1 - q0), t, T)
-
-
-@row.wrong
-def rates_without_way(q0, q1, t, T):
-    """the speed and the acceleration are those of s; each joint's way is missing => the
-    answer with sd and sdd for every joint"""
-    s, sd, sdd = quintic_scaling(t, T)
-    return np.array([q0 + (q1 - q0) * s, np.full(7, sd), np.full(7, sdd)])
-
-
-@row.wrong
-def rates_of_the_goal(q0, q1, t, T):
-    """in the speed and the acceleration, q1 stands where the way q1 - q0 belongs => the
-    answer with q1 sd and q1 sdd"""
-    s, sd, sdd = quintic_scaling(t, T)
-    return np.array([q0 + (q1 - q0) * s, q1 * sd, q1 * sdd])
-
-
-@row.wrong
-def rates_divided_again(q0, q1, t, T):
-    """the speed and the acceleration are divided by T again; sd and sdd are derivatives
-    with respect to t already => the answer with sd / T and sdd / T^2"""
-    s, sd, sdd = quintic_scaling(t, T)
-    return np.array([q0 + (q1 - q0) * s, (q1 - q0) * sd / T, (q1 - q0) * sdd / T**2])
-
-
-@row.wrong
-def q_wrapped(q0, q1, t, T):
-    """the angles are wrapped into +-pi; a joint's angle is no direction, and joint6
-    goes up to 3.75 rad => the answer with q wrapped"""
-    q, qd, qdd = joint_move(q0, q1, t, T)
-    return np.array([wrapped(q), qd, qdd])
-
-
-@row.wrong
-def way_wrapped(q0, q1, t, T):
-    """the way is wrapped into +-pi, the shorter way round; a joint cannot go through
-    its ends => the answer with the way wrapped"""
-    return along(q0, wrapped(q1 - q0), t, T)
+@row.wrongs
+def _(q0, q1, t, T):
+    """start-everywhere: the start q0 is added to the speed and the acceleration too; it
+      does not move => the answer with q0 in every row
+    start-forgotten: the way is there, but not where it starts: q0 is missing => the
+      answer without q0
+    goal-for-way: the goal q1 stands where the way from q0 to q1 belongs: it ends at q0
+      + q1 => the answer with q1 for the way
+    way-reversed: the way points from q1 to q0: it moves away from the goal => the
+      answer with the way reversed
+    backwards: it goes from q1 to q0 => the move the other way
+    speed-forwards-only: the way has lost its sign: every joint goes forwards => the
+      answer with |q1 - q0|
+    rates-without-way: the speed and the acceleration are those of s; each joint's way
+      is missing => the answer with sd and sdd for every joint
+    rates-of-the-goal: in the speed and the acceleration, q1 stands where the way q1 -
+      q0 belongs => the answer with q1 sd and q1 sdd
+    rates-divided-again: the speed and the acceleration are divided by T again; sd and
+      sdd are derivatives with respect to t already => the answer with sd / T and sdd /
+      T^2
+    q-wrapped: the angles are wrapped into +-pi; a joint's angle is no direction, and
+      joint6 goes up to 3.75 rad => the answer with q wrapped
+    way-wrapped: the way is wrapped into +-pi, the shorter way round; a joint cannot go
+      through its ends => the answer with the way wrapped
+    """
+    way, scaling = q1 - q0, quintic_scaling(t, T)
+    (s, sd, sdd), alike = scaling, np.ones(7)
+    q, qd, qdd = q0 + way * s, way * sd, way * sdd
+    at_rest = q0 * [[1.0], [0.0], [0.0]]
+    return {
+        "start-everywhere": q0 + np.outer(scaling, way),
+        "start-forgotten": np.outer(scaling, way),
+        "goal-for-way": at_rest + np.outer(scaling, q1),
+        "way-reversed": at_rest - np.outer(scaling, way),
+        "backwards": np.array([q1 - way * s, -qd, -qdd]),
+        "speed-forwards-only": at_rest + np.outer(scaling, np.abs(way)),
+        "rates-without-way": np.array([q, alike * sd, alike * sdd]),
+        "rates-of-the-goal": np.array([q, q1 * sd, q1 * sdd]),
+        "rates-divided-again": np.array([q, qd / T, qdd / T**2]),
+        "q-wrapped": np.array([wrapped(q), qd, qdd]),
+        "way-wrapped": at_rest + np.outer(scaling, wrapped(way)),
+    }
 
 
 row.reached_by("quintic_scaling", "in the scaling, ")

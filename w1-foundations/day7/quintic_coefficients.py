@@ -67,72 +67,40 @@ def _(rng):
     yield from zip(start, end, T.tolist(), strict=True)
 
 
-@row.wrong
-def descending(start, end, T):
-    """the highest power comes first; the constant has to => the answer with the
-    coefficients in descending order"""
-    return quintic_coefficients(start, end, T)[::-1]
-
-
-@row.wrong
-def ends_swapped(start, end, T):
-    """it goes from the end to the start => the answer with the ends swapped"""
-    return quintic_coefficients(end, start, T)
-
-
-@row.wrong
-def in_powers_of_x(start, end, T):
-    """these are the coefficients of powers of t / T, not of t => the answer with the
-    coefficients of t / T"""
-    return quintic_coefficients(start, end, T) * T**POWERS
-
-
-@row.wrong
-def T_is_1(start, end, T):
-    """T does not count: the end's conditions are those at t = 1 => the answer with the
-    coefficients for T = 1"""
-    return quintic_coefficients(start, end, 1.0)
-
-
-@row.wrong
-def cubic(start, end, T):
-    """this is a cubic: both accelerations are left out => the cubic"""
-    A = conditions(T)[[0, 1, 3, 4], :4]
-    four = np.linalg.solve(A, [*start[:2], *end[:2]])
-    return np.append(four, [0.0, 0.0])
-
-
-@row.wrong
-def accelerations_zero(start, end, T):
-    """the accelerations at the ends are taken as 0; they are given => the answer
-    without accelerations"""
-    kept = np.array([1.0, 1.0, 0.0])
-    return quintic_coefficients(start * kept, end * kept, T)
-
-
-@row.wrong
-def rest_to_rest(start, end, T):
-    """speeds and accelerations at the ends are taken as 0; they are given => the answer
-    with the coefficients from rest to rest"""
-    kept = np.array([1.0, 0.0, 0.0])
-    return quintic_coefficients(start * kept, end * kept, T)
-
-
-@row.wrong
-def two_forgotten(start, end, T):
-    """the second derivative of t^2 is 2, not 1: the start's acceleration is doubled =>
-    the answer with a 1 there"""
+@row.wrongs
+def _(start, end, T):
+    """descending: the highest power comes first; the constant has to => the answer with
+      the coefficients in descending order
+    ends-swapped: it goes from the end to the start => the answer with the ends swapped
+    in-powers-of-x: these are the coefficients of powers of t / T, not of t => the
+      answer with the coefficients of t / T
+    T-is-1: T does not count: the end's conditions are those at t = 1 => the answer with
+      the coefficients for T = 1
+    cubic: this is a cubic: both accelerations are left out => the cubic
+    accelerations-zero: the accelerations at the ends are taken as 0; they are given =>
+      the answer without accelerations
+    rest-to-rest: speeds and accelerations at the ends are taken as 0; they are given =>
+      the answer with the coefficients from rest to rest
+    two-forgotten: the second derivative of t^2 is 2, not 1: the start's acceleration is
+      doubled => the answer with a 1 there
+    conditions-mixed-up: the right side alternates start and end, but the rows do not =>
+      the answer with the right side mixed
+    """
     A = conditions(T)
-    A[2, 2] = 1.0
-    return np.linalg.solve(A, np.concatenate([start, end]))
-
-
-@row.wrong
-def conditions_mixed_up(start, end, T):
-    """the right side alternates start and end, but the rows do not => the answer with
-    the right side mixed"""
-    six = np.stack([start, end], axis=1).ravel()
-    return np.linalg.solve(conditions(T), six)
+    four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])
+    mixed = np.stack([start, end], axis=1).ravel()
+    slow, still = np.diag([1.0, 1.0, 0.0]), np.diag([1.0, 0.0, 0.0])
+    return {
+        "descending": quintic_coefficients(start, end, T)[::-1],
+        "ends-swapped": quintic_coefficients(end, start, T),
+        "in-powers-of-x": quintic_coefficients(start, end, T) * T**POWERS,
+        "T-is-1": quintic_coefficients(start, end, 1.0),
+        "cubic": np.append(four, [0.0, 0.0]),
+        "accelerations-zero": quintic_coefficients(slow @ start, slow @ end, T),
+        "rest-to-rest": quintic_coefficients(still @ start, still @ end, T),
+        "two-forgotten": quintic_coefficients(start * [1.0, 1.0, 2.0], end, T),
+        "conditions-mixed-up": np.linalg.solve(A, mixed),
+    }
 
 
 @row.right  # The closed form from another book.

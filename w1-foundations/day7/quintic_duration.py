@@ -53,178 +53,104 @@ def seconds(dq, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
     return np.array([speed * dq / v_max, np.sqrt(acceleration * dq / a_max)])
 
 
-@row.wrong
-def peak_of_the_cubic(dq, v_max, a_max):
-    """1.5 is the cubic's peak speed; the quintic is faster half way, so this breaks the
-    speed limit by a quarter => the duration with 1.5"""
-    return seconds(dq, v_max, a_max, speed=1.5).max()
+@row.wrongs
+def _(dq, v_max, a_max):
+    """peak-of-the-cubic: 1.5 is the cubic's peak speed; the quintic is faster half way,
+      so this breaks the speed limit by a quarter => the duration with 1.5
+    average-speed: the time dq / v would do for a move that is always at its top speed;
+      this one starts and stops softly => the duration with dq / v
+    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15 => the
+      duration with 8/15
+    peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
+      little earlier, where its derivative is 0 => the duration with 5.625
+    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
+      lost => the duration with 10/3
+    """
+    peaks = {
+        "peak-of-the-cubic": {"speed": 1.5},
+        "average-speed": {"speed": 1.0},
+        "peak-upside-down": {"speed": 8 / 15},
+        "peak-at-a-quarter": {"acceleration": 5.625},
+        "peak-acceleration": {"acceleration": 10 / 3},
+    }
+    return {slug: seconds(dq, v_max, a_max, **of).max() for slug, of in peaks.items()}
 
 
-@row.wrong
-def peak_of_the_cubic(dq, v_max, a_max):
-    """1.5 and 6 are the cubic's peaks; the quintic has others => the cubic's
-    duration"""
-    return seconds(dq, v_max, a_max, speed=1.5, acceleration=6.0).max()
+@row.wrongs
+def _(dq, v_max, a_max):
+    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others => the
+      cubic's duration
+    limits-of-different-joints: the longest way is divided by the smallest limit of all;
+      way and limit have to be those of one joint => max(dq) over min(a_max) for the
+      acceleration
+    both-added: the time for the speed and the time for the acceleration are added; one
+      way keeps both limits if it takes the longer of the two => their sum
+    shorter-of-two: it takes the shorter of the two durations, which breaks one of
+      the limits; the longer one keeps both => the smaller of the two
+    fastest-joint: it takes the joint that needs least; all the others break their
+      limits => the smallest of the joints' durations
+    one-length: the ways of all joints are put together as one length, |dq|; each joint
+      has its own way and its own limits => the duration of |dq| with the lowest limits
+    summed: the joints' durations are added up; they move at the same time => the sum
+      over the joints
+    mean: it takes the mean of the joints' durations; half of them break their limits =>
+      the mean over the joints
+    longest-way: it takes the joint with the longest way; one with a lower limit may
+      need more => the duration of the joint with the longest way
+    one-limit-for-all: the first joint's limits are used for all; each joint has its own
+      => the duration with joint1's limits
+    speed-only: only the speed limits count; a short move breaks the acceleration's =>
+      the duration by speed
+    acceleration-only: only the acceleration limits count; a long move breaks the
+      speed's => the duration by acceleration
+    root-forgotten: acceleration falls with T squared, so T is a square root => the
+      duration without the root
+    added-up: the two durations are added; the longer one keeps both limits => the sum
+      of the two
+    forwards-only: a joint that moves backwards counts as one that is ready before it
+      starts: the way's sign is still in it => the duration with signed ways
+    """
+    each, i = seconds(dq, v_max, a_max), np.argmax(np.abs(dq))
+    by_speed, by_acceleration = each
+    longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
+    lowest = v_max.min(), a_max.min()
+    return {
+        "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
+        "limits-of-different-joints": max(by_speed.max(), longest),
+        "both-added": each.sum(axis=0).max(),
+        "shorter-of-two": min(each.max(axis=1)),
+        "fastest-joint": each.max(axis=0).min(),
+        "one-length": seconds(np.linalg.norm(dq), *lowest).max(),
+        "summed": each.max(axis=0).sum(),
+        "mean": each.max(axis=0).mean(),
+        "longest-way": each[:, i].max(),
+        "one-limit-for-all": seconds(dq, v_max[0], a_max[0]).max(),
+        "speed-only": by_speed.max(),
+        "acceleration-only": by_acceleration.max(),
+        "root-forgotten": max(by_speed.max(), (by_acceleration**2).max()),
+        "added-up": each.max(axis=1).sum(),
+        "forwards-only": max((np.sign(dq) * by_speed).max(), by_acceleration.max()),
+    }
 
 
-@row.wrong
-def peak_of_the_cubic(dq, v_max, a_max):
-    """6 is the cubic's peak acceleration; the quintic's is where the derivative of its
-    acceleration is 0 => the duration with 6"""
-    return seconds(dq, v_max, a_max, acceleration=6.0).max()
-
-
-@row.wrong
-def limits_of_different_joints(dq, v_max, a_max):
-    """the longest way is divided by the smallest limit of all; way and limit have to be
-    those of one joint => max(dq) over min(a_max) for the acceleration"""
-    longest = np.abs(dq).max()
-    by_acceleration = np.sqrt(PEAK_ACCELERATION * longest / a_max.min())
-    return max(seconds(dq, v_max, a_max)[0].max(), by_acceleration)
-
-
-@row.wrong
-def both_added(dq, v_max, a_max):
-    """the time for the speed and the time for the acceleration are added; one way keeps
-    both limits if it takes the longer of the two => their sum"""
-    return seconds(dq, v_max, a_max).sum(axis=0).max()
-
-
-@row.wrong
-def peak_at_a_quarter(dq, v_max, a_max):
-    """5.625 is the acceleration at a quarter of the time; its peak is a little earlier,
-    where its derivative is 0 => the duration with 5.625"""
-    return seconds(dq, v_max, a_max, acceleration=5.625).max()
-
-
-@row.wrong
-def shorter_of_two(dq, v_max, a_max):
-    """it takes the shorter of the two durations, which breaks one of the limits; the
-    longer one keeps both => the smaller of the two"""
-    by_speed, by_acceleration = seconds(dq, v_max, a_max)
-    return min(by_speed.max(), by_acceleration.max())
-
-
-@row.wrong
-def average_speed(dq, v_max, a_max):
-    """the time dq / v would do for a move that is always at its top speed; this one
-    starts and stops softly => the duration with dq / v"""
-    return seconds(dq, v_max, a_max, speed=1.0).max()
-
-
-@row.wrong
-def peak_upside_down(dq, v_max, a_max):
-    """the peak speed is 15/8 dq / T; here it is turned into 8/15 => the duration with
-    8/15"""
-    return seconds(dq, v_max, a_max, speed=8 / 15).max()
-
-
-@row.wrong
-def peak_acceleration(dq, v_max, a_max):
-    """the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is lost => the
-    duration with 10/3"""
-    return seconds(dq, v_max, a_max, acceleration=10 / 3).max()
-
-
-@row.wrong
-def fastest_joint(dq, v_max, a_max):
-    """it takes the joint that needs least; all the others break their limits => the
-    smallest of the joints' durations"""
-    return seconds(dq, v_max, a_max).max(axis=0).min()
-
-
-@row.wrong
-def fastest_joint(dq, v_max, a_max):
-    """it takes the joint that needs least, for the speed and for the acceleration; all
-    the others break their limits => the larger of the two minima"""
-    return seconds(dq, v_max, a_max).min(axis=1).max()
-
-
-@row.wrong
-def one_length(dq, v_max, a_max):
-    """the ways of all joints are put together as one length, |dq|; each joint has its
-    own way and its own limits => the duration of |dq| with the lowest limits"""
-    return seconds(np.linalg.norm(dq), v_max.min(), a_max.min()).max()
-
-
-@row.wrong
-def summed(dq, v_max, a_max):
-    """the joints' durations are added up; they move at the same time => the sum over
-    the joints"""
-    return seconds(dq, v_max, a_max).max(axis=0).sum()
-
-
-@row.wrong
-def mean(dq, v_max, a_max):
-    """it takes the mean of the joints' durations; half of them break their limits =>
-    the mean over the joints"""
-    return seconds(dq, v_max, a_max).max(axis=0).mean()
-
-
-@row.wrong
-def longest_way(dq, v_max, a_max):
-    """it takes the joint with the longest way; one with a lower limit may need more =>
-    the duration of the joint with the longest way"""
-    i = np.argmax(np.abs(dq))
-    return seconds(dq[i], v_max[i], a_max[i]).max()
-
-
-@row.wrong
-def one_limit_for_all(dq, v_max, a_max):
-    """the first joint's limits are used for all; each joint has its own => the duration
-    with joint1's limits"""
-    return seconds(dq, v_max[0], a_max[0]).max()
-
-
-@row.wrong
-def one_limit_for_all(dq, v_max, a_max):
-    """the lowest limits are used for all; each joint has its own => the duration with
-    the lowest limits"""
-    return seconds(dq, v_max.min(), a_max.min()).max()
-
-
-@row.wrong
-def speed_only(dq, v_max, a_max):
-    """only the speed limits count; a short move breaks the acceleration's => the
-    duration by speed"""
-    return seconds(dq, v_max, a_max)[0].max()
-
-
-@row.wrong
-def acceleration_only(dq, v_max, a_max):
-    """only the acceleration limits count; a long move breaks the speed's => the
-    duration by acceleration"""
-    return seconds(dq, v_max, a_max)[1].max()
-
-
-@row.wrong
-def root_forgotten(dq, v_max, a_max):
-    """acceleration falls with T squared, so T is a square root => the duration without
-    the root"""
-    by_speed, by_acceleration = seconds(dq, v_max, a_max)
-    return max(by_speed.max(), (by_acceleration**2).max())
-
-
-@row.wrong
-def added_up(dq, v_max, a_max):
-    """the two durations are added; the longer one keeps both limits => the sum of the
-    two"""
-    return seconds(dq, v_max, a_max).max(axis=1).sum()
-
-
-@row.wrong
-def shorter_of_two(dq, v_max, a_max):
-    """each joint takes the shorter of its two durations; both limits count => the
-    shorter of the two"""
-    return seconds(dq, v_max, a_max).min(axis=0).max()
-
-
-@row.wrong
-def forwards_only(dq, v_max, a_max):
-    """a joint that moves backwards counts as one that is ready before it starts: the
-    way's sign is still in it => the duration with signed ways"""
-    by_speed, by_acceleration = seconds(dq, v_max, a_max)
-    return max((np.sign(dq) * by_speed).max(), by_acceleration.max())
+@row.wrongs
+def _(dq, v_max, a_max):
+    """peak-of-the-cubic: 6 is the cubic's peak acceleration; the quintic's is where the
+      derivative of its acceleration is 0 => the duration with 6
+    shorter-of-two: each joint takes the shorter of its two durations; both limits count
+      => the shorter of the two
+    fastest-joint: it takes the joint that needs least, for the speed and for the
+      acceleration; all the others break their limits => the larger of the two minima
+    one-limit-for-all: the lowest limits are used for all; each joint has its own =>
+      the duration with the lowest limits
+    """
+    each = seconds(dq, v_max, a_max)
+    return {
+        "peak-of-the-cubic": seconds(dq, v_max, a_max, acceleration=6.0).max(),
+        "shorter-of-two": each.min(axis=0).max(),
+        "fastest-joint": each.min(axis=1).max(),
+        "one-limit-for-all": seconds(dq, v_max.min(), a_max.min()).max(),
+    }
 
 
 @row.wrong

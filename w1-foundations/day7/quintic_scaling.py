@@ -1,5 +1,7 @@
 """7.1 `quintic_scaling(t, T)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Vector, draw
@@ -42,167 +44,110 @@ def polynomial(factors, x, T):
     return np.array([p(x), p.deriv()(x) / T, p.deriv(2)(x) / T**2])
 
 
-def jumps(*names):
-    """Take a scaling that jumps at its ends, and the same with sd, sdd 0 there."""
-
-    def keep(scaling):
-        def at_rest(t, T):
-            return scaling(t, T) * [1.0, 0.0 < t < T, 0.0 < t < T]
-
-        row.wrong(*names)(scaling)
-        row.wrong(*names)(at_rest)
-
-    return keep
-
-
-@jumps(
-    "cubic",
-    "this is the cubic, 3 x^2 - 2 x^3; its acceleration jumps at both ends",
-    "the cubic",
-)
-def _(t, T):
-    return polynomial((0, 0, 3, -2), np.clip(t / T, 0.0, 1.0), T)
-
-
-@jumps("linear", "s grows at one rate, so the speed jumps at both ends", "s = x")
-def _(t, T):
+def jumps(t, T):
+    """cubic: this is the cubic, 3 x^2 - 2 x^3; its acceleration jumps at both ends =>
+      the cubic
+    linear: s grows at one rate, so the speed jumps at both ends => s = x
+    cosine: this is the raised cosine; its acceleration jumps at both ends => the raised
+      cosine
+    """
     x = np.clip(t / T, 0.0, 1.0)
-    return np.array([x, 1.0 / T, 0.0])
+    a, k = np.pi * x, np.pi / T
+    cosine = [1 - np.cos(a), k * np.sin(a), k**2 * np.cos(a)]
+    return {
+        "cubic": polynomial((0, 0, 3, -2), x, T),
+        "linear": np.array([x, 1.0 / T, 0.0]),
+        "cosine": np.array(cosine) / 2,
+    }
 
 
-@jumps(
-    "cosine",
-    "this is the raised cosine; its acceleration jumps at both ends",
-    "the raised cosine",
-)
+def jumps_to_rest(t, T):
+    """Return the same, with sd and sdd 0 at both ends."""
+    rest = [1.0, 0.0 < t < T, 0.0 < t < T]
+    return {slug: answer * rest for slug, answer in jumps(t, T).items()}
+
+
+jumps_to_rest.__doc__ = jumps.__doc__
+row.wrongs(jumps)
+row.wrongs(jumps_to_rest)
+
+
+@row.wrongs
 def _(t, T):
-    a = np.pi * np.clip(t / T, 0.0, 1.0)
-    sd, sdd = np.pi * np.sin(a) / (2 * T), np.pi**2 * np.cos(a) / (2 * T**2)
-    return np.array([(1 - np.cos(a)) / 2, sd, sdd])
+    """septic: this is the polynomial of degree 7, which has no jerk at the ends either;
+      the task is the quintic => the polynomial of degree 7
+    6-and-10-swapped: the factors 6 and 10 are swapped: s ends at 1, but still moving =>
+      the quintic with 6 and 10 swapped
+    sign-of-15: the factor 15 has the wrong sign: s(T) is 31 => the quintic with +15
+    sd-and-sdd-not-divided: each of sd and sdd is the derivative with respect to x = t /
+      T; with respect to t, each derivative divides by T once more => the answer with
+      derivatives with respect to x
+    t-for-x: the time itself stands where t / T belongs, so T does not count => the
+      quintic of t
+    not-clipped: after the end (and before the start) the polynomial goes on: at 1.25 T
+      s is 1.22 => the quintic without its ends
+    end-not-clipped: it waits for the start, but after the end the polynomial goes on =>
+      the quintic without its end
+    start-not-clipped: it stops at the end, but before the start the polynomial is there
+      already => the quintic without its start
+    backwards: it runs from 1 to 0: the remaining time stands where the time belongs =>
+      the quintic of 1 - t / T
+    """
+    x = np.clip(t / T, 0.0, 1.0)
+    given = {
+        "septic": ((0, 0, 0, 0, 35, -84, 70, -20), x, T),
+        "6-and-10-swapped": ((0, 0, 0, 6, -15, 10), x, T),
+        "sign-of-15": ((0, 0, 0, 10, 15, 6), x, T),
+        "sd-and-sdd-not-divided": (QUINTIC, x, 1.0),
+        "t-for-x": (QUINTIC, t, 1.0),
+        "not-clipped": (QUINTIC, t / T, T),
+        "end-not-clipped": (QUINTIC, max(t / T, 0.0), T),
+        "start-not-clipped": (QUINTIC, min(t / T, 1.0), T),
+        "backwards": (QUINTIC, 1.0 - x, T),
+    }
+    return {slug: partial(polynomial, *some) for slug, some in given.items()}
 
 
-@row.wrong
-def septic(t, T):
-    """this is the polynomial of degree 7, which has no jerk at the ends either; the
-    task is the quintic => the polynomial of degree 7"""
-    return polynomial((0, 0, 0, 0, 35, -84, 70, -20), np.clip(t / T, 0.0, 1.0), T)
-
-
-@row.wrong("6-and-10-swapped")
+@row.wrongs
 def _(t, T):
-    """the factors 6 and 10 are swapped: s ends at 1, but still moving => the quintic
-    with 6 and 10 swapped"""
-    return polynomial((0, 0, 0, 6, -15, 10), np.clip(t / T, 0.0, 1.0), T)
+    """sd-not-divided: the entry sd is the derivative with respect to x = t / T; with
+      respect to t, each derivative divides by T once more => sd without 1/T
+    sdd-not-divided: the entry sdd is the derivative with respect to x = t / T; with
+      respect to t, each derivative divides by T once more => sdd without 1/T^2
+    sdd-divided-once: the entry sdd is divided by T once; it is a second derivative =>
+      sdd with 1/T
+    multiplied-by-T: the derivatives are multiplied by T, where the chain rule divides
+      => the answer with T and T^2 as factors
+    t-for-x: the time itself, clipped to 0..1, stands where t / T belongs => the quintic
+      of t
+    only-s-clipped: s stops at the end, but sd and sdd go on: it says that it moves and
+      stands => the answer without the ends of sd and sdd
+    order: the order is s, sd, sdd; here the derivatives are swapped => the order s,
+      sdd, sd
+    """
+    right = quintic_scaling(t, T)
+    return {
+        "sd-not-divided": right * [1.0, T, 1.0],
+        "sdd-not-divided": right * [1.0, 1.0, T**2],
+        "sdd-divided-once": right * [1.0, 1.0, T],
+        "multiplied-by-T": right * [1.0, T**2, T**4],
+        "t-for-x": lambda: polynomial(QUINTIC, np.clip(t, 0.0, 1.0), 1.0),
+        "only-s-clipped": lambda: np.append(
+            right[0], polynomial(QUINTIC, t / T, T)[1:]
+        ),
+        "order": right[[0, 2, 1]],
+    }
 
 
-@row.wrong
-def sign_of_15(t, T):
-    """the factor 15 has the wrong sign: s(T) is 31 => the quintic with +15"""
-    return polynomial((0, 0, 0, 10, 15, 6), np.clip(t / T, 0.0, 1.0), T)
-
-
-@row.wrong
-def sd_and_sdd_not_divided(t, T):
-    """each of sd and sdd is the derivative with respect to x = t / T; with respect to
-    t, each derivative divides by T once more => the answer with derivatives with
-    respect to x"""
-    return polynomial(QUINTIC, np.clip(t / T, 0.0, 1.0), 1.0)
-
-
-@row.wrong
-def sd_not_divided(t, T):
-    """the entry sd is the derivative with respect to x = t / T; with respect to t, each
-    derivative divides by T once more => sd without 1/T"""
-    return quintic_scaling(t, T) * [1.0, T, 1.0]
-
-
-@row.wrong
-def sdd_not_divided(t, T):
-    """the entry sdd is the derivative with respect to x = t / T; with respect to t,
-    each derivative divides by T once more => sdd without 1/T^2"""
-    return quintic_scaling(t, T) * [1.0, 1.0, T**2]
-
-
-@row.wrong
-def sdd_divided_once(t, T):
-    """the entry sdd is divided by T once; it is a second derivative => sdd with 1/T"""
-    return quintic_scaling(t, T) * [1.0, 1.0, T]
-
-
-@row.wrong
-def multiplied_by_T(t, T):
-    """the derivatives are multiplied by T, where the chain rule divides => the answer
-    with T and T^2 as factors"""
-    return quintic_scaling(t, T) * [1.0, T**2, T**4]
-
-
-@row.wrong
-def t_for_x(t, T):
-    """the time itself stands where t / T belongs, so T does not count => the quintic of
-    t"""
-    return polynomial(QUINTIC, t, 1.0)
-
-
-@row.wrong
-def t_for_x(t, T):
-    """the time itself, clipped to 0..1, stands where t / T belongs => the quintic of
-    t"""
-    return polynomial(QUINTIC, np.clip(t, 0.0, 1.0), 1.0)
-
-
-@row.wrong
-def t_for_x(t, T):
-    """the time itself stands where t / T belongs => the quintic of t"""
-    return polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T)
-
-
-@row.wrong
-def not_clipped(t, T):
-    """after the end (and before the start) the polynomial goes on: at 1.25 T s is 1.22
-    => the quintic without its ends"""
-    return polynomial(QUINTIC, t / T, T)
-
-
-@row.wrong
-def end_not_clipped(t, T):
-    """it waits for the start, but after the end the polynomial goes on => the quintic
-    without its end"""
-    return polynomial(QUINTIC, max(t / T, 0.0), T)
-
-
-@row.wrong
-def start_not_clipped(t, T):
-    """it stops at the end, but before the start the polynomial is there already => the
-    quintic without its start"""
-    return polynomial(QUINTIC, min(t / T, 1.0), T)
-
-
-@row.wrong
-def only_s_clipped(t, T):
-    """s stops at the end, but sd and sdd go on: it says that it moves and stands => the
-    answer without the ends of sd and sdd"""
-    s, (_, sd, sdd) = quintic_scaling(t, T)[0], polynomial(QUINTIC, t / T, T)
-    return np.array([s, sd, sdd])
-
-
-@row.wrong
-def backwards(t, T):
-    """it runs from 1 to 0: the remaining time stands where the time belongs => the
-    quintic of 1 - t / T"""
-    return polynomial(QUINTIC, 1.0 - np.clip(t / T, 0.0, 1.0), T)
-
-
-@row.wrong
-def order(t, T):
-    """the order is s, sd, sdd; here the derivatives are swapped => the order s, sdd,
-    sd"""
-    return quintic_scaling(t, T)[[0, 2, 1]]
-
-
-@row.wrong
-def order(t, T):
-    """the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s"""
-    return quintic_scaling(t, T)[::-1]
+@row.wrongs
+def _(t, T):
+    """t-for-x: the time itself stands where t / T belongs => the quintic of t
+    order: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
+    """
+    return {
+        "t-for-x": polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T),
+        "order": quintic_scaling(t, T)[::-1],
+    }
 
 
 @row.right  # Horner's scheme, and the time stopped by hand.

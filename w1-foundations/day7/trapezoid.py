@@ -6,7 +6,15 @@ from labkit.judge import Vector, draw
 from labkit.judge.row import Row
 from robo47.trajectory import trapezoid
 
-row = Row(Vector((3,), names=("the position", "the speed", "the acceleration")))
+
+def between_ends(t, L, v, a):
+    """Return whether t is a moment at which no piece ends."""
+    _, ramp, T = timing(L, v, a)
+    return min(abs(t - end) for end in (0.0, ramp, T - ramp, T)) > 1e-6
+
+
+NAMES = ("the position", "the speed", "the acceleration")
+row = Row(Vector((3,), names=NAMES), at_edge=between_ends)
 
 
 @row.inputs
@@ -50,156 +58,91 @@ def to_top(t, L, a, top):
     return profile(t, L, a, top, L / top + top / a)
 
 
-@row.wrong
-def no_triangle(t, L, v, a):
-    """the top speed is always v; a short way ends before v is reached, so it overshoots
-    => the trapezoid without its triangle"""
-    return to_top(t, L, a, v)
+@row.wrongs
+def _(t, L, v, a):
+    """no-triangle: the top speed is always v; a short way ends before v is reached, so
+      it overshoots => the trapezoid without its triangle
+    always-a-triangle: it never cruises: the top speed is sqrt(L a) even where that is
+      over v => the triangle
+    triangle-too-high: half of the triangle is for braking, so its height is not sqrt(2
+      L a) => the triangle with sqrt(2 L a)
+    triangle-too-low: the triangle's height is not sqrt(L a / 2): its area has to be L
+      => the triangle with sqrt(L a / 2)
+    triangle-not-a-root: the triangle's height is the root of L a; L a itself is the
+      square of a speed => the triangle with L a
+    triangle-too-late: it becomes a triangle only below L = v^2 / (2 a), which is one
+      ramp's way; there are two ramps => the triangle below v^2 / (2 a)
+    ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
+      the ramps cost one ramp more => the profile with T = L / v
+    """
+    top = timing(L, v, a)[0]
+    return {
+        "no-triangle": to_top(t, L, a, v),
+        "always-a-triangle": to_top(t, L, a, np.sqrt(L * a)),
+        "triangle-too-high": to_top(t, L, a, min(v, np.sqrt(2 * L * a))),
+        "triangle-too-low": to_top(t, L, a, min(v, np.sqrt(L * a / 2))),
+        "triangle-not-a-root": to_top(t, L, a, min(v, L * a)),
+        "triangle-too-late": to_top(t, L, a, np.sqrt(L * a) if v**2 > 2 * L * a else v),
+        "ramps-take-no-time": profile(t, L, a, top, L / top),
+    }
 
 
-@row.wrong
-def always_a_triangle(t, L, v, a):
-    """it never cruises: the top speed is sqrt(L a) even where that is over v => the
-    triangle"""
-    return to_top(t, L, a, np.sqrt(L * a))
-
-
-@row.wrong
-def triangle_too_high(t, L, v, a):
-    """half of the triangle is for braking, so its height is not sqrt(2 L a) => the
-    triangle with sqrt(2 L a)"""
-    return to_top(t, L, a, min(v, np.sqrt(2 * L * a)))
-
-
-@row.wrong
-def triangle_too_low(t, L, v, a):
-    """the triangle's height is not sqrt(L a / 2): its area has to be L => the triangle
-    with sqrt(L a / 2)"""
-    return to_top(t, L, a, min(v, np.sqrt(L * a / 2)))
-
-
-@row.wrong
-def triangle_not_a_root(t, L, v, a):
-    """the triangle's height is the root of L a; L a itself is the square of a speed =>
-    the triangle with L a"""
-    return to_top(t, L, a, min(v, L * a))
-
-
-@row.wrong
-def triangle_too_late(t, L, v, a):
-    """it becomes a triangle only below L = v^2 / (2 a), which is one ramp's way; there
-    are two ramps => the triangle below v^2 / (2 a)"""
-    return to_top(t, L, a, np.sqrt(L * a) if v**2 / (2 * a) > L else v)
-
-
-@row.wrong
-def ramps_take_no_time(t, L, v, a):
-    """the duration is L / v, as if it were at v from the first moment; the ramps cost
-    one ramp more => the profile with T = L / v"""
-    top, _, _ = timing(L, v, a)
-    return profile(t, L, a, top, L / top)
-
-
-@row.wrong
-def both_ramps_added(t, L, v, a):
-    """the duration is one ramp's time, v / a, too long: compared with full speed, each
-    ramp costs only half of its own time => the profile with T = L / v + 2 v / a"""
-    top, ramp, _ = timing(L, v, a)
-    return profile(t, L, a, top, L / top + 2 * ramp)
-
-
-@row.wrong
-def braking_accelerates(t, L, v, a):
-    """while it slows down the acceleration is negative => the profile with +a at the
-    end"""
-    x, speed, acc = trapezoid(t, L, v, a)
-    return np.array([x, speed, abs(acc)])
-
-
-@row.wrong
-def braking_overshoots(t, L, v, a):
-    """the last piece comes from beyond the end: what is left has to be taken off L =>
-    the profile with a plus in the last piece"""
-    _, ramp, T = timing(L, v, a)
-    if T - ramp <= t < T:
-        return np.array([L + a * (T - t) ** 2 / 2, a * (T - t), -a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def half_forgotten(t, L, v, a):
-    """the way of a ramp is a t^2 / 2, not a t^2 => the profile with a t^2"""
-    _, ramp, T = timing(L, v, a)
-    if 0 < t < ramp:
-        return np.array([a * t**2, a * t, a])
-    if T - ramp <= t < T:
-        return np.array([L - a * (T - t) ** 2, a * (T - t), -a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def half_forgotten(t, L, v, a):
-    """in the first piece, the way of a ramp is a t^2 / 2, not a t^2 => the profile with
-    a t^2"""
-    if 0 < t < timing(L, v, a)[1]:
-        return np.array([a * t**2, a * t, a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def ramps_way_forgotten(t, L, v, a):
-    """the cruise starts at 0; it has to start where the ramp ended => the cruise from
-    0"""
+@row.wrongs
+def _(t, L, v, a):
+    """braking-overshoots: the last piece comes from beyond the end: what is left has to
+      be taken off L => the profile with a plus in the last piece
+    half-forgotten: the way of a ramp is a t^2 / 2, not a t^2 => the profile with a t^2
+    ramps-way-forgotten: the cruise starts at 0; it has to start where the ramp ended =>
+      the cruise from 0
+    ramp-at-full-speed: the cruise counts the ramp as if it had been at full speed all
+      the time => the cruise with v t
+    """
     top, ramp, T = timing(L, v, a)
-    if ramp <= t < T - ramp:
-        return np.array([top * (t - ramp), top, 0.0])
-    return trapezoid(t, L, v, a)
+    starts, cruises, brakes = 0 < t < ramp, ramp <= t < T - ramp, T - ramp <= t < T
+    up, down = starts * a * t**2 / 2, brakes * a * (T - t) ** 2 / 2
+    behind = cruises * top * ramp / 2
+    farther = {
+        "braking-overshoots": 2 * down,
+        "half-forgotten": up - down,
+        "ramps-way-forgotten": -behind,
+        "ramp-at-full-speed": behind,
+    }
+    right = trapezoid(t, L, v, a)
+    return {slug: right + np.array([way, 0.0, 0.0]) for slug, way in farther.items()}
 
 
-@row.wrong
-def ramp_at_full_speed(t, L, v, a):
-    """the cruise counts the ramp as if it had been at full speed all the time => the
-    cruise with v t"""
+@row.wrongs
+def _(t, L, v, a):
+    """both-ramps-added: the duration is one ramp's time, v / a, too long: compared with
+      full speed, each ramp costs only half of its own time => the profile with T = L
+      / v + 2 v / a
+    braking-accelerates: while it slows down the acceleration is negative => the profile
+      with +a at the end
+    half-forgotten: in the first piece, the way of a ramp is a t^2 / 2, not a t^2 => the
+      profile with a t^2
+    does-not-stop: after the end it goes on with -a, backwards => the profile without
+      its end
+    does-not-wait: before the start it is on the ramp already => the profile without its
+      start
+    does-not-wait-or-stop: before the start and after the end the ramps go on => the
+      profile without its ends
+    order: the order is position, speed, acceleration; here it runs backwards => the
+      order acceleration, speed, position
+    """
     top, ramp, T = timing(L, v, a)
-    if ramp <= t < T - ramp:
-        return np.array([top * t, top, 0.0])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def does_not_stop(t, L, v, a):
-    """after the end it goes on with -a, backwards => the profile without its end"""
-    left = timing(L, v, a)[2] - t
-    if left <= 0:
-        return np.array([L - a * left**2 / 2, a * left, -a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def does_not_wait(t, L, v, a):
-    """before the start it is on the ramp already => the profile without its start"""
-    if t <= 0:
-        return np.array([a * t**2 / 2, a * t, a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def does_not_wait_or_stop(t, L, v, a):
-    """before the start and after the end the ramps go on => the profile without its
-    ends"""
-    left = timing(L, v, a)[2] - t
-    if t <= 0:
-        return np.array([a * t**2 / 2, a * t, a])
-    if left <= 0:
-        return np.array([L - a * left**2 / 2, a * left, -a])
-    return trapezoid(t, L, v, a)
-
-
-@row.wrong
-def order(t, L, v, a):
-    """the order is position, speed, acceleration; here it runs backwards => the order
-    acceleration, speed, position"""
-    return trapezoid(t, L, v, a)[::-1]
+    left, right = T - t, trapezoid(t, L, v, a)
+    up = np.array([a * t**2 / 2, a * t, a])
+    down = np.array([L - a * left**2 / 2, a * left, -a])
+    stops = down if left <= 0 else right
+    return {
+        "both-ramps-added": profile(t, L, a, top, T + ramp),
+        "braking-accelerates": np.append(right[:2], abs(right[2])),
+        "half-forgotten": up * [2.0, 1.0, 1.0] if 0 < t < ramp else right,
+        "does-not-stop": stops,
+        "does-not-wait": up if t <= 0 else right,
+        "does-not-wait-or-stop": up if t <= 0 else stops,
+        "order": right[::-1],
+    }
 
 
 @row.right  # Three durations, added up piece by piece.

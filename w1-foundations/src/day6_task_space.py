@@ -167,7 +167,7 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
 
 
 def stiff_arm(arm, q_start: np.ndarray):
-    """Return a controller for servos: down to 50 mm below the table's top."""
+    """Return a controller for servos: 10 mm above the table's top to 50 below it."""
     q_deep = contact.above_table(scenes.press_table(), -0.05)
     return lambda t, q, qd: q_start + (q_deep - q_start) * min(t * SINK / 0.06, 1.0)
 

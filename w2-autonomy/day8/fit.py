@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Vector, draw
 from labkit.judge.row import Row
-from robo47.identification import fit, identifiable
+from robo47.identification import fit
 
 from .states import CUT, regressors
 
@@ -30,43 +30,32 @@ def parts(Y, rtol):
     return U[:, kept], s[kept], Vt[kept]
 
 
-for slug, says, redone, code in (
-    ("nothing-cut", "small values are kept as well: what the motion does not show is "
-     "made up of noise, and large", "the right one with nothing cut",
-     lambda Y, tau, rtol: fit(Y, tau, 1e-12)),
-    ("rtol-absolute", "a value is compared with rtol itself; it counts above rtol "
-     "times the largest", "the right one with rtol absolute",
-     lambda Y, tau, rtol: fit(Y, tau, min(rtol / np.linalg.norm(Y, 2), 0.999))),
-    ("cut-not-squared", "the cut is made on eigenvalues of Y^T Y, which are squares, "
-     "and is not squared", "the right one with rtol's square root",
-     lambda Y, tau, rtol: fit(Y, tau, np.sqrt(rtol))),
-    ("ridge", "something is added to the diagonal of Y^T Y: every parameter is pulled "
-     "towards 0, also what the motion shows", "(Y^T Y + 1)^-1 Y^T tau",
-     lambda Y, tau, rtol: np.linalg.solve(Y.T @ Y + np.eye(Y.shape[1]), Y.T @ tau)),
-):  # fmt: skip
-    row.wrong(slug, says, redone)(code)
-
-
-@row.wrong
-def times_s(Y, tau, rtol):
-    """it is multiplied by the singular values; Y = U S V^T is undone by dividing, and
-    Y^T tau alone is no solution => V S U^T tau"""
-    U, s, Vt = parts(Y, rtol)
-    return Vt.T @ (s * (U.T @ tau))
-
-
-@row.wrong
-def first_columns(Y, tau, rtol):
-    """only the first columns are fitted, as many as the rank; which ones hide one
-    another is not known by their place => the first columns alone, 0 for the rest"""
-    rank, _ = identifiable(Y, rtol)
-    first, *_ = np.linalg.lstsq(Y[:, :rank], tau, rcond=None)
-    return np.append(first, np.zeros(Y.shape[1] - rank))
-
-
-@row.right  # NumPy's lstsq, told where to cut.
+@row.wrongs
 def _(Y, tau, rtol):
-    return np.linalg.lstsq(Y, tau, rcond=rtol)[0]
+    """nothing-cut: small values are kept as well: what the motion does not show is made
+      up of noise, and large => the right one with nothing cut
+    rtol-absolute: a value is compared with rtol itself; it counts above rtol times the
+      largest => the right one with rtol absolute
+    cut-not-squared: the cut is made on eigenvalues of Y^T Y, which are squares, and is
+      not squared => the right one with rtol's square root
+    ridge: something is added to the diagonal of Y^T Y: every parameter is pulled
+      towards 0, also what the motion shows => (Y^T Y + 1)^-1 Y^T tau
+    times-s: it is multiplied by the singular values; Y = U S V^T is undone by dividing,
+      and Y^T tau alone is no solution => V S U^T tau
+    first-columns: only the first columns are fitted, as many as the rank; which ones
+      hide one another is not known by their place => the first columns alone, 0 for the
+      rest
+    """
+    (U, s, Vt), p = parts(Y, rtol), Y.shape[1]
+    first = np.linalg.lstsq(Y[:, : len(s)], tau, rcond=None)[0]
+    return {
+        "nothing-cut": fit(Y, tau, 1e-12),
+        "rtol-absolute": fit(Y, tau, min(rtol / s[0], 0.999)),
+        "cut-not-squared": fit(Y, tau, np.sqrt(rtol)),
+        "ridge": np.linalg.solve(Y.T @ Y + np.eye(p), Y.T @ tau),
+        "times-s": Vt.T @ (s * (U.T @ tau)),
+        "first-columns": np.pad(first, (0, p - len(s))),
+    }
 
 
 @row.right  # The pseudo-inverse of Y^T Y, cut at the square.

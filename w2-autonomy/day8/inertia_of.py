@@ -1,5 +1,7 @@
 """8.1 `inertia_of(phi)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Symmetric
@@ -17,47 +19,43 @@ def _(rng):
     return [(np.array([2.0, 0, 0, 2, 2, 2, 0, 0, 0, 0]),), *((x,) for x in bodies(rng))]
 
 
-for slug, says, redone, change in (
-    ("products-negative", "Ixy, Ixz and Iyz have changed their sign; here they are the "
-     "entries of I as they stand in it", "the right one with -Ixy, -Ixz, -Iyz",
-     lambda phi: phi * np.append(np.ones(7), -np.ones(3))),
-    ("row-by-row", "the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the "
-     "order of other software; here the diagonal comes first", "I in that order",
-     lambda phi: phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]]),
-    ("first-moment-times-m", "phi[1:4] is multiplied by m; it is m c already, which "
-     "keeps all of it linear", "the right one with m [h] for [h]",
-     lambda phi: phi * np.append([1.0, *[phi[0]] * 3], np.ones(6))),
-    ("corners-swapped", "the corners are swapped: [h] stands at the upper right, [h]^T "
-     "at the lower left", "the right one with -h",
-     lambda phi: phi * np.append([1.0, -1, -1, -1], np.ones(6))),
-):  # fmt: skip
-    row.wrong(slug, says, redone)(lambda phi, change=change: right(change(phi)))
+@row.wrongs
+def _(phi):
+    """products-negative: Ixy, Ixz and Iyz have changed their sign; here they are the
+      entries of I as they stand in it => the right one with -Ixy, -Ixz, -Iyz
+    row-by-row: the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of
+      other software; here the diagonal comes first => I in that order
+    first-moment-times-m: phi[1:4] is multiplied by m; it is m c already, which keeps
+      all of it linear => the right one with m [h] for [h]
+    corners-swapped: the corners are swapped: [h] stands at the upper right, [h]^T at
+      the lower left => the right one with -h
+    """
+    m, *h = phi[:4]
+    changed = {
+        "products-negative": [m, *h, *phi[4:7], *-phi[7:]],
+        "row-by-row": phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]],
+        "first-moment-times-m": [m, *(m * phi[1:4]), *phi[4:]],
+        "corners-swapped": [m, *-phi[1:4], *phi[4:]],
+    }
+    return {slug: partial(right, other) for slug, other in changed.items()}
 
 
-@row.wrong
-def lower_half_zero(phi):
-    """the products stand above the diagonal of I only; I is symmetric => the right one
-    without them below"""
-    G = right(phi)
-    G[:3, :3] = np.triu(G[:3, :3])
-    return G
-
-
-@row.wrong
-def inertia_about_the_centre(phi):
-    """m [c] [c]^T is added to I; phi has I about the origin, with that in it already =>
-    the right one with I + m [c] [c]^T"""
+@row.wrongs
+def _(phi):
+    """lower-half-zero: the products stand above the diagonal of I only; I is symmetric
+      => the right one without them below
+    inertia-about-the-centre: m [c] [c]^T is added to I; phi has I about the origin,
+      with that in it already => the right one with I + m [c] [c]^T
+    velocity-first: the blocks are in the order (v; omega); here omega comes first =>
+      the right one with its halves swapped
+    """
     G, C = right(phi), skew(phi[1:4])
-    if phi[0]:
-        G[:3, :3] += C @ C.T / phi[0]
-    return G
-
-
-@row.wrong
-def velocity_first(phi):
-    """the blocks are in the order (v; omega); here omega comes first => the right one
-    with its halves swapped"""
-    return right(phi)[np.ix_(SWAP, SWAP)]
+    below, moved = np.tril(G[:3, :3], -1), C @ C.T / (phi[0] or np.inf)
+    return {
+        "lower-half-zero": G - np.pad(below, (0, 3)),
+        "inertia-about-the-centre": G + np.pad(moved, (0, 3)),
+        "velocity-first": G[np.ix_(SWAP, SWAP)],
+    }
 
 
 @row.right  # One constant matrix for each number: that is what linear means.

@@ -5,7 +5,6 @@ import numpy as np
 from labkit.judge import Vector
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import Row
-from robo47.identification import payload_from_holds
 from robo47.screws import skew
 
 from .states import DOWN, SWAP, hands
@@ -20,95 +19,71 @@ def _(rng):
     return [(slide, np.array([np.eye(3)] * 5), extra, DOWN), *hands(rng)]
 
 
-def solved(J_site, R_site, extra, g, sign=-1.0, moment=-1.0, order=None):
-    """Return m and m c, with another sign of all, of the moment, or another order."""
+def rows(J_site, R_site, g, moment=-1.0, order=slice(None)):
+    """Return what m and m c cost, the moment with another sign, or another order."""
     W = np.zeros((len(R_site), 6, 4))
     W[:, 3:, 0], W[:, :3, 1:] = g, moment * skew(g) @ R_site
-    W = W if order is None else W[:, order]
-    rows = sign * np.swapaxes(J_site, 1, 2) @ W
-    return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
+    return -np.swapaxes(J_site, 1, 2) @ W[:, order]
 
 
-for slug, says, redone, other in (
-    ("load-drives", "the sign is that of what the load does to the arm; the motors "
-     "hold against it", "the right one with +J^T", {"sign": 1.0}),
-    ("moment-sign", "the moment has the wrong sign: c x m g is -[g] m c, and its "
-     "centre comes out on the other side", "with +[g] R", {"moment": 1.0}),
-    ("force-first", "the wrench is (force; moment); J has its angular rows first",
-     "the right one with its halves swapped", {"order": SWAP}),
-):  # fmt: skip
-
-    @row.wrong(slug, says, redone)
-    def _(J_site, R_site, extra, g, other=other):
-        return solved(J_site, R_site, extra, g, **other)
+def solved(Y, extra):
+    """Return m and m c."""
+    return np.linalg.lstsq(Y.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
 
 
-@row.wrong
-def R_forgotten(J_site, R_site, extra, g):
-    """R is not in it: m c is taken to stand in world axes all along => the right one
-    with R = I"""
-    return solved(J_site, np.array([np.eye(3)] * len(R_site)), extra, g)
+@row.wrongs
+def _(J_site, R_site, extra, g):
+    """load-drives: the sign is that of what the load does to the arm; the motors hold
+      against it => the right one with +J^T
+    moment-sign: the moment has the wrong sign: c x m g is -[g] m c, and its centre
+      comes out on the other side => with +[g] R
+    force-first: the wrench is (force; moment); J has its angular rows first => the
+      right one with its halves swapped
+    R-forgotten: R is not in it: m c is taken to stand in world axes all along => the
+      right one with R = I
+    R-transposed: R is transposed: it takes the hand's axes to the world's => the right
+      one with R^T
+    holds-averaged: the holds are averaged before they are solved: seven rows are left
+      of all, and what the poses tell apart is gone; stack them => the right one from
+      the mean
+    first-hold-only: only the first hold is used; one pose does not show all four => the
+      right one from the first
+    g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
+      first, so [g] R => with R [g]
+    centre-for-first-moment: the last three are c; asked for is m c, which is what is
+      linear => m, then c
+    """
+    Y, back = rows(J_site, R_site, g), np.swapaxes(R_site, 1, 2)
+    left = Y.copy()
+    left[..., 1:] = np.swapaxes(J_site[:, :3], 1, 2) @ R_site @ skew(g)
+    right = solved(Y, extra)
+    return {
+        "load-drives": -right,
+        "moment-sign": solved(rows(J_site, R_site, g, moment=1.0), extra),
+        "force-first": solved(rows(J_site, R_site, g, order=SWAP), extra),
+        "R-forgotten": solved(rows(J_site, 0 * R_site + np.eye(3), g), extra),
+        "R-transposed": solved(rows(J_site, back, g), extra),
+        "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
+        "first-hold-only": solved(Y[0], extra[0]),
+        "g-turned-after-the-cross": solved(left, extra),
+        "centre-for-first-moment": np.append(right[0], right[1:] / right[0]),
+    }
 
 
-@row.wrong
-def R_transposed(J_site, R_site, extra, g):
-    """R is transposed: it takes the hand's axes to the world's => the right one with
-    R^T"""
-    return solved(J_site, np.swapaxes(R_site, 1, 2), extra, g)
-
-
-@row.wrong
-def holds_averaged(J_site, R_site, extra, g):
-    """the holds are averaged before they are solved: seven rows are left of all, and
-    what the poses tell apart is gone; stack them => the right one from the mean"""
-    W = np.zeros((len(R_site), 6, 4))
-    W[:, 3:, 0], W[:, :3, 1:] = g, -skew(g) @ R_site
-    rows = (-np.swapaxes(J_site, 1, 2) @ W).mean(axis=0)
-    return np.linalg.lstsq(rows, extra.mean(axis=0), rcond=None)[0]
-
-
-@row.wrong
-def first_hold_only(J_site, R_site, extra, g):
-    """only the first hold is used; one pose does not show all four => the right one
-    from the first"""
-    return solved(J_site[:1], R_site[:1], extra[:1], g)
-
-
-@row.wrong
-def g_turned_after_the_cross(J_site, R_site, extra, g):
-    """R stands on the left of [g]: m c is turned into the world first, so [g] R => with
-    R [g]"""
-    W = np.zeros((len(R_site), 6, 4))
-    W[:, 3:, 0], W[:, :3, 1:] = g, -R_site @ skew(g)
-    rows = -np.swapaxes(J_site, 1, 2) @ W
-    return np.linalg.lstsq(rows.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
-
-
-@row.wrong
-def centre_for_first_moment(J_site, R_site, extra, g):
-    """the last three are c; asked for is m c, which is what is linear => m, then c"""
-    m, *h = payload_from_holds(J_site, R_site, extra, g)
-    return np.append(m, np.array(h) / m)
-
-
-row.of_argument(
-    "g",
-    Change(
-        "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument g",
-        lambda g: DOWN,
-        "what is found with that gravity",
-    ),
+TYPED_IN = Change(
+    "gravity-typed-in",
+    "9.81 downwards is typed in; gravity is the argument g",
+    lambda g: DOWN,
+    "what is found with that gravity",
 )
+row.of_argument("g", TYPED_IN)
 
 
 @row.right  # A hold at a time, with cross products; then the normal equations.
 def _(J_site, R_site, extra, g):
     A, b = np.zeros((4, 4)), np.zeros(4)
     for J, R, tau in zip(J_site, R_site, extra, strict=True):
-        moments = [np.cross(axis, g) for axis in R.T]
-        W = np.vstack([np.column_stack([np.zeros(3), *moments]), np.zeros((3, 4))])
-        W[3:, 0] = g
-        rows = -J.T @ W
+        moments, none = np.cross(R.T, g).T, np.zeros((3, 1))
+        rows = -J.T @ np.block([[none, moments], [g[:, None], 0 * R]])
         A, b = A + rows.T @ rows, b + rows.T @ tau
     return np.linalg.pinv(A, rcond=1e-12) @ b

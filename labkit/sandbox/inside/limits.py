@@ -27,7 +27,7 @@ def die_with_parent() -> None:
 
 
 def leave_network() -> bool:
-    """Move this process to a network namespace of its own, which has no network.
+    """Move this process to a network namespace of its own, without a network.
 
     Returns:
         Whether the platform did it: Linux, where it lets users make namespaces.

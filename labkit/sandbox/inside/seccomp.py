@@ -76,11 +76,7 @@ def known() -> bool:
 
 
 def close() -> bool:
-    """Refuse those calls to this process for the rest of its life.
-
-    Returns:
-        Whether the kernel does it.
-    """
+    """Refuse those calls to this process for good; return whether the kernel does."""
     if not known():
         return False
     code = b"".join(

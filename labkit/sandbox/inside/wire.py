@@ -21,11 +21,7 @@ class UnsendableError(ValueError):
 
 
 def pack_array(array: np.ndarray, most: int = LARGEST) -> dict[str, Any]:
-    """Return an array of numbers as JSON.
-
-    Raises:
-        UnsendableError: not plain numbers, or too many of them.
-    """
+    """Return an array as JSON; an UnsendableError where it is not plain numbers."""
     plain = np.array(array, copy=True, order="C", subok=False)
     if plain.dtype == np.longdouble:
         plain = plain.astype(np.float64)
@@ -43,11 +39,7 @@ def pack_array(array: np.ndarray, most: int = LARGEST) -> dict[str, Any]:
 
 
 def unpack_array(packed: Any, most: int = LARGEST) -> np.ndarray:
-    """Return a writable array from what `pack_array` made, or somebody forged.
-
-    Raises:
-        ValueError: not such an array.
-    """
+    """Return a writable array of what `pack_array` made; a ValueError of a forgery."""
     try:
         code, shape = str(packed["dtype"]), [int(n) for n in packed["shape"]]
         data = base64.b64decode(packed["data"], validate=True)
@@ -65,12 +57,9 @@ def unpack_array(packed: Any, most: int = LARGEST) -> np.ndarray:
 def pack_value(value: Any, most: int = LARGEST) -> Any:
     """Return what a student's function returned as JSON.
 
-    Args:
-        value: it.
-        most: how many numbers it may hold.
-
     Raises:
-        UnsendableError: not None, a number, an array, or a tuple or list of those.
+        UnsendableError: not None, a number, an array, or a tuple or list of those; or
+            more than so many numbers.
     """
     if value is None:
         return None
@@ -94,11 +83,7 @@ def pack_value(value: Any, most: int = LARGEST) -> Any:
 
 
 def unpack_value(packed: Any, most: int = LARGEST) -> Any:
-    """Return None, an array or a tuple of arrays.
-
-    Raises:
-        ValueError: none of these.
-    """
+    """Return None, an array or a tuple of arrays; a ValueError where it is none."""
     if packed is None:
         return None
     if isinstance(packed, dict) and "array" in packed:
@@ -112,8 +97,7 @@ def unpack_value(packed: Any, most: int = LARGEST) -> Any:
 def unpack_values(some: list[Any], most: int) -> list[Any]:
     """Return each value, or the ValueError that says why it is none.
 
-    Returns:
-        One per value, up to the first that only a forger writes.
+    It ends at the first that only a forger writes.
     """
     found: list[Any] = []
     for packed in some:
