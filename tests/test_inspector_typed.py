@@ -75,12 +75,3 @@ def test_every_digit_of_a_configuration_survives(q):
     back, frame, tab = typed.read_address(query, 7)
     np.testing.assert_array_equal(back, q)
     assert (frame, tab) == ("link4", "Chain")
-
-
-@pytest.mark.parametrize(
-    "query",
-    ["", "?", "?q=", "?q=1,2", "?q=a,b,c,d,e,f,g", "?q=nan,0,0,0,0,0,0",
-     "?q=1e300,0,0,0,0,0,0", "?q=inf,0,0,0,0,0,0", "%%%", "?q=" + "0," * 10_000],
-)  # fmt: skip
-def test_an_address_that_leads_nowhere_leaves_the_arm_where_it_is(query):
-    assert typed.read_address(query, 7)[0] is None

@@ -38,7 +38,7 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
     own(library)                the student's functions, in the sandbox; a line says how
                                 they compare with the library's of the same names
     job(work, done)             work that waits for them, on another thread
-    animate(step, hz, work)     a loop in real time: start(), stop(), `running`
+    animate(step, hz, work)     a loop in real time: start(), stop(), toggle()
     draw                        arrows, lines, curve, sphere, ellipsoid, frame, label,
                                 ghost (a second arm), robot (a scene of MuJoCo's),
                                 target (a pose to drag)

@@ -142,11 +142,9 @@ def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:
     A body that is only there to carry the end's site (`attachment`) shares its pose
     with `ee` and would hide it.
     """
-    carrier = chain.links[-1].name
-    bodies = [
-        full
+    hidden = "body:world", chain.links[-1].name
+    return {END: chain.frame} | {
+        full.removeprefix("body:"): full
         for full in frame_names(model)
-        if full.startswith("body:") and full not in ("body:world", carrier)
-    ]
-    names = {END: chain.frame}
-    return names | {full.partition(":")[2]: full for full in bodies}
+        if full.startswith("body:") and full not in hidden
+    }

@@ -166,10 +166,7 @@ class Chain(Tab):
 
 
 def says_of(this: Step, number: int, of: int, whole: bool) -> str:
-    """Return one factor of the chain: what it is, and the three matrices, as HTML.
-
-    It is whole where the link has no factor after this one.
-    """
+    """Return a factor of the chain with its matrices; the whole link's is its last."""
     if this.joint:
         about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"
     else:

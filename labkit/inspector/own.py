@@ -45,9 +45,6 @@ class Own:
         self._free, self._student = free, student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
-        self._forget()
-
-    def _forget(self) -> None:
         self._apart: dict[str, float] = {}
         self._lent: dict[str, str] = {}
 
@@ -64,8 +61,7 @@ class Own:
         student = self._student()
         version = student.version if student and student.there else -1
         if version != self.version:
-            self.version = version
-            self._forget()
+            self.version, self._apart, self._lent = version, {}, {}
         if student is None or version < 0:
             why = "there is no file yet" if student else "yours is being opened"
             self._lent |= {name: why for name, *_ in calls}

@@ -106,10 +106,7 @@ class ArmScene:
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
-        """Draw the student's arm where it is not the real one, {short name: (4, 4)}.
-
-        A line leads to its end from where that should be.
-        """
+        """Draw the student's arm, {short name: (4, 4)}, and a line to its end."""
         self.ghost.pose(poses)
         there = poses.get(end)
         self.yours.show(there is not None, chosen=True)
