@@ -8,6 +8,7 @@ import os
 import py_compile
 import textwrap
 import time
+import tracemalloc
 
 import pytest
 
@@ -443,6 +444,15 @@ class TestAForgedMessage:
         replies = ask(code, *[Question("1.1", "f", ())] * 60)
         assert replies[-1].error == "its answers are far too large, all together"
         assert process.MOST_WAITING * process.LONGEST_LINE < 50_000_000
+
+    def test_of_many_small_parts_is_not_taken_apart(self, ask):
+        many = "send('{\"at\": 0, \"x\": [' + '[], ' * 400_000 + '0]}')"
+        tracemalloc.start()
+        (reply,) = ask(f"{self.FIND}\n        def f(): {many}")
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert reply.kind == "stopped"
+        assert peak < 15_000_000  # its parts alone: 26 MB
 
     def test_while_the_file_is_loaded_does_not_make_the_checker_wait(self, ask):
         code = (

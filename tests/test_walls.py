@@ -169,6 +169,13 @@ ATTACKS = {
         held = os.open(numpy.__file__, os.O_RDONLY)
         fcntl.fcntl(held, 1024, 0)  # F_SETLEASE, F_RDLCK: now no one may write
         fcntl.fcntl(held, 1024, 2)""",
+    "change a file's flags": """
+        import ctypes, numpy
+        fd, flags = os.open(numpy.__file__, os.O_RDONLY), ctypes.c_int()
+        asked = ((0x80086601, 0), (0x40086602, 0x40))  # FS_IOC_GET, SETFLAGS: no dump
+        for command, more in asked:
+            flags.value |= more
+            libc('ioctl', fd, ctypes.c_ulong(command), ctypes.byref(flags))""",
     "lock a file": """
         import fcntl
         import numpy

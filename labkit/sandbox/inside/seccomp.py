@@ -48,10 +48,12 @@ swapoff 168 225       acct 163 89             quotactl 179 60
 quotactl_fd 443 443   syslog 103 116          iopl 172 -              ioperm 173 -
 """
 _NEWER = 451  # what came later is not known here, nor to today's Python
-_FCNTL, _PRLIMIT, _PRCTL = (72, 25), (302, 261), (157, 167)
+_PRLIMIT, _PRCTL = (302, 261), (157, 167)
 _PDEATHSIG = 1  # of prctl: what ends it with the checker is set already, and stays
-# F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_DUPFD_CLOEXEC: no lock, no lease, no signal.
-_ALLOWED = (0, 1, 2, 3, 1030)
+# Calls that do many things, and which of them are left (the second argument).
+# fcntl: F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_DUPFD_CLOEXEC: no lock, lease, signal.
+# ioctl: FIONCLEX, FIOCLEX: it changes a file's flags though that is open for reading.
+_COMMANDS = {(72, 25): (0, 1, 2, 3, 1030), (16, 29): (0x5450, 0x5451)}
 _MACHINES = {
     "x86_64": (0, 0xC000003E),
     "aarch64": (1, 0xC00000B7),
@@ -97,7 +99,6 @@ def _program(column: int, machine: int) -> list[Instruction]:
     words = _REFUSED.split()
     rows = zip(*(words[start::3] for start in range(3)), strict=True)
     numbers = [int(row[1 + column]) for row in rows if row[1 + column] != "-"]
-    commands = [i for number in _ALLOWED for i in _answer(number, _ALLOW)]
     return [
         (_LOAD, 0, 0, _ARCH),
         (_IF_EQUAL, 1, 0, machine),
@@ -115,12 +116,16 @@ def _program(column: int, machine: int) -> list[Instruction]:
         (_IF_EQUAL, 1, 0, 0),  # the process itself
         (_RETURN, 0, 0, _EPERM),
         (_RETURN, 0, 0, _ALLOW),
-        (_IF_EQUAL, 0, 2 + len(commands), _FCNTL[column]),
-        (_LOAD, 0, 0, _SECOND_ARGUMENT),
-        *commands,
-        (_RETURN, 0, 0, _EPERM),
+        *(i for number in _COMMANDS for i in _only(number[column], _COMMANDS[number])),
         (_RETURN, 0, 0, _ALLOW),
     ]
+
+
+def _only(number: int, commands: tuple[int, ...]) -> list[Instruction]:
+    """Return what refuses all commands of a call but some."""
+    allowed = [i for command in commands for i in _answer(command, _ALLOW)]
+    start = [(_IF_EQUAL, 0, 2 + len(allowed), number), (_LOAD, 0, 0, _SECOND_ARGUMENT)]
+    return [*start, *allowed, (_RETURN, 0, 0, _EPERM)]
 
 
 def _answer(number: int, answer: int) -> list[Instruction]:
