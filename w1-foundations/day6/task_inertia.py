@@ -26,8 +26,8 @@ DAMPED = (
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
-    "Right, but not near a singularity: in the direction in which the hand hardly moves "
-    "it is heaviest, not weightless. Does a pseudo-inverse cut small values off?",
+    "Right, but not near a singularity: in the direction in which the hand hardly "
+    "moves it is heaviest, not weightless. Does a pseudo-inverse cut small values off?",
     lambda rng: [(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 0.01]) @ J_CASE, 2.0 * M_CASE)],
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
