@@ -12,7 +12,7 @@ from make_class import DAY, DEADLINE, WEEK, commit
 from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
-from labkit.grade import sheet
+from labkit.grade import in_time, sheet
 from labkit.grade.in_time import read_in_time
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect
@@ -110,6 +110,35 @@ def test_a_file_too_large_to_look_at_is_said_so_as_in_the_folder(clone):
     save(clone, "x = 1", DEADLINE + HOUR)
     handin, _, _ = read_in_time(DAY, clone, DEADLINE)
     assert "2.4 MB" in handin.unread[SCRIPT]
+
+
+def test_one_blob_under_many_names_fills_no_disk(clone, monkeypatch):
+    save(clone, "import m0", DEADLINE - HOUR)
+    (clone / "blob").write_bytes(b"#" * 3_000_000)
+    blob = git(clone, "hash-object", "-w", "blob")
+    (clone / "blob").unlink()
+    names = [f"{WEEK}/work/{name}.py" for name in ("x" * 300, *map(str, range(900)))]
+    entries = "".join(f"100644 {blob}\t{name}\n" for name in names)
+    command = ["git", "update-index", "--index-info"]
+    subprocess.run(command, cwd=clone, input=entries.encode(), check=True)
+    who = ("-c", "user.name=A", "-c", "user.email=a@b")
+    for when in (DEADLINE, DEADLINE + 60):
+        for role in ("AUTHOR", "COMMITTER"):
+            monkeypatch.setenv(f"GIT_{role}_DATE", f"{when} +0000")
+        git(clone, *who, "commit", "-q", "--allow-empty", "-m", "x")
+    taken: list[int] = []
+    asked = in_time.read_handin
+
+    def seen(day, folder):
+        files = [path.stat() for path in folder.rglob("*.py")]
+        taken.extend((len(files), sum(512 * file.st_blocks for file in files)))
+        return asked(day, folder)
+
+    monkeypatch.setattr(in_time, "read_handin", seen)
+    handin, _, late = read_in_time(DAY, clone, DEADLINE)
+    assert (late, handin.files[SCRIPT]) == (1, b"import m0")
+    assert taken[-2] <= in_time.MOST + 1
+    assert taken[-1] < 100_000
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows makes no links for us")

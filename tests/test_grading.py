@@ -602,6 +602,11 @@ class TestHistory:
             file.write(f"\n{out}\n")
         assert not git.read_history(tmp_path, [SCRIPT]).readable
 
+    def test_reads_no_configuration_of_megabytes(self, tmp_path):
+        commit(tmp_path, 1_788_000_000)
+        os.truncate(tmp_path / ".git" / "config", 10**9 // 2)  # a sparse file
+        assert not git.read_history(tmp_path, [SCRIPT]).readable
+
     @pytest.mark.parametrize("what", ["a file of a terabyte", "many files"])
     def test_reads_nothing_of_a_repository_beyond_all_measure(
         self, tmp_path, what, monkeypatch
