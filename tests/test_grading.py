@@ -327,6 +327,21 @@ class TestTheEngine:
     def test_believes_no_worker_that_lies(self, answer):
         assert "is no result of the day" in self.told(answer=answer)
 
+    @pytest.mark.parametrize(
+        ("fact", "says"),
+        [
+            ({"seed": 10**5000}, "of another kit or seed"),
+            ({"kit": "=1\n\ud800"}, "of another kit or seed"),
+            ({"text": "x" * 10**6}, "no result of the day"),
+        ],
+    )
+    def test_takes_kit_and_seed_and_megabytes_from_no_worker(self, fact, says):
+        assert says in self.told(answer=replace(ungraded(DAY, ""), **fact))
+
+    @pytest.mark.parametrize("error", [ValueError, MemoryError, SystemExit, OSError])
+    def test_takes_whatever_a_worker_raises_for_a_fault(self, error):
+        assert error.__name__ in self.told(error=error())
+
     def test_waits_for_no_worker_for_ever(self, monkeypatch):
         monkeypatch.setattr(engine, "PATIENCE", 0.01)
         monkeypatch.setattr(engine, "SILENCE", 0.05)
