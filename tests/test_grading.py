@@ -617,6 +617,18 @@ class TestHistory:
             file.write(f"\n{out}\n")
         assert not git.read_history(tmp_path, [SCRIPT]).readable
 
+    def test_asks_once_what_takes_all_its_time(self, tmp_path, monkeypatch):
+        commit(tmp_path, 1_788_000_000)
+        asked = []
+
+        def slow(*arguments, **_):
+            asked.append(arguments)
+            raise git._SlowError
+
+        monkeypatch.setattr(git, "run_bytes", slow)
+        assert not git.read_history(tmp_path, [SCRIPT]).readable
+        assert len(asked) == 1
+
     def test_reads_no_configuration_of_megabytes(self, tmp_path):
         commit(tmp_path, 1_788_000_000)
         os.truncate(tmp_path / ".git" / "config", 10**9 // 2)  # a sparse file

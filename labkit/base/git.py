@@ -84,12 +84,15 @@ def read_history(
         return History(readable=False)
     named = _git(git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say=at)
     commit, _, size = (named or "").strip().partition(" ")
+    if named is None:  # what took all its time is not asked again
+        return History(readable=False)
     if not size.isdecimal():
         return History(readable=_git(git, "rev-list", "-1", "--all") == "")
     if int(size) > LARGEST_COMMIT:
         return History(readable=False)
     text = _git(git, "cat-file", "commit", commit)
-    tree = _git(git, "ls-tree", "-z", "--full-tree", commit, "--", *wanted)
+    listing = ("ls-tree", "-z", "--full-tree", commit, "--", *wanted)
+    tree = None if text is None else _git(git, *listing)
     if text is None or tree is None:
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
