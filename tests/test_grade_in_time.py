@@ -175,6 +175,43 @@ def amend(origin: Path, text: str, when: int) -> None:
     save(origin, text, when)
 
 
+def test_a_repository_that_was_empty_is_taken_when_something_is_pushed(pulled):
+    origin, pull = pulled
+    git(origin, "update-ref", "-d", "HEAD")
+    pull()
+    pull()
+    save(origin, "first = 1", DEADLINE)
+    assert (pull() / SCRIPT).read_text() == "first = 1"
+
+
+@pytest.mark.parametrize(
+    "attributes", ["ident", "text eol=crlf", "working-tree-encoding=UTF-32"]
+)
+def test_files_are_checked_out_as_large_as_they_are(pulled, attributes):
+    origin, pull = pulled
+    (origin / ".gitattributes").write_text(f"large.txt {attributes}\n")
+    text = b"$Id$\n" * 1000
+    (origin / "large.txt").write_bytes(
+        text.decode().encode("utf-32") if "32" in attributes else text
+    )
+    save(origin, "x = 1", DEADLINE)
+    (origin / "large.txt").unlink()
+    size = int(git(origin, "cat-file", "-s", "HEAD:large.txt"))
+    assert size == 5000
+    assert (pull() / "large.txt").stat().st_size == size
+
+
+@pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything"
+)
+def test_a_folder_that_may_not_be_read_is_no_fault_of_this_machine(clone):
+    save(clone, "x = 1", DEADLINE)
+    (clone / SCRIPT).parent.chmod(0)
+    package, _ = collected(clone)
+    (clone / SCRIPT).parent.chmod(0o700)
+    assert "cannot be read" in package.handin.unread[SCRIPT]
+
+
 def test_an_amended_and_forced_push_is_taken(pulled):
     origin, pull = pulled
     pull()

@@ -556,7 +556,8 @@ class TestPulling:
         ((_, problem),) = pull_all([class_])
         assert "the last commit is too large to check out" in problem
         assert class_.path.exists() is not first
-        assert not [p for p in class_.path.parent.rglob("*") if p.name == "50"]
+        found = class_.path.parent.rglob("50")  # some object may be named so, too
+        assert not [p for p in found if ".git" not in p.parts]
 
     @pytest.mark.parametrize("how", ["commondir", "config", "link", "elsewhere"])
     def test_pulls_nothing_whose_configuration_is_anothers(self, class_, how, tmp_path):

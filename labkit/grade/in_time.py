@@ -54,7 +54,7 @@ def read_in_time(
 
 
 def _as_there(day: Day, root: Path) -> Day:
-    return day.named_as(lambda name: (root / name).is_file())
+    return day.named_as(lambda name: os.path.isfile(root / name))
 
 
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
