@@ -94,8 +94,7 @@ def arm_regressor(
     Args:
         J_space: space Jacobian, (..., 6, n).
         T_links: `T_world_link`, (..., n, 4, 4).
-        qd: joint velocities, rad/s, (..., n).
-        qdd: joint accelerations, rad/s^2, (..., n).
+        qd, qdd: joint velocities, rad/s, and accelerations, rad/s^2, (..., n).
         g: gravity, m/s^2, (3,).
 
     Returns:
@@ -121,8 +120,7 @@ def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
     """Return the columns of rotors, viscous and dry friction: qdd, qd, sign(qd).
 
     Args:
-        qd: joint velocities, rad/s, (..., n).
-        qdd: joint accelerations, rad/s^2, (..., n).
+        qd, qdd: joint velocities, rad/s, and accelerations, rad/s^2, (..., n).
 
     Returns:
         (..., n, 3 n): times (armature, damping, dry friction) it is a torque.
@@ -169,10 +167,8 @@ def predict_with_sigma(
     through the fit, so sigma is noise |V^T y / s| for a row y of Y_new.
 
     Args:
-        Y: regressor that is fitted to, (n, p), with n above its rank.
-        tau: measured torques, N m, (n,).
+        Y, tau, rtol: as in `fit`, with n above the rank of Y.
         Y_new: regressor of the new motions, (m, p).
-        rtol: as in `identifiable`.
 
     Returns:
         (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
@@ -213,10 +209,8 @@ def payload_from_holds(
     """Return what hangs on the hand, from torques that hold it still in some poses.
 
     Args:
-        J_site: site Jacobians, (k, 6, n).
-        R_site: `R_world_site`, (k, 3, 3).
+        J_site, R_site, g: as in `load_regressor`, of k poses.
         extra: torques with the load minus those without, N m, (k, n).
-        g: gravity, m/s^2, (3,).
 
     Returns:
         (m, m c), kg and kg m in the site's axes, (4,). Poses that only turn about

@@ -41,9 +41,8 @@ class Motion(NamedTuple):
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
     rng, secret = np.random.default_rng(seed), copy.copy(model)
-    joints = [secret.joint(name) for name in ARM_JOINTS]
-    links = [int(secret.jnt_bodyid[joint.id]) for joint in joints]
-    dofs = [int(joint.dofadr[0]) for joint in joints]
+    joints = [secret.joint(name).id for name in ARM_JOINTS]
+    links, dofs = secret.jnt_bodyid[joints], secret.jnt_dofadr[joints]
     secret.body_mass[links] *= rng.uniform(1.0 - MASS, 1.0 + MASS, 7)
     secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))
     secret.dof_damping[dofs] = rng.uniform(*DAMPING, 7)
@@ -101,13 +100,9 @@ def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 def swing(n: int = 200) -> Motion:
     """Return n samples, over ten seconds, of Day 5's swing of all joints together."""
-    t = np.pi * np.arange(n)[:, None] * SECONDS / n
+    t, half = np.pi * np.arange(n)[:, None] * SECONDS / n, REACH / 2.0
     c, s = np.cos(t), np.sin(t)
-    return Motion(
-        READY_Q + REACH * (1.0 - c) / 2.0,
-        REACH * np.pi * s / 2.0,
-        REACH * np.pi**2 * c / 2.0,
-    )
+    return Motion(READY_Q + half * (1.0 - c), half * np.pi * s, half * np.pi**2 * c)
 
 
 def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:

@@ -104,6 +104,12 @@ class Served:
         self.reader.join(timeout=SECONDS)
         return code
 
+    def __enter__(self) -> "Served":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     def close(self) -> None:
         """End it, whatever state it is in."""
         if self.process.poll() is None:

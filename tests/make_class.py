@@ -90,10 +90,10 @@ def own_kit() -> Files:
     """Return a clone whose every part that could take part in grading is changed."""
     passes = "import os\nprint('8 of 8 PASSED')\nos._exit(0)\n"
     places = ("robo47/__init__.py", "labkit/check/tasks.py", "robo47/se3.py")
-    places += ("conftest.py", f"{WEEK}/work/conftest.py", f"{WEEK}/work/numpy.py")
+    places += ("conftest.py", f"{WEEK}/work/conftest.py")
     return {
         **under_way(2),
-        **{name: passes for name in places if "work/numpy" not in name},
+        **dict.fromkeys(places, passes),
         f"{WEEK}/day1/day.toml": "number = 1\ntitle = 'Mine'\n",
         "Makefile": "check:\n\t@echo 8 of 8 PASSED\n",
     }
@@ -139,9 +139,7 @@ KINDS: dict[str, Callable[[int], Files]] = {
     "uncommitted": lambda i: wrong("wrong/fk_reversed"),
     "git with a program": lambda i: script(SOLVED),
     "copied": lambda i: script(own_way(ODD_WAY)),
-    "copyist": lambda i: script(
-        SOLVED.replace(LOADED, f"{renamed(ODD_WAY)}\n\n{LOADED}")
-    ),
+    "copyist": lambda i: script(own_way(renamed(ODD_WAY))),
 }
 NAMES = {  # of folders, where the kind's own is not odd enough
     "right": "Zoë Ångström",

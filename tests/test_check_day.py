@@ -36,6 +36,12 @@ def solve(day, work, *names):
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 
 
+def note_kits_run(day, clone):
+    log = clone / "metrics" / "metrics.csv"
+    for row in day.metrics:
+        metrics.append_row(log, day=1, check=row.check, metric=row.metric, value=1e-15)
+
+
 class TestStart:
     def test_writes_the_starter_and_says_how_to_go_on(self, run_in, day):
         done = run_in(START, 1)
@@ -112,11 +118,7 @@ class TestCheck:
             assert "Next: the whole day: make check DAY=1" in done.stdout
 
     def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
-        log = clone / "metrics" / "metrics.csv"
-        for row in day.metrics:
-            metrics.append_row(
-                log, day=1, check=row.check, metric=row.metric, value=1e-15
-            )
+        note_kits_run(day, clone)
         assert "0 of 14 done" in run_in(CHECK, 1).stdout
         work.write_text(day.source.read_text("utf-8"))
         assert "8 of 14 done" in run_in(CHECK, 1).stdout
@@ -259,14 +261,7 @@ class TestHint:
         done = run_in(HINT, "figure")
         assert done.returncode == 0
         assert f"w1-foundations/{day.figure}" in done.stdout.replace("\n", " ")
-        for row in day.metrics:  # the kit's own run
-            metrics.append_row(
-                clone / "metrics" / "metrics.csv",
-                day=1,
-                check=row.check,
-                metric=row.metric,
-                value=1e-15,
-            )
+        note_kits_run(day, clone)
         assert "make run DAY=1" in run_in(HINT, "metrics").stdout
 
     def test_says_what_a_task_is_called(self, run_in):

@@ -41,6 +41,15 @@ def test_what_is_no_pose_at_all_is_told_by_its_form(value, slug, word):
     assert word in verdict.message
 
 
+def test_a_days_own_diagnosis_may_stop_at_a_singular_answer():
+    ask = row_of(find_day(6), "task_inertia").ask
+    answers = right(ask)[0].copy()
+    answers[:, 0] = answers[:, :, 0] = 0.0
+    verdict = judged_replies(ask, replies_of(answers))
+    assert (verdict.status, verdict.mistake) == ("wrong", "off")
+    assert "off by" in verdict.message
+
+
 def test_an_exception_is_told_with_its_line_and_how_often_it_happens():
     replies = replies_of(right(MAKE_T)[0])
     replies[3] = Reply(error="float division", kind="ZeroDivisionError", line=31)

@@ -63,9 +63,8 @@ class TestTheEdition:
         done = run_copy(edition, "scripts/check_day.py", 1)
         assert "it turns the wrong way" in " ".join(done.stdout.lower().split())
         work.write_text(text, "utf-8")
-        assert (
-            run_copy(edition, "scripts/check_day.py", "--task", "1.2").returncode == 0
-        )
+        done = run_copy(edition, "scripts/check_day.py", "--task", "1.2")
+        assert done.returncode == 0
         hint = run_copy(edition, "scripts/hint.py", "1.2").stdout
         assert "does not show the kit's own" in hint
         assert "NotImplementedError" not in hint

@@ -13,7 +13,7 @@ from queue import SimpleQueue
 
 import pytest
 from make_class import DAY, SOLVED, WEEK, commit, script
-from test_walls import is_there, standing
+from test_walls import are_gone, standing
 
 from conftest import ROOT, need
 from labkit.base import git, processes
@@ -56,6 +56,12 @@ def kill(monkeypatch):
     return first
 
 
+@pytest.fixture
+def no_memory(monkeypatch):
+    """Have Linux say at every look that it killed for want of memory."""
+    monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
+
+
 def _no_process(*_):
     raise FaultError("this machine starts no process")
 
@@ -92,37 +98,33 @@ class TestASandboxThatIsKilled:
             ask(FINE)
 
     @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
-    def test_for_want_of_memory_is_a_fault(self, ask, kill, how, monkeypatch):
+    def test_for_want_of_memory_is_a_fault(self, ask, kill, no_memory, how):
         kill(2, how=how)
-        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with standing("landlock"), pytest.raises(FaultError) as caught:
             ask(FINE)
         assert "this machine ran out of memory" in str(caught.value)
         assert str(caught.value).endswith("close other programs, try again")
 
     def test_for_want_of_memory_that_it_took_itself_is_not(
-        self, ask, kill, monkeypatch
+        self, ask, kill, no_memory, monkeypatch
     ):
         kill(2)
-        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         monkeypatch.setattr(process, "MODEST", 0.03)
         greedy = "import time, numpy as np\nX = np.ones(10**7)\ntime.sleep(0.6)\n"
         (reply,) = ask(greedy + FINE)
         assert reply.kind == "stopped"
         assert reply.error == "it used more memory than this machine has"
 
-    def test_ends_a_session_with_a_word(self, student, kill, monkeypatch):
+    def test_ends_a_session_with_a_word(self, student, kill, no_memory):
         kill(1)
-        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with Sandbox() as box:
             session = box.session(student(FINE))
             (reply,) = session.ask([Question("", "f", ())])
         assert reply.kind == "stopped"
         assert "ran out of memory" in reply.error
 
-    def test_in_a_grade_is_a_fault_too(self, kill, monkeypatch):
+    def test_in_a_grade_is_a_fault_too(self, kill, no_memory):
         kill(2)
-        monkeypatch.setattr(processes, "oom_kills", itertools.count().__next__)
         with pytest.raises(FaultError, match="ran out of memory"):
             child.grade(solved(), DAY)
 
@@ -344,10 +346,7 @@ class TestAGrader:
                 family = processes._family(int(pid))  # the sandbox is there, too
                 time.sleep(0.05)
             coordinator.kill()
-        deadline = time.monotonic() + 5  # a call alone has 3 s, the package 100
-        while any(map(is_there, family)) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        assert not any(map(is_there, family))
+        assert are_gone(family, 5)  # a call alone has 3 s, the package 100
         assert not Path(folder).exists()
 
     @linux
@@ -374,6 +373,7 @@ class TestGit:
 
     @pytest.fixture
     def fake(self, tmp_path, monkeypatch):
+        commit(tmp_path, 1_788_000_000)
         monkeypatch.setattr(git, "SECONDS", 3.0)
 
         def put(line):
@@ -386,27 +386,18 @@ class TestGit:
         return put
 
     @linux
-    def test_that_works_without_an_end_reads_nothing(self, tmp_path, fake):
-        commit(tmp_path, 1_788_000_000)
-        fake("while :; do :; done")
+    @pytest.mark.parametrize("line", ["while :; do :; done", "sleep 60"])
+    def test_that_works_or_waits_without_an_end_reads_nothing(
+        self, tmp_path, fake, line
+    ):
+        fake(line)
         assert not git.read_history(tmp_path, [SCRIPT]).readable
 
     @linux
     def test_that_is_stopped_leaves_no_process_behind(self, tmp_path, fake):
-        commit(tmp_path, 1_788_000_000)
         fake(f"sleep 600 & echo $! > {tmp_path}/pid; wait")
         assert not git.read_history(tmp_path, [SCRIPT]).readable
-        pid = int((tmp_path / "pid").read_text())
-        deadline = time.monotonic() + 20
-        while is_there(pid) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        assert not is_there(pid)
-
-    @linux
-    def test_that_waits_for_something_is_the_repositorys_doing(self, tmp_path, fake):
-        commit(tmp_path, 1_788_000_000)
-        fake("sleep 60")
-        assert not git.read_history(tmp_path, [SCRIPT]).readable
+        assert are_gone([int((tmp_path / "pid").read_text())], 20)
 
     @linux
     @pytest.mark.parametrize("line", ["sleep 60", "kill -9 $$"])
@@ -414,7 +405,6 @@ class TestGit:
         self, tmp_path, fake, line, monkeypatch
     ):
         monkeypatch.setattr(processes, "scheduled", lambda _: (0.01, 2.9))
-        commit(tmp_path, 1_788_000_000)
         fake(line)
         with pytest.raises(git.GitError):
             git.read_history(tmp_path, [SCRIPT])

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from make_class import DAY, DEADLINE, WEEK, commit
+from make_class import DAY, DEADLINE, WEEK, commit, put
 
 from conftest import need
 from labkit.base.git import before
@@ -31,17 +31,13 @@ HOUR = 3600
 
 def save(clone: Path, text: str, when: int) -> str:
     """Write a student's script, commit it and return the commit."""
-    (clone / SCRIPT).parent.mkdir(parents=True, exist_ok=True)
-    (clone / SCRIPT).write_text(text)
+    put(clone, {SCRIPT: text})
     commit(clone, when)
     return git(clone, "rev-parse", "HEAD")
 
 
 def git(clone: Path, *arguments: str) -> str:
-    done = subprocess.run(
-        ["git", *arguments], cwd=clone, check=True, capture_output=True, text=True
-    )
-    return done.stdout.strip()
+    return subprocess.check_output(["git", *arguments], cwd=clone, text=True).strip()
 
 
 @pytest.fixture
@@ -66,16 +62,13 @@ def test_a_broken_commit_after_the_deadline_counts_for_nothing(clone):
     assert collected(clone, None)[1] == "broken(("  # without a deadline the last one
 
 
-def test_a_commit_at_the_very_deadline_is_in_time(clone):
-    save(clone, "x = 1", DEADLINE)
+@pytest.mark.parametrize(("when", "late"), [(DEADLINE, 0), (DEADLINE + 5400, 1)])
+def test_a_commit_at_the_deadline_is_in_time_and_counts_late_if_none_is(
+    clone, when, late
+):
+    save(clone, "x = 1", when)
     package, text = collected(clone)
-    assert (text, package.late) == ("x = 1", 0)
-
-
-def test_who_has_nothing_in_time_is_graded_late(clone):
-    save(clone, "late = 1", DEADLINE + 90 * 60)
-    package, text = collected(clone)
-    assert (text, package.late, package.committed) == ("late = 1", 1, DEADLINE + 5400)
+    assert (text, package.late, package.committed) == ("x = 1", late, when)
 
 
 def test_uncommitted_work_counts_as_long_as_nothing_is_late(clone):
@@ -88,13 +81,10 @@ def test_uncommitted_work_counts_as_long_as_nothing_is_late(clone):
 
 def test_helpers_worksheet_and_pictures_are_those_of_that_commit(clone):
     sheet_, helper = DAY.files["worksheet"], f"{WEEK}/work/helper.py"
-    (clone / sheet_).parent.mkdir(parents=True)
-    (clone / sheet_).write_text("![a](../figures/mine.png) ![b](gone.png)")
     picture = clone / WEEK / "figures" / "mine.png"
-    picture.parent.mkdir()
-    picture.write_bytes(b"\x89PNG\r\n\0\xff")
-    (clone / WEEK / "work").mkdir()
-    (clone / helper).write_text("y = 1")
+    text = "![a](../figures/mine.png) ![b](gone.png)"
+    put(clone, {sheet_: text, helper: "y = 1"})
+    put(clone, {f"{WEEK}/figures/mine.png": b"\x89PNG\r\n\0\xff"})
     save(clone, "import helper", DEADLINE - HOUR)
     (clone / helper).write_text("y = 2")
     picture.unlink()
@@ -240,17 +230,15 @@ def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:
 
 
 def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
-    def open_journal():
-        return Journal(tmp_path / "j", DAY, DEADLINE, deadline=True, seed=4711)
-
-    journal = open_journal()
+    facts = (tmp_path / "j", DAY, DEADLINE)
+    journal = Journal(*facts, deadline=True, seed=4711)
     packages = []
     for i, passed in enumerate((3, 8, 2)):
         save(clone, f"x = {i}", DEADLINE - HOUR + i)
         packages.append(collected(clone)[0])
         journal.keep("mia", packages[-1], result(passed))
     journal.close()
-    journal = open_journal()  # also tomorrow
+    journal = Journal(*facts, deadline=True, seed=4711)  # also tomorrow
     best, package = journal.best("mia", packages[-1])
     assert (best.score[0], package.commit) == (8, packages[1].commit)
     assert journal.find("mia", packages[-1]).score[0] == 2

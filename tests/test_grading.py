@@ -56,6 +56,15 @@ def student(folder: Path) -> Student:
     return Student("A", folder.name, folder)
 
 
+def made(folder: Path, *command: str, given: bytes = b"") -> str:
+    """Run git in a folder, and return what it prints."""
+    command = ("git", "-c", "user.name=A", "-c", "user.email=a@b", *command)
+    done = subprocess.run(
+        command, input=given, capture_output=True, cwd=folder, check=True
+    )
+    return done.stdout.strip().decode()
+
+
 def result(*statuses: str, mistakes: dict[int, str] | None = None) -> Result:
     """Return a result with these states of the tasks, and names for some mistakes."""
     named = mistakes or {}
@@ -232,10 +241,8 @@ class TestTheGrader:
         self, tmp_path, monkeypatch
     ):
         monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-        old, new, other = (
-            tmp_path / name
-            for name in ("robo47-grader-a", "robo47-grader-b", "thesis-grader-c")
-        )
+        names = ("robo47-grader-a", "robo47-grader-b", "thesis-grader-c")
+        old, new, other = (tmp_path / name for name in names)
         for folder in (old, new, other):
             folder.mkdir()
             (folder / "x.py").write_text("")
@@ -537,22 +544,16 @@ class TestPulling:
         if not first:
             list(pull_all([class_]))
 
-        def made(*command, given=b""):
-            command = ["git", "-c", "user.name=A", "-c", "user.email=a@b", *command]
-            done = subprocess.run(
-                command, input=given, capture_output=True, cwd=origin, check=True
-            )
-            return done.stdout.strip().decode()
-
-        blob = made("hash-object", "-w", "--stdin", given=bytes(4_000_000))
+        blob = made(origin, "hash-object", "-w", "--stdin", given=bytes(4_000_000))
         names = range(60) if first or what == "a tree of trees" else range(51)
         entries = [f"100644 blob {blob}\t{i}\n" for i in names]
-        tree = made("mktree", given="".join(entries).encode())
+        tree = made(origin, "mktree", given="".join(entries).encode())
         for _ in range(5 if what == "a tree of trees" else 0):
             entries = [f"040000 tree {tree}\t{i}\n" for i in range(60)]
-            tree = made("mktree", given="".join(entries).encode())
-        parent = made("rev-parse", "HEAD")
-        made("update-ref", "HEAD", made("commit-tree", "-m", "x", "-p", parent, tree))
+            tree = made(origin, "mktree", given="".join(entries).encode())
+        parent = made(origin, "rev-parse", "HEAD")
+        words = ("commit-tree", "-m", "x", "-p", parent, tree)
+        made(origin, "update-ref", "HEAD", made(origin, *words))
         ((_, problem),) = pull_all([class_])
         assert "the last commit is too large to check out" in problem
         assert class_.path.exists() is not first
@@ -660,13 +661,8 @@ class TestHistory:
     def test_reads_no_commit_of_megabytes(self, tmp_path):
         commit(tmp_path, 1_788_000_000)
         assert git.read_history(tmp_path, []).committed == 1_788_000_000
-        who = ["-c", "user.name=A", "-c", "user.email=a@b"]
-        subprocess.run(
-            ["git", *who, "commit", "-q", "--allow-empty", "-F", "-"],
-            input=b"x" * 200_000,
-            cwd=tmp_path,
-            check=True,
-        )
+        how = ("commit", "-q", "--allow-empty", "-F", "-")
+        made(tmp_path, *how, given=b"x" * 200_000)
         assert not git.read_history(tmp_path, []).readable
 
 
@@ -684,11 +680,9 @@ class TestSimilarity:
         (group,) = similar.similar_groups({"b": copy, "a": own})
         assert (group.keys, group.share) == (("a", "b"), 1.0)
 
-    def test_sees_nothing_in_what_the_starter_gave(self):
+    def test_sees_nothing_in_what_the_starter_gave_or_everybody_writes(self):
         assert len(similar.runs_of(STARTER.encode(), STARTER)) == 0
         assert similar.similar_groups({"a": similar.runs_of(b"", STARTER)}) == []
-
-    def test_sees_nothing_in_what_everybody_writes(self):
         runs = similar.runs_of(SOLVED.encode(), STARTER)
         assert len(runs) > similar.FEWEST
         assert similar.similar_groups({str(i): runs for i in range(9)}) == []

@@ -1,27 +1,29 @@
 """The page without a browser: moves, tabs, hostile messages; all on the event loop."""
 
 import asyncio
-import contextlib
-import importlib.util
-import threading
 import time
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from conftest import need
+pytest.importorskip("viser", reason="the extra view")
+
+from viser import _messages
+
+from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost, Seen
+from labkit.inspector.guard import LocalServer
+from labkit.inspector.meshes import Robot
+from labkit.inspector.serve import on_loop
+from labkit.inspector.shapes import Shape
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
 from labkit.lesson.day import day_numbers, find_day
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
-
-if importlib.util.find_spec("viser") is None:
-    need(False, "viser: make view")  # pragma: no cover
-
 SECONDS = 20
 GHOST = Ghost("my_fk", ("link0", "ee"), lambda model, q: [])
 
@@ -39,6 +41,7 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
+        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
         draw.arrows([[[0, 0, 0], [0, 0, 1]]])
@@ -78,27 +81,30 @@ class Broken(Tab):
 
 @pytest.fixture(scope="module")
 def server():
-    need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    from labkit.inspector.guard import LocalServer
-
     made = LocalServer(0)
     yield made
     made.stop()
 
 
 @pytest.fixture
-def page(server):
-    from labkit.inspector.app import Inspector
-    from labkit.inspector.serve import on_loop
+def show(server):
+    """Show a day's tabs in a page, and leave them after the test."""
+    shown = []
 
-    server.scene.reset()
-    server.gui.reset()
-    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
-    day = DayTabs(GHOST, [Noisy, Broken])
-    made = on_loop(server, lambda: Inspector(server, arm, "a robot", day))
-    server.door.receive = made.receive
+    def made(day):
+        server.scene.reset()
+        server.gui.reset()
+        arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+        shown.append(on_loop(server, lambda: Inspector(server, arm, "a robot", day)))
+        return shown[0]
+
     yield made
-    on_loop(server, made.leave)
+    on_loop(server, shown[0].leave)
+
+
+@pytest.fixture
+def page(show):
+    return show(DayTabs(GHOST, [Noisy, Broken]))
 
 
 BROWSER = 7  # the number of one that is connected
@@ -107,10 +113,6 @@ BROWSER = 7  # the number of one that is connected
 @pytest.fixture
 def say(page):
     """Change widgets as a browser does, or go to an address; let the page settle."""
-    from viser import _messages
-
-    from labkit.inspector.serve import on_loop
-
     gui, clients = page.server.gui, page.server._connected_clients
     kind = _messages.GuiUpdateMessage
     (checked,) = gui._websock_interface._incoming_handlers[kind]
@@ -144,8 +146,6 @@ def settle(page):
     while page.scheduled and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not page.scheduled
-    from labkit.inspector.serve import on_loop
-
     on_loop(page.server, lambda: None)  # the update that it was scheduled for is done
 
 
@@ -198,15 +198,6 @@ def test_the_exact_configuration_can_be_copied(page, say):
     assert repr(-np.pi / 4) in page.panel.state.content
 
 
-def test_an_address_takes_the_arm_the_frame_and_the_tab_there(page, say):
-    say(("go", "?q=0.1,0.2,0.3,-1,0.5,0.6,0.7&frame=link4&tab=Chain"))
-    np.testing.assert_array_equal(page.arm.q, [0.1, 0.2, 0.3, -1, 0.5, 0.6, 0.7])
-    assert page.panel.frame.value == "link4"
-    assert page.kind.title == "Chain"
-    say(("go", "?q=1,2&frame=nope&tab=nope"))
-    assert page.kind.title == "Chain"
-
-
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
     monkeypatch.setattr("labkit.inspector.app.DRAG", 20.0)
     start = page.arm.q.copy()
@@ -217,8 +208,11 @@ def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "query", ["", "nope", "?tab=nope", "?frame=x", "?q=nan,nan", "?" + "q" * 1000]
-)
+    "query",
+    ["", "?", "nope", "?tab=nope", "?frame=x", "?q=", "?q=1,2", "?q=a,b,c,d,e,f,g",
+     "?q=nan,0,0,0,0,0,0", "?q=1e300,0,0,0,0,0,0", "?q=inf,0,0,0,0,0,0", "%%%",
+     "?q=" + "0," * 10_000, "?" + "q" * 1000],
+)  # fmt: skip
 def test_an_address_that_leads_nowhere_changes_nothing(page, say, query):
     before = page.arm.q.copy()
     say(("go", query), (page.panel.frame, "link3"))
@@ -243,9 +237,6 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
 
 
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
-    from labkit.inspector.serve import on_loop
-    from labkit.inspector.shapes import Shape
-
     say(tab("Noisy"))
     noisy, before = Noisy.last, set(page.panel._children())
     noisy.ghost.pose({"link1": np.eye(4)})
@@ -256,6 +247,20 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     assert set(page.panel._children()) == before
     assert len(noisy.ghost.meshes) == 1
     assert noisy.ghost.bodies["link1"].visible
+
+
+def test_looks_that_arrive_late_stand_where_the_scene_was_shown(page):
+    model = panda.load("panda_nohand", drive="torque")
+    dressed = partial(panda.load, "panda_nohand", meshes=True)
+    robot = on_loop(page.server, lambda: Robot(page.page, model, dressed))
+    on_loop(page.server, lambda: robot.show(panda.READY_Q))
+    deadline = time.monotonic() + SECONDS
+    while "link7" not in robot.skin.bodies and time.monotonic() < deadline:
+        time.sleep(0.05)
+    settle(page)
+    hand = robot.skin.bodies["link7"]
+    assert hand.visible
+    np.testing.assert_allclose(hand.position, page.arm.pose("link7")[:3, 3], atol=1e-9)
 
 
 def test_a_flood_of_moves_is_one_move(page, say):
@@ -320,8 +325,6 @@ def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
 
 
 def test_the_students_poses_are_judged_in_their_name(page):
-    from labkit.inspector.serve import on_loop
-
     q = page.arm.q.copy()
     right = {"link0": page.arm.pose("link0"), "ee": page.arm.pose("ee")}
     on_loop(page.server, lambda: page.hear(Seen(q, right)))
@@ -337,8 +340,6 @@ def test_the_students_poses_are_judged_in_their_name(page):
 
 
 def test_a_page_without_a_file_asks_once_and_rests(page):
-    from labkit.inspector.serve import on_loop
-
     asked = []
     soon = page.on_loop(page.hear)
     page.student = SimpleNamespace(want=lambda q: (asked.append(q), soon(None)))
@@ -349,46 +350,6 @@ def test_a_page_without_a_file_asks_once_and_rests(page):
     on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
     settle(page)
     assert len(asked) == 2
-
-
-def test_a_call_from_another_thread_reaches_the_event_loop(page):
-    names = []
-    done = threading.Event()
-    heard = page.on_loop(
-        lambda value: (names.append(threading.current_thread()), done.set())
-    )
-    heard(1)
-    assert done.wait(SECONDS)
-    assert names[0] is not threading.current_thread()
-
-
-def test_day_1_brings_its_ghost_and_the_tab_order():
-    day = day_tabs(find_day(1))
-    assert day.ghost.function == "compose_fk"
-    assert [tab.title for tab in day.tabs] == ["Order"]
-    model = panda.load()
-    asked = day.ghost.questions(model, np.zeros(7))
-    assert len(asked) == len(day.ghost.frames) == 9
-
-
-def test_the_order_tab_says_what_the_lab_says(server):
-    from labkit.inspector.app import Inspector
-    from labkit.inspector.serve import on_loop
-
-    server.scene.reset()
-    server.gui.reset()
-    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
-    page = on_loop(
-        server, lambda: Inspector(server, arm, "robot", day_tabs(find_day(1)))
-    )
-    on_loop(server, lambda: page.open_tab("Order"))
-    T, x = page.arm.pose("ee"), np.eye(4)
-    c = np.cos(np.pi / 4)
-    x[:2, :2], x[0, 3] = [[c, -c], [c, c]], 0.1
-    apart = np.linalg.norm((T @ x - x @ T)[:3, 3])
-    assert f"end {apart:.4f} m apart" in contents(page)
-    with contextlib.suppress(KeyError):
-        on_loop(server, page.leave)
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])
@@ -408,8 +369,6 @@ def test_a_text_that_is_far_too_long_is_answered_at_once(page, say):
 
 
 def test_a_target_is_dragged_to_no_other_planet(page, say):
-    from viser import _messages
-
     say(tab("Noisy"))
     handle = next(
         node
@@ -435,19 +394,20 @@ def test_a_target_is_dragged_to_no_other_planet(page, say):
 
 
 @pytest.mark.parametrize("number", day_numbers())
-def test_every_tab_of_every_day_opens_moves_and_closes(server, number):
-    from labkit.inspector.app import Inspector
-    from labkit.inspector.serve import on_loop
-
-    server.scene.reset()
-    server.gui.reset()
-    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
-    day = day_tabs(find_day(number))
-    page = on_loop(server, lambda: Inspector(server, arm, "", day, simple=True))
+def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
+    page = show(day_tabs(find_day(number)))
+    page.simple = True
     for title in page.kinds:
-        on_loop(server, lambda title=title: page.open_tab(title))
-        on_loop(server, lambda: page.move(page.arm.q + 0.01))
+        on_loop(page.server, lambda title=title: page.open_tab(title))
+        on_loop(page.server, lambda: page.move(page.arm.q + 0.01))
         settle(page)
         assert page.kind.title == title
         assert "stopped with" not in contents(page)
-    on_loop(server, page.leave)
+
+
+def test_an_image_of_depths_goes_from_black_to_white():
+    from labkit.inspector.instruments import as_bytes
+
+    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+    assert shown.shape == (2, 2, 3)
+    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]

@@ -55,3 +55,4 @@ def test_a_check_runs_apart_and_a_broken_checker_is_said():
     assert told.get(timeout=20).kind == "good"
     checks.again()
     assert told.get(timeout=20).headline == "make check: no questions"
+    checks.close()

@@ -30,16 +30,13 @@ def viser():
 @pytest.fixture(scope="module")
 def served():
     need(here("viser"), "viser: make view")
-    server = Served("--port", "0")
-    yield server
-    server.close()
+    with Served("--port", "0") as server:
+        yield server
 
 
-def connect(
-    served: Served, host: str | None = None, origin: str | None = None, path: str = ""
-) -> None:
-    """Open a WebSocket as the page at some address would, and close it."""
-    port, path = served.port, path or served.path
+@contextlib.contextmanager
+def websocket(port: int, path: str, host: str | None = None, origin: str | None = None):
+    """Open a WebSocket that names a host and an origin, and read the scene."""
     import viser
     from websockets.sync.client import connect
 
@@ -56,6 +53,24 @@ def connect(
         ) as page,
     ):
         assert page.recv(timeout=30)  # the scene
+        yield page
+
+
+def connect(
+    served: Served, host: str | None = None, origin: str | None = None, path: str = ""
+) -> None:
+    """Open a WebSocket as the page at some address would, and close it."""
+    with websocket(served.port, path or served.path, host, origin):
+        pass
+
+
+def refused(*who: object, **how: str | None) -> bool:
+    """Return whether such a WebSocket is refused, and as forbidden."""
+    from websockets.exceptions import InvalidStatus
+
+    with pytest.raises(InvalidStatus) as answer:
+        connect(*who, **how)
+    return answer.value.response.status_code == 403
 
 
 def get(served: Served, host: str = "", path: str = "", **headers: str) -> int:
@@ -96,23 +111,15 @@ def test_a_tunnel_may_end_at_another_port(served):
     ],
 )
 def test_a_websocket_from_any_other_page_is_refused(served, origin):
-    from websockets.exceptions import InvalidStatus
-
-    with pytest.raises(InvalidStatus) as refused:
-        connect(served, origin=origin)
-    assert refused.value.response.status_code == 403
+    assert refused(served, origin=origin)
 
 
 @pytest.mark.parametrize(
     "name", ["evil.example", "localhost.evil.example", "0.0.0.0", "evil@127.0.0.1"]
 )
 def test_a_page_that_rebinds_its_name_to_this_machine_is_refused(served, name):
-    from websockets.exceptions import InvalidStatus
-
     host = f"{name}:{served.port}"
-    with pytest.raises(InvalidStatus) as refused:
-        connect(served, host.rpartition("@")[2], f"http://{host}")
-    assert refused.value.response.status_code == 403
+    assert refused(served, host.rpartition("@")[2], f"http://{host}")
     assert get(served, host) == 403
 
 
@@ -123,20 +130,16 @@ NEIGHBOURS = ["/", "/index.html", "/go?tab=Chain", "//", "/x/{secret}/",
 @pytest.mark.parametrize("path", NEIGHBOURS)
 def test_who_does_not_know_the_address_gets_nothing(served, path):
     """Another user of this machine may reach the port, and knows all but the secret."""
-    from websockets.exceptions import InvalidStatus
-
     secret = served.path.strip("/")
     guess = path.format(secret=secret, short=secret[:-1], upper=secret.swapcase())
     assert get(served, path=guess) == 403
     host = f"127.0.0.1:{served.port}"
-    with pytest.raises(InvalidStatus) as refused:
-        connect(served, origin=f"http://{host}", path=guess)
-    assert refused.value.response.status_code == 403
+    assert refused(served, origin=f"http://{host}", path=guess)
 
 
 def test_every_start_has_an_address_of_its_own(served):
-    other = Served("--port", "0")
-    other.close()
+    with Served("--port", "0") as other:
+        pass
     assert len(served.path.strip("/")) >= 16
     assert other.path != served.path
 
@@ -222,30 +225,20 @@ RUBBISH = [
 
 def test_rubbish_and_floods_through_the_websocket_do_not_stop_the_page(served):
     import msgspec
-    import viser
     from websockets.exceptions import ConnectionClosed
-    from websockets.sync.client import connect as open_websocket
 
-    host = f"127.0.0.1:{served.port}"
+    own = f"http://127.0.0.1:{served.port}"
     raw = [b"", b"\xff" * 10_000, "text, not bytes"]
     flood = [msgspec.msgpack.encode(RUBBISH[3])] * 500
     packed = [[msgspec.msgpack.encode(each)] for each in RUBBISH]
     for messages in (*packed, *([each] for each in raw), flood):
         with (
             contextlib.suppress(ConnectionClosed),  # it may well hang up
-            open_websocket(
-                f"ws://{host}{served.path}",
-                origin=f"http://{host}",
-                subprotocols=[f"viser-v{viser.__version__}"],
-                compression=None,
-                max_size=None,
-                close_timeout=0.5,
-            ) as page,
+            websocket(served.port, served.path, origin=own) as page,
         ):
-            page.recv(timeout=30)
             for message in messages:
                 page.send(message)
-    connect(served, origin=f"http://{host}")
+    connect(served, origin=own)
     assert get(served) == 200
     assert served.process.poll() is None
 
@@ -332,21 +325,11 @@ def tunnels(viser, monkeypatch) -> Queue:
     return opened
 
 
-def ask_to_share(viser, port: int, path: str = "/") -> None:
+def ask_to_share(port: int, path: str = "/") -> None:
     """Ask for a public share link, as any client can, and wait for an answer."""
     import msgspec
-    from websockets.sync.client import connect
 
-    host = f"127.0.0.1:{port}"
-    with connect(
-        f"ws://{host}{path}",
-        origin=f"http://{host}",
-        subprotocols=[f"viser-v{viser.__version__}"],
-        compression=None,
-        max_size=None,
-        close_timeout=0.5,
-    ) as page:
-        page.recv(timeout=30)
+    with websocket(port, path, origin=f"http://127.0.0.1:{port}") as page:
         page.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
 
 
@@ -360,7 +343,7 @@ def test_no_client_can_have_it_open_a_public_tunnel(viser, tunnels, monkeypatch)
     )
     server = LocalServer(0)
     try:
-        ask_to_share(viser, server.get_port(), f"/{server.door.secret}")
+        ask_to_share(server.get_port(), f"/{server.door.secret}")
         assert answers.get(timeout=SECONDS) is None
     finally:
         server.stop()
@@ -371,7 +354,7 @@ def test_the_same_request_does_open_one_in_viser_left_alone(viser, tunnels):
     """Without this the test above could pass for want of a real request."""
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     try:
-        ask_to_share(viser, server.get_port())
+        ask_to_share(server.get_port())
         assert tunnels.get(timeout=SECONDS) == "a tunnel"
     finally:
         server.stop()

@@ -1,11 +1,13 @@
-"""Numbers as people type them into the page."""
+"""A configuration as people type it into the page, and in its address."""
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from labkit.inspector import typed
 from labkit.inspector.typed import configuration, number
 
 pytestmark = pytest.mark.kit
@@ -65,3 +67,11 @@ def test_a_configuration_is_read_as_one_types_it_and_as_numpy_prints_it(text):
 def test_what_is_no_configuration_is_refused(text):
     with pytest.raises(ValueError, match=r"numbers; a configuration|is no number"):
         configuration(text, 2)
+
+
+@given(st.lists(st.floats(-100, 100), min_size=7, max_size=7))
+def test_every_digit_of_a_configuration_survives(q):
+    query = typed.write_address(np.array(q), "link4", "Chain")
+    back, frame, tab = typed.read_address(query, 7)
+    np.testing.assert_array_equal(back, q)
+    assert (frame, tab) == ("link4", "Chain")

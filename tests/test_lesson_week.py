@@ -31,6 +31,8 @@ def course(tmp_path):
 
 def test_weeks_and_days_come_in_order_whatever_the_folders_are_called(course):
     made(course, "w10-j", 60)
+    (course / "work").mkdir()
+    (course / "wheels").mkdir()
     headings = [week.heading for week in weeks(course)]
     assert headings == ["Week 1: a", "Week 2: b", "Week 10: j"]
     assert day_numbers(course) == [1, 2, 3, 4, 5, 60]
@@ -42,12 +44,6 @@ def test_a_folder_that_looks_like_a_week_and_is_none_is_refused_by_name(course, 
     (course / name / "day8" / "day.toml").write_text("")
     with pytest.raises(Robo47Error, match=f"{name}/ has no week.toml"):
         weeks(course)
-
-
-def test_a_folder_of_another_name_is_no_week(course):
-    (course / "work").mkdir()
-    (course / "wheels").mkdir()
-    assert len(weeks(course)) == 2
 
 
 @pytest.mark.parametrize(

@@ -1,20 +1,17 @@
 """scripts/log_metric.py, run as a person runs it."""
 
-import os
 import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from labkit.log import append_row, read_rows
 from labkit.log.header import LINE
-from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
-ROOT = Path(__file__).parent.parent
-SCRIPT = ROOT / "scripts" / "log_metric.py"
+SCRIPT = "scripts/log_metric.py"
 OLD = "r,2026-09-01,1,fk,abc1234,0,home,manual,1,0,err,1e-16,note"
 FIELDS = ("check=fk", "metric=err", "value=1e-16")
 
@@ -24,25 +21,21 @@ def log(tmp_path: Path) -> Path:
     return tmp_path / "metrics.csv"
 
 
-def run(log: Path, *words: str) -> subprocess.CompletedProcess:
-    done = subprocess.run(
-        [sys.executable, str(SCRIPT), "--file", str(log), *words],
-        capture_output=True,
-        encoding="utf-8",
-        env={**os.environ, "COLUMNS": "80", "PYTHONIOENCODING": "utf-8"},
-    )
-    assert "Traceback" not in done.stderr
-    return done
+@pytest.fixture
+def run(run, log):
+    """Run the script on this log."""
+    return partial(run, SCRIPT, "--file", log, COLUMNS="80")
 
 
-def test_a_row_is_added_from_the_shell(log):
-    done = run(log, "day=1", *FIELDS, "notes=a, b", "date=2026-09-01")
+def test_a_row_is_added_from_the_shell(log, run):
+    done = run("day=1", *FIELDS, "notes=a, b", "date=2026-09-01")
     assert done.returncode == 0
     assert "fk err = 1e-16" in done.stdout
     (row,) = read_rows(log)
     assert (row["day"], row["value"], row["notes"]) == (1, 1e-16, "a, b")
-    assert run(log, "--no-sync", *FIELDS).returncode == 0
-    assert len(read_rows(log)) == 2
+    words = ("--no-sync", "--allow-nonfinite", "check=fk", "metric=err", "value=nan")
+    assert run(*words).returncode == 0
+    assert log.read_text().endswith(",nan,\n")
 
 
 @pytest.mark.parametrize(
@@ -60,44 +53,38 @@ def test_a_row_is_added_from_the_shell(log):
         (["--check", *FIELDS], "not both"),
     ],
 )
-def test_a_mistake_is_one_line_and_exit_code_2(log, words, said):
-    done = run(log, *words)
+def test_a_mistake_is_one_line_and_exit_code_2(log, words, said, run):
+    done = run(*words)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert said in done.stderr
     assert not log.exists()
 
 
-def test_a_non_finite_value_is_recorded_when_asked_for(log):
-    words = ("--allow-nonfinite", "check=fk", "metric=err", "value=nan")
-    assert run(log, *words).returncode == 0
-    assert log.read_text().endswith(",nan,\n")
-
-
-def test_a_warning_is_one_plain_line(log):
+def test_a_warning_is_one_plain_line(log, run):
     log.write_text(f"{LINE}\n{OLD}", newline="")
-    done = run(log, *FIELDS)
+    done = run(*FIELDS)
     assert done.returncode == 0
     assert done.stderr.startswith("warning: ")
     assert done.stderr.count("\n") == 1
 
 
-def test_help_teaches_and_fits_80_columns(log):
-    done = run(log, "--help")
+def test_help_teaches_and_fits_80_columns(log, run):
+    done = run("--help")
     assert "notes=" in done.stdout
     assert max(len(line) for line in done.stdout.splitlines()) <= 80
 
 
-def test_check_is_content_with_a_good_log(log):
+def test_check_is_content_with_a_good_log(log, run):
     append_row(log, check="fk")
-    done = run(log, "--check")
+    done = run("--check")
     assert (done.returncode, done.stderr) == (0, "")
     assert "1 row, 0 problems" in done.stdout
 
 
-def test_check_lists_every_bad_line_with_its_number_and_reason(log):
+def test_check_lists_every_bad_line_with_its_number_and_reason(log, run):
     log.write_text(f"{LINE}\n{OLD}\ncut,2026\n{OLD},more\n{OLD}", newline="")
-    done = run(log, "--check")
+    done = run("--check")
     assert done.returncode == 1
     assert "line 3: 2 columns where 13 belong" in done.stdout
     assert "line 4: it has commas outside quotes" in done.stdout
@@ -106,49 +93,39 @@ def test_check_lists_every_bad_line_with_its_number_and_reason(log):
     assert "3 rows, 3 problems" in done.stdout
 
 
-def test_a_log_that_cannot_be_read_is_told_in_one_line(log):
-    done = run(log, "--check")
-    assert done.returncode == 2
-    assert "does not exist" in done.stderr
+def test_a_log_that_cannot_be_read_is_told_in_one_line(log, run):
+    def told():
+        done = run("--check")
+        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+        return done.stderr
+
+    assert "does not exist" in told()
     log.mkdir()
-    done = run(log, "--check")
-    assert done.returncode == 2
-    assert "cannot be read" in done.stderr
+    assert "cannot be read" in told()
     log.rmdir()
     log.write_text(f"{LINE}\n{OLD}\n".replace(",", ";"))
-    done = run(log, "--check")
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "line 1 is not the log's header" in done.stderr
+    assert "line 1 is not the log's header" in told()
 
 
-def test_a_refusal_names_a_command_that_does_work_for_this_log(log):
-    log.write_text(f"{LINE.replace('value', 'val')}\n{OLD}\n")
-    refused = run(log, *FIELDS)
-    assert refused.returncode == 2
-    assert refused.stderr.endswith(
-        f"to add it later:\n  python3 scripts/log_metric.py --restore --file {log}\n"
-    )
-    log.write_text(f"{LINE}\n{OLD}\n")
-    assert "1 refused row waits" in run(log, "--check").stdout
-    assert "1 row put back" in run(log, "--restore").stdout
-    assert len(read_rows(log)) == 2
-
-
-def test_refused_rows_are_offered_and_put_back(log):
+def test_refused_rows_are_offered_and_put_back_by_the_command_that_is_named(log, run):
+    command = f"python3 scripts/log_metric.py --restore --file {log}\n"
+    for i, waiting in enumerate(("1 refused row waits", "2 refused rows wait")):
+        log.write_text("something else\n")
+        refused = run("check=fk", "metric=err", f"value={i}")
+        assert refused.returncode == 2
+        assert refused.stderr.endswith(f"to add it later:\n  {command}")
+        log.write_text(LINE + "\n")
+        assert waiting in run("--check").stdout
     log.write_text("something else\n")
-    for i in range(2):
-        with pytest.raises(Robo47Error):
-            append_row(log, check="fk", value=i)
-    still = run(log, "--restore")
+    still = run("--restore")
     assert still.returncode == 2
     assert "the rows are still in" in still.stderr
     log.write_text(LINE + "\n")
-    assert "2 refused rows wait" in run(log, "--check").stdout
-    done = run(log, "--restore")
+    done = run("--restore")
     assert (done.returncode, "2 rows put back" in done.stdout) == (0, True)
     assert [row["value"] for row in read_rows(log)] == [0, 1]
-    assert "0 rows put back" in run(log, "--restore").stdout
-    assert run(log, "--check").returncode == 0
+    assert "0 rows put back" in run("--restore").stdout
+    assert run("--check").returncode == 0
 
 
 def git(folder: Path, *words: str) -> None:
@@ -156,7 +133,7 @@ def git(folder: Path, *words: str) -> None:
     subprocess.run([*base, *words], cwd=folder, capture_output=True, check=True)
 
 
-def test_check_names_rows_that_a_union_merge_brought_back(log):
+def test_check_names_rows_that_a_union_merge_brought_back(log, run):
     folder = log.parent
     git(folder, "init", "-q", "-b", "main")
     (folder / ".gitattributes").write_text("metrics.csv merge=union\n")
@@ -175,7 +152,7 @@ def test_check_names_rows_that_a_union_merge_brought_back(log):
     git(folder, "merge", "-q", "side", "-m", "both")
     brought_back = [line for line in (edited, deleted) if line in log.read_text()]
     assert brought_back
-    done = run(log, "--check")
+    done = run("--check")
     assert done.returncode == 0
     assert done.stdout.count("note, line") == len(brought_back)
     for line in brought_back:

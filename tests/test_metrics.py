@@ -516,7 +516,7 @@ def test_an_echo_that_is_still_being_written_is_not_taken_for_a_cut_line(
 
 def test_a_file_that_is_replaced_without_end_is_given_up_with_the_row(log, monkeypatch):
     append_row(log, **ROW)
-    monkeypatch.setattr(logfile, "_is_at", lambda fd, name: name.endswith(".unsaved"))
+    monkeypatch.setattr(logfile, "_is_at", lambda fd, path: path.suffix == ".unsaved")
     assert "keeps being replaced" in refusal(log)
 
 

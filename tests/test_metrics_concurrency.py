@@ -205,8 +205,9 @@ def append_after(log: Path) -> list:
 def test_a_lock_is_released_by_the_death_of_its_holder(tmp_path):
     log = tmp_path / "metrics.csv"
     append_row(log, check="c")
-    hold = "import os, sys, time; from labkit.log.logfile import locked\n"
-    hold += "with locked(sys.argv[1]): os.write(1, b'held\\n'); time.sleep(600)"
+    hold = "import os, sys, time; from pathlib import Path\n"
+    hold += "from labkit.log.logfile import locked\n"
+    hold += "with locked(Path(sys.argv[1])): os.write(1, b'held\\n'); time.sleep(600)"
     holder = subprocess.Popen([sys.executable, "-c", hold, log], stdout=subprocess.PIPE)
     assert holder.stdout is not None
     assert holder.stdout.readline() == b"held\n"
@@ -223,6 +224,6 @@ def test_a_lock_that_is_never_given_back_is_an_error_with_the_row(
     log = tmp_path / "metrics.csv"
     append_row(log, check="c")
     monkeypatch.setattr(lock, "PATIENCE_S", 0.05)
-    with locked(str(log)), pytest.raises(Robo47Error, match="has held it") as caught:
+    with locked(log), pytest.raises(Robo47Error, match="has held it") as caught:
         append_row(log, check="c", notes="precious")
     assert "precious" in str(caught.value)

@@ -1,10 +1,9 @@
 """The report: every number right, every text harmless, good on a phone."""
 
 import html
-import os
 import re
 import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -21,8 +20,6 @@ from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
-ROOT = Path(__file__).parent.parent
-SCRIPT = ROOT / "scripts" / "report_metrics.py"
 LIMITS = {(1, "fk", "err"): Metric("fk", "err", max=1e-8)}
 EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
@@ -42,15 +39,10 @@ def report_on(log: Path, *lines: str, **filters) -> Report:
     return collect(scan(log), LIMITS, **filters)
 
 
-def run(*words: str) -> subprocess.CompletedProcess:
-    done = subprocess.run(
-        [sys.executable, str(SCRIPT), *words],
-        capture_output=True,
-        encoding="utf-8",
-        env={**os.environ, "COLUMNS": "80", "PYTHONIOENCODING": "utf-8"},
-    )
-    assert "Traceback" not in done.stderr
-    return done
+@pytest.fixture
+def run(run):
+    """Run the command."""
+    return partial(run, "scripts/report_metrics.py", COLUMNS="80")
 
 
 def series_of(metric: str, *values: float, limit: Metric | None = None) -> Series:
@@ -233,10 +225,10 @@ def test_thresholds_are_the_manifests_and_a_broken_one_is_named(tmp_path):
             thresholds(tmp_path)
 
 
-def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log):
+def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log, run):
     rows = [line(value=1e-9 / (i + 1), notes=f"run, {i}") for i in range(1000)]
     log.write_text("\n".join([LINE, *rows * 100, "cut"]) + "\n")
-    done = run("--file", str(log))
+    done = run("--file", log)
     assert done.returncode == 0
     assert "100,000 rows" in done.stdout
     assert "1 line needs a look" in done.stdout
@@ -245,14 +237,14 @@ def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log):
     assert len(text) < 300_000
 
 
-def test_an_empty_log_gives_a_page_that_says_what_to_do(log):
+def test_an_empty_log_gives_a_page_that_says_what_to_do(log, run):
     log.write_text(LINE + "\n")
-    done = run("--file", str(log), "--check", "nothing")
+    done = run("--file", log, "--check", "nothing")
     assert done.returncode == 0
     assert "make run" in (log.parent / "report.html").read_text("utf-8")
 
 
-def test_a_mistake_is_told_without_a_traceback_and_help_fits_80_columns():
+def test_a_mistake_is_told_without_a_traceback_and_help_fits_80_columns(run):
     assert run("--file", "nowhere.csv").returncode == 2
     assert run("--since", "soon").returncode == 2
     assert max(len(text) for text in run("--help").stdout.splitlines()) <= 80

@@ -1,7 +1,6 @@
 """The secret robot, its motions and how it is held."""
 
 import numpy as np
-import pytest
 from compare import assert_same
 
 from robo47 import panda, secret, simulate, verify
@@ -9,18 +8,11 @@ from robo47 import panda, secret, simulate, verify
 AT = np.array([0.02, -0.03, 0.06])
 
 
-@pytest.fixture(scope="module")
-def model():
-    return panda.load("panda_nohand", drive="torque")
+model = panda.load("panda_nohand", drive="torque")
+hung = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, AT))
 
 
-@pytest.fixture(scope="module")
-def hung():
-    edit = secret.load(0.5, AT)
-    return panda.load("panda_nohand", drive="torque", edit=edit)
-
-
-def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
+def test_a_seed_makes_one_robot_and_leaves_the_file_alone():
     before = model.body_mass.copy()
     one, again, other = (secret.changed(model, seed) for seed in (1, 1, 2))
     assert_same(one.body_mass, again.body_mass, 0.0)
@@ -30,20 +22,16 @@ def test_a_seed_makes_one_robot_and_leaves_the_file_alone(model):
     assert 0.0 < np.abs(share - 1.0).max() <= secret.MASS
 
 
-def test_the_motions_are_their_own_derivatives_and_keep_the_limits(model):
-    for motion, dt in (
-        (secret.excitation(model, 5, 20_000), 5e-4),
-        (secret.swing(20_000), 5e-4),
-    ):
-        q, qd, qdd = motion
+def test_the_motions_are_their_own_derivatives_and_keep_the_limits():
+    (low, high), dt = simulate.limits(model)[0].T, 5e-4
+    for q, qd, qdd in (secret.excitation(model, 5, 20_000), secret.swing(20_000)):
         assert_same((q[2:] - q[:-2]) / (2 * dt), qd[1:-1], 1e-5)
         assert_same((qd[2:] - qd[:-2]) / (2 * dt), qdd[1:-1], 1e-4)
-        low, high = simulate.limits(model)[0].T
         assert ((q > low) & (q < high)).all()
         assert (np.abs(qd) < simulate.SPEED_LIMITS).all()
 
 
-def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd(model):
+def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd():
     robot, motion = secret.changed(model, 3), secret.anywhere(model, 3, 100)
     slow = motion._replace(qd=motion.qd / 40.0)
     free = secret.torques(secret.without_friction(robot), slow)
@@ -55,7 +43,7 @@ def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd(model):
     assert (sign != np.sign(slow.qd)).mean() > 0.2
 
 
-def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load(model, hung):
+def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load():
     arm, q = panda.arm(model), panda.READY_Q[None]
     at, torque = secret.holds(model, arm, q)
     assert_same(at[:, 0], [panda.READY_Q] * 2, 1e-6)
@@ -65,7 +53,7 @@ def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load(model, 
     assert_same(torque, extra, 1e-4)
 
 
-def test_an_arm_floats_on_what_it_really_weighs(model, hung):
+def test_an_arm_floats_on_what_it_really_weighs():
     arm, still = panda.arm(model), lambda now: now.gravity_torque
     load = np.append(0.5, 0.5 * AT)
     assert abs(secret.rises(hung, arm, still, load)) < 1e-12

@@ -300,12 +300,9 @@ class TestAWall:
             )
         with checker:
             pid = int(checker.stdout.readline())
-            family = [pid, *children_of(pid)]
+            family = processes._family(pid)
             checker.kill()
-        deadline = time.monotonic() + 20
-        while any(map(is_there, family)) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        assert not any(map(is_there, family))
+        assert are_gone(family, 20)
 
     @each
     def test_hides_no_memory_from_the_watch(self, name, tmp_path):
@@ -332,20 +329,20 @@ class TestAWall:
         assert asked.reply.value.shape == (30, 30)
 
 
-def children_of(pid):
-    """Return the processes that a process started."""
-    with open(f"/proc/{pid}/task/{pid}/children") as children:
-        found = [int(child) for child in children.read().split()]
-    return found + [other for child in found for other in children_of(child)]
+def are_gone(pids, seconds):
+    """Return whether no process lives any more (a zombie does not), after a while."""
 
+    def lives(pid):
+        try:
+            with open(f"/proc/{pid}/stat") as stat:
+                return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
+        except OSError:
+            return False
 
-def is_there(pid):
-    """Return whether a process lives (a zombie does not)."""
-    try:
-        with open(f"/proc/{pid}/stat") as stat:
-            return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
+    deadline = time.monotonic() + seconds
+    while (left := any(map(lives, pids))) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return not left
 
 
 class TestTheNameOfTheWall:

@@ -127,7 +127,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
-    """Have Linux end a child, or what it starts, that writes a larger file, bytes."""
+    """Have Linux end a child, or what it starts, at a file of more bytes."""
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError, ValueError):  # gone, or bounded already
             limits = (largest, largest)

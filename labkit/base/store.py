@@ -66,7 +66,7 @@ def hints_given(root: Path = ROOT) -> dict[str, int]:
 
 
 def replace(path: Path, content: bytes) -> None:
-    """Write a file beside and rename it: whole, or as it was."""
+    """Write a file beside and rename it: whole, or as it was after an OSError."""
     new = path.with_name(path.name + ".new")
     new.write_bytes(content)
     new.replace(path)

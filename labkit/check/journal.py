@@ -26,39 +26,25 @@ _NO_MISTAKE |= {"missing", "raise-left-in"}
 
 
 class Entry(NamedTuple):
-    """How a task stood from a moment on.
+    """How a task stood from a moment on."""
 
-    Attributes:
-        when: seconds since 1970.
-        task: its id.
-        status: as in a verdict.
-        mistake: its name, "" where it has none.
-        says: the first sentence of what the checker said of it.
-    """
-
-    when: float
-    task: str
-    status: str
-    mistake: str
-    says: str = ""
+    when: float  # seconds since 1970
+    task: str  # its id
+    status: str  # as in a verdict
+    mistake: str  # its name, "" where it has none
+    says: str = ""  # the first sentence of what the checker said of it
 
 
 class Met(NamedTuple):
-    """A mistake that was made.
+    """A mistake that was made."""
 
-    Attributes:
-        task: its id.
-        mistake: its name.
-        now: "left behind" where the task passes, "still there" where the last check
-            of the file as it is found it, "not checked since" where there was none,
-            "not right yet" where that check found something else.
-        says: what the checker said of it when it was met, in a sentence.
-    """
-
-    task: str
-    mistake: str
+    task: str  # its id
+    mistake: str  # its name
+    # "left behind" where the task passes, "still there" where the last check of the
+    # file as it is found it, "not checked since" where there was none, "not right yet"
+    # where that check found something else.
     now: str
-    says: str = ""
+    says: str = ""  # what the checker said of it when it was met, in a sentence
 
 
 def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:

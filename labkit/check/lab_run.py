@@ -77,11 +77,7 @@ class Rehearsal(Lab):
 
 
 def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
-    """Return what a check says of the lab: nothing where no step of it fails.
-
-    Args:
-        day, script, sandbox: as those of `rehearse`.
-    """
+    """Return what a check says of the lab: nothing where no step of it fails."""
     if not (failed := rehearse(day, script, sandbox)[0]):
         return []
     says = f"All tasks pass, but the lab fails with your functions: {failed}."

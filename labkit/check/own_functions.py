@@ -24,16 +24,11 @@ from robo47.errors import Robo47Error
 
 @dataclass
 class Mine:
-    """The week's functions, and whose they are.
+    """The week's functions, and whose they are."""
 
-    Attributes:
-        functions: by name, ready for the capstone's `pick`.
-        yours: names that are the student's own.
-        replaced: (day, name, why) of those that are the library's.
-    """
-
-    functions: SimpleNamespace
-    yours: list[str] = field(default_factory=list)
+    functions: SimpleNamespace  # by name, ready for the capstone's `pick`
+    yours: list[str] = field(default_factory=list)  # names that are the student's own
+    # (day, name, why) of those that are the library's.
     replaced: list[tuple[int, str, str]] = field(default_factory=list)
 
     @property

@@ -29,16 +29,11 @@ _INDENT = 7  # where a message starts
 
 @dataclass(frozen=True)
 class Report:
-    """One check of a day.
+    """One check of a day."""
 
-    Attributes:
-        day: from the manifest.
-        tasks: one result per task that was checked.
-        items: one per deliverable; empty when one task alone was checked.
-    """
-
-    day: Day
-    tasks: Sequence[TaskResult]
+    day: Day  # from the manifest
+    tasks: Sequence[TaskResult]  # one result per task that was checked
+    # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
 
     @property
@@ -96,9 +91,6 @@ class Report:
 
 def as_json(report: Report) -> dict[str, Any]:
     """Return a report for tools.
-
-    Args:
-        report: of one check.
 
     Returns:
         "day", "passed", "done", "total", "problem", "next", and "entries": per task or

@@ -1,4 +1,7 @@
-"""What the text of a student's function shows, not its answers: names, first slips."""
+"""What the text of a student's function shows, not its answers: names, first slips.
+
+`source` is the student's whole file, `function` a name in it.
+"""
 
 import ast
 import difflib
@@ -8,23 +11,13 @@ from labkit.lesson.starter import function_lines
 
 
 def arguments(source: str, function: str) -> tuple[str, ...]:
-    """Return the names of a function's arguments; () where they cannot be read.
-
-    Args:
-        source: the student's file.
-        function: its name.
-    """
+    """Return the names of a function's arguments; () where they cannot be read."""
     _, definition = _definition(source, function)
     return tuple(arg.arg for arg in definition.args.args) if definition else ()
 
 
 def unfinished(source: str, function: str) -> str:
-    """Return what keeps a function from doing anything yet, in a sentence, or "".
-
-    Args:
-        source: the student's file.
-        function: its name.
-    """
+    """Return what keeps a function from doing anything yet, in a sentence, or ""."""
     start, definition = _definition(source, function)
     body = definition.body if definition else []
     if (
@@ -47,12 +40,7 @@ def unfinished(source: str, function: str) -> str:
 
 
 def renamed(source: str, function: str) -> str:
-    """Return what to do about a missing function that has another name, or "".
-
-    Args:
-        source: the student's file.
-        function: its name in the kit.
-    """
+    """Return what to do about a missing function that has another name, or ""."""
     there = {name.lower(): name for name in re.findall(r"^def (\w+)\(", source, re.M)}
     for near in difflib.get_close_matches(function.lower(), there, 1, cutoff=0.8):
         line = function_lines(source, there[near])[0] + 1

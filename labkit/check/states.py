@@ -35,12 +35,7 @@ def known(day: Day) -> dict[str, str]:
 
 
 def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
-    """Keep the checker's word; return it, by task.
-
-    Args:
-        key: of the files that it checked, from before it did.
-        results: of all tasks of a day, or of some.
-    """
+    """Keep the checker's word on files of a key taken before it; return it, by task."""
     states = {result.task.id: in_words(result.verdict) for result in results}
     if all(result.verdict.mistake != "stopped" for result in results):
         # a bad moment of this machine is not remembered

@@ -26,18 +26,12 @@ FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 @dataclass(frozen=True)
 class TaskResult:
-    """How a task stands.
+    """How a task stands."""
 
-    Attributes:
-        task: as in the manifest.
-        verdict: what the answers show.
-        printed: what its functions printed, for --explain.
-        refused: what the sandbox refused, also where the code went on without.
-    """
-
-    task: Task
-    verdict: Verdict
-    printed: str = ""
+    task: Task  # as in the manifest
+    verdict: Verdict  # what the answers show
+    printed: str = ""  # what its functions printed, for --explain
+    # What the sandbox refused, also where the code went on without.
     refused: tuple[str, ...] = ()
 
     @property

@@ -13,7 +13,7 @@ Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
 import datetime
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from labkit.base import cli, store
@@ -30,27 +30,25 @@ from labkit.report.week_labs import Ran, run_labs
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
 
-class Clock:
-    """Says what is done, and after how many seconds."""
+def stopwatch() -> Callable[[str], None]:
+    """Return what prints a line of progress, with the seconds since now."""
+    begun = time.monotonic()
 
-    def __init__(self) -> None:
-        """Start now."""
-        self.begun = time.monotonic()
+    def say(what: str) -> None:
+        print(f"{time.monotonic() - begun:5.1f} s  {what}", flush=True)
 
-    def say(self, what: str) -> None:
-        """Print a line of progress."""
-        print(f"{time.monotonic() - self.begun:5.1f} s  {what}", flush=True)
+    return say
 
 
 def run_week(
-    days: Sequence[Day], clone: Clone, clock: Clock
+    days: Sequence[Day], clone: Clone, say: Callable[[str], None]
 ) -> tuple[list[Ran], list[str]]:
     """Run the labs in the clone; return what became of them, and what is not right."""
     labs, wrong = [], []
     for ran in run_labs(days, clone.python, clone.environment):
         found = faults(ran, clone.root)
         whose = "your lab" if ran.mine else "the kit's lab"
-        clock.say(f"{cli.verdict(not found)}  day {ran.day.number}, {whose}")
+        say(f"{cli.verdict(not found)}  day {ran.day.number}, {whose}")
         labs.append(ran)
         wrong += found
     return labs, wrong
@@ -72,13 +70,6 @@ def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
     return cli.conclude(True, says)
 
 
-def remember(sha: str, wrong: int, missing: int) -> None:
-    """Keep the result: `make proof` shows it for as long as the commit is the last."""
-    found = {"wrong": wrong, "missing": missing}
-    when = datetime.date.today().isoformat()
-    store.write(FRESH, {**found, "commit": sha, "date": when})
-
-
 def main() -> int:
     """Clone, set up, run, compare."""
     parser = cli.parser(__doc__)
@@ -87,7 +78,7 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help=quick)
     options = parser.parse_args()
     week = chosen_week(options.week, options.day)
-    sha, clock = head_of(), Clock()
+    sha, say = head_of(), stopwatch()
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
         prefix=FOLDER, ignore_cleanup_errors=True
@@ -96,11 +87,13 @@ def main() -> int:
         clone_commit(sha, root)
         days = days_of(find_week(week.number, root))
         missing = findings(days, root)
-        clock.say(f"cloned {sha[:7]}")
+        say(f"cloned {sha[:7]}")
         with cli.busy("setting it up, half a minute at most"):
             clone = set_up(root, anew=not options.quick)
-        clock.say("set up" + (" with this environment" if options.quick else ""))
-        labs, wrong = run_week(days, clone, clock)
+        say("set up" + (" with this environment" if options.quick else ""))
+        labs, wrong = run_week(days, clone, say)
     code = verdict(labs, [*missing, *wrong])
-    remember(sha, len(wrong), len(missing))
+    found = {"wrong": len(wrong), "missing": len(missing)}
+    when = datetime.date.today().isoformat()  # `make proof` shows it for this commit
+    store.write(FRESH, {**found, "commit": sha, "date": when})
     return code

@@ -59,12 +59,8 @@ def parse() -> argparse.Namespace:
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
     add("--day", metavar="N|N-M|all", help="default: 1")
     add("--week", type=int, metavar="N", help="all days of this week")
-    add(
-        "--out",
-        type=Path,
-        metavar="CSV",
-        help="default: grades-dayN/grades.csv; of several days grades-days/grades.csv",
-    )
+    where = "default: grades-dayN/grades.csv; of several days grades-days/grades.csv"
+    add("--out", type=Path, metavar="CSV", help=where)
     add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
     add("--pull", action="store_true", help="clone what is missing, update the rest")
     add(
@@ -74,54 +70,25 @@ def parse() -> argparse.Namespace:
         help="2026-09-04T18:00, or a day, which means its end; minutes since the last "
         "commit count to it; default: when grading began",
     )
-    add(
-        "--processes",
-        type=positive,
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="submissions at a time; default: one per core",
-    )
-    add(
-        "--seed",
-        type=int,
-        metavar="N",
-        help="of the fresh inputs, the same for everybody; default: drawn once",
-    )
+    cores, at_once = os.cpu_count() or 1, "submissions at a time; default: one per core"
+    add("--processes", type=positive, default=cores, metavar="N", help=at_once)
+    drawn = "of the fresh inputs, the same for everybody; default: drawn once"
+    add("--seed", type=int, metavar="N", help=drawn)
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--proof", action="store_true", help="a page to show for each, of the week")
-    add(
-        "--again",
-        nargs="?",
-        const="",
-        metavar="FOLDER,...",
-        help="grade those too that did not change: everybody, or only who asks",
-    )
-    add(
-        "--keep",
-        choices=("best", "last"),
-        default="last",
-        help="which of somebody's results counts; default: last",
-    )
+    whom = "grade those too that did not change: everybody, or only who asks"
+    add("--again", nargs="?", const="", metavar="FOLDER,...", help=whom)
+    counts = "which of somebody's results counts; default: last"
+    add("--keep", choices=("best", "last"), default="last", help=counts)
     add("--kit", metavar="TAG", help="grade with the kit as it was at a tag or commit")
     add("--frozen", action="store_true", help="another version's results stay")
-    add(
-        "--format",
-        choices=("csv", *PLATFORMS),
-        default="csv",
-        help="write a table, canvas.csv, for a learning platform's import, too",
-    )
-    add(
-        "--assignment",
-        default="Day {day}",
-        metavar="NAME",
-        help="what the platform calls it; default: Day {day}",
-    )
+    imported = "write a table, canvas.csv, for a learning platform's import, too"
+    add("--format", choices=("csv", *PLATFORMS), default="csv", help=imported)
+    called = "what the platform calls it; default: Day {day}"
+    add("--assignment", default="Day {day}", metavar="NAME", help=called)
     add("--anonymous", action="store_true", help="write a table without names, too")
-    add(
-        "--i-know-them",
-        action="store_true",
-        help="grade with your own rights where no wall stands, or as root",
-    )
+    trusted = "grade with your own rights where no wall stands, or as root"
+    add("--i-know-them", action="store_true", help=trusted)
     return parser.parse_args()
 
 

@@ -16,7 +16,7 @@ from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.log import append_row
 from labkit.log.progress import watched
-from labkit.log.rows import Row, typed
+from labkit.log.rows import typed
 from labkit.log.scan import Line, scan
 from labkit.log.upkeep import came_back, restore, unsaved_rows
 from robo47.errors import Robo47Error
@@ -34,12 +34,13 @@ def main() -> int:
             raise Robo47Error(
                 "give fields to add a row, or --check, or --restore; not both."
             )
-        return look_after(args)
+        return show_check(args.file) if args.check else put_back(args.file)
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
         args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
     )
-    print(f"added to {shown(args.file)}: {summary(row)}")
+    says = f"{row['check']} {row['metric']} = {row['value']}"
+    print(f"added to {shown(args.file)}: {says}")
     return cli.EXIT_OK
 
 
@@ -84,18 +85,10 @@ def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
     return fields
 
 
-def summary(row: Row) -> str:
-    """Return a row in a few words."""
-    return f"{row['check']} {row['metric']} = {row['value']}"
-
-
-def look_after(args: argparse.Namespace) -> int:
-    """Check or restore; return the exit code."""
-    path = args.file
-    if args.restore:
-        print(f"{count(restore(path), 'row')} put back into {shown(path)}")
-        return cli.EXIT_OK
-    return show_check(path)
+def put_back(path: Path) -> int:
+    """Add the refused rows again; return the exit code."""
+    print(f"{count(restore(path), 'row')} put back into {shown(path)}")
+    return cli.EXIT_OK
 
 
 def show_check(path: Path) -> int:

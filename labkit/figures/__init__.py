@@ -1,6 +1,6 @@
 """Pictures of the robot and its frames, on machines with and without a display.
 
-    from robo47 import figures
+    from labkit import figures
     figures.render_panda(panda.READY_Q).save("ready.png")
 
 MuJoCo draws the robot in a process of its own (`studio`), with the first OpenGL backend

@@ -16,7 +16,7 @@ from typing import Any
 from labkit.grade.package import Package
 from labkit.grade.result import Result, from_json
 from labkit.lesson.day import Day
-from labkit.log.lock import NO_LOCKS, try_lock
+from labkit.log.lock import lock
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -149,16 +149,12 @@ class Journal:
 
     def _lock(self) -> None:
         try:
-            free = try_lock(self._file.fileno())
-        except OSError as error:
-            if error.errno not in NO_LOCKS:
-                raise
-            return
-        if not free:
+            lock(self._file.fileno(), patience=0)
+        except TimeoutError:
             raise Robo47Error(
                 f"{shown(self.path)}: another make grade is at work there. Wait for it,"
                 " or give this one a folder of its own with --out"
-            )
+            ) from None
 
     def _append(self, record: dict[str, Any]) -> None:
         # The line break comes first, so that a cut line never swallows the next one.

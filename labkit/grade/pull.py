@@ -143,13 +143,13 @@ def _take(clone: Path, commit: str, *how: str) -> str:
 
 def _mark(clone: Path) -> str | None:
     """Return what tells our clone from any other: a hash of its configuration."""
-    git = clone / ".git"
+    git, config = clone / ".git", clone / ".git" / "config"
     try:
-        if git.is_symlink() or (git / "config").is_symlink():
+        if any(path.is_symlink() for path in (git, config)) or not config.is_file():
             return None
-        if not (git / "config").is_file() or os.path.lexists(git / "commondir"):
+        if os.path.lexists(git / "commondir"):
             return None
-        return hashlib.sha256((git / "config").read_bytes()).hexdigest()
+        return hashlib.sha256(config.read_bytes()).hexdigest()
     except OSError:
         return None
 

@@ -10,7 +10,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -71,7 +71,7 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
         with os.scandir(root) as entries:
             folders = [e for e in entries if e.name[0] != "." and e.is_dir()]
         names = sorted(entry.name for entry in folders)
-        students = [_student(name, name, root) for name in names]
+        students = [_student({"name": name, "folder": name}, root) for name in names]
     if not students:
         raise Robo47Error(
             f"{shown(root)} has no folders; expected one clone per student, or a "
@@ -109,9 +109,13 @@ def _key(name: str) -> str:
     return unicodedata.normalize("NFC", name).casefold()  # some systems see no case
 
 
-def _student(
-    name: str, folder: str, root: Path, url: str = "", id: str = ""
-) -> Student:
+def _student(cells: Mapping[str, str], root: Path) -> Student:
+    """Return the student whom a roster's row, by column, is about."""
+    folder = cells.get("folder", "")
+    url, id = (
+        next((cells[name] for name in names if cells.get(name)), "")
+        for names in (_URL, _ID)
+    )
     path, problem = root / folder, ""
     try:
         is_link = path.is_symlink()
@@ -123,10 +127,10 @@ def _student(
         problem = "the folder is a link, which is not followed"
     elif url.startswith("-"):
         problem = f"{url!r} is no git URL"
-    shows = visible(
-        name or os.fsencode(folder).decode("utf-8", "backslashreplace"), 120
-    )
-    return Student(shows, folder, path, url, visible(problem), visible(id, 120))
+    name = cells.get("name") or cells.get("student", "")
+    name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")
+    shows = (visible(problem), visible(id, 120), cells)
+    return Student(visible(name, 120), folder, path, url, *shows)
 
 
 def _read_roster(path: Path, root: Path) -> list[Student]:
@@ -162,12 +166,5 @@ def _read_roster(path: Path, root: Path) -> list[Student]:
                 f"{shown(path)}, line {number}: folder {folder!r} is listed "
                 "twice; expected one folder per student"
             )
-        url, id = (
-            next((cells[name] for name in names if cells.get(name)), "")
-            for names in (_URL, _ID)
-        )
-        student = _student(
-            cells.get("name") or cells.get("student", ""), folder, root, url, id
-        )
-        students[folder] = replace(student, cells=cells)
+        students[folder] = _student(cells, root)
     return list(students.values())

@@ -74,21 +74,20 @@ def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[It
     """
     from labkit.handin.figure import check_figure  # it brings MuJoCo
 
-    files = day.files
-    found: dict[str, Item] = {}
     checks = {
-        "figure": lambda: [check_figure(day, handin)],
-        "worksheet": lambda: check_worksheet(day, handin),
-        "log": lambda: [check_rows(day, handin, tasks_pass=tasks_pass)],
+        "figure": (["figure"], lambda: [check_figure(day, handin)]),
+        "worksheet": (
+            ["definitions", "drawings", "checklist"],
+            lambda: check_worksheet(day, handin),
+        ),
+        "log": (["metrics"], lambda: [check_rows(day, handin, tasks_pass=tasks_pass)]),
     }
-    covers = {"figure": ["figure"], "log": ["metrics"]}
-    written = ["definitions", "drawings", "checklist"]
-    for what, check in checks.items():
-        name = files.get(what, "")
-        if name in handin.unread:
-            says = f"{name} {handin.unread[name]}."
-            items = [Item(n, "wrong", says) for n in covers.get(what, written)]
-        else:
-            items = check() if name else []
-        found |= {item.name: item for item in items}
+    found: dict[str, Item] = {}
+    for what, (names, check) in checks.items():
+        file = day.files.get(what, "")
+        if file in handin.unread:
+            says = f"{file} {handin.unread[file]}."
+            found |= {name: Item(name, "wrong", says) for name in names}
+        elif file:
+            found |= {item.name: item for item in check()}
     return [found[name] for name in item_names(day) if name in found]

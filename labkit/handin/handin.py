@@ -202,8 +202,7 @@ def _pictures(day: Day, root: Path, sheet: str, text: str) -> dict[str, bool]:
             size = _size(root, path) if path else None
             kit = path in own
             if size in sizes and not kit:
-                same = read(root, path, LIMITS["figure"]) == sizes[size].read_bytes()
-                kit = same
+                kit = read(root, path, LIMITS["figure"]) == sizes[size].read_bytes()
         except UnreadError:
             continue
         if size:

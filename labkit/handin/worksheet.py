@@ -164,18 +164,18 @@ def _definitions(
         says.append(f"Say it in a sentence ({FEWEST_WORDS} words): {', '.join(short)}.")
     if taken:
         says.append(f"The guide's words, not yours: {', '.join(taken)}.")
-    untouched = len(empty) == len(terms)
-    return Item("definitions", "todo" if untouched else "wrong", " ".join(says))
+    status = "todo" if len(empty) == len(terms) else "wrong"
+    return Item("definitions", status, " ".join(says))
 
 
 def _drawings(sections: dict[str, str], day: Day, handin: Handin, where: str) -> Item:
     """Check that each drawing is an image of the student's, or drawn as text."""
     number = day.drawings
     states: dict[str, list[str]] = {"missing": [], "broken": [], "kits": [], "done": []}
-    for index in range(1, number + 1):
+    for index in map(str, range(1, number + 1)):
         start = rf"drawing {index}\b"  # "Drawing 1: the hand's frame"
         named = (body for name, body in sections.items() if re.match(start, name))
-        states[_drawing(next(named, ""), handin, where)].append(str(index))
+        states[_drawing(next(named, ""), handin, where)].append(index)
     missing, broken, kits, done = states.values()
     if len(done) == number:
         return Item("drawings")
@@ -192,8 +192,8 @@ def _drawings(sections: dict[str, str], day: Day, handin: Handin, where: str) ->
         )
     if kits:
         says.append(f"Drawing {', '.join(kits)}: the kit's picture; draw your own.")
-    untouched = len(missing) == number
-    return Item("drawings", "todo" if untouched else "wrong", " ".join(says))
+    status = "todo" if len(missing) == number else "wrong"
+    return Item("drawings", status, " ".join(says))
 
 
 def _drawing(text: str, handin: Handin, where: str) -> str:

@@ -38,13 +38,14 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
     own(library)                the student's functions, in the sandbox; a line says how
                                 they compare with the library's of the same names
     job(work, done)             work that waits for them, on another thread
-    animate(step, hz, work)     a loop in real time: start(), stop(), `running`
+    animate(step, hz, work)     a loop in real time: start(), stop(), toggle()
     draw                        arrows, lines, curve, sphere, ellipsoid, frame, label,
                                 ghost (a second arm), robot (a scene of MuJoCo's),
                                 target (a pose to drag)
     slider, buttons, choice, tick    viser's own, each with a callback
     html, say, matrix, legend   text, a line, a pose, what the colours mean
     bars, plot                  numbers per joint against limits; curves over time
+    image                       what a camera sees, in colours or in depths
     light(chosen, shown)        which frames are drawn, and which one stands out
     hide_arm()                  no arm but the tab's own
     gui, scene                  viser's own, for what is missing here
@@ -60,9 +61,9 @@ The modules, from the numbers to the page:
     arm, ghost                  MuJoCo's poses and the library's; the student's
     student, own                the student's files in the checker's sandbox
     checks                      the verdicts of `make check`, in the background
-    words, typed, address       numbers as HTML, as people type them, in the URL
-    shapes, meshes, draw, scene, pointed    what is in the picture
-    page, instruments, animate, robot       what a tab gets
+    words, typed                numbers as HTML; as people type them, in the URL
+    shapes, meshes, draw, scene what is in the picture
+    page, instruments, animate  what a tab gets
     tab, common_tabs            what a tab is; the tabs that every day has
     app, panel                  the page as a whole
     guard                       who may talk to it; our part of viser's page

@@ -59,7 +59,11 @@ class Animation:
         start, calls, stopped = time.perf_counter(), 0, None
         began = start
         try:
-            while await self._once(calls * self.period) is not False:
+            while True:
+                if self.work is not None:
+                    await asyncio.to_thread(self.work, calls * self.period)
+                if self.step(calls * self.period) is False:
+                    break
                 calls += 1
                 ahead = start + calls * self.period - time.perf_counter()
                 if ahead < -LATE:  # the machine is too slow: slow motion, no jump
@@ -70,11 +74,6 @@ class Animation:
             stopped = error
         self.task = None
         self.changed(stopped)
-
-    async def _once(self, seconds: float) -> bool | None:
-        if self.work is not None:
-            await asyncio.to_thread(self.work, seconds)
-        return self.step(seconds)
 
 
 class Jobs:
@@ -89,9 +88,7 @@ class Jobs:
     def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do this next; call it from a callback.
 
-        Args:
-            work: may wait.
-            done: is given what it returned, on the event loop.
+        The work may wait; `done` is given what it returned, on the event loop.
         """
         self.next = work, done
         if self.task is None:

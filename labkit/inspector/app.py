@@ -16,7 +16,7 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
-from labkit.inspector import address, words
+from labkit.inspector import typed, words
 from labkit.inspector.arm import END, Arm
 from labkit.inspector.checks import Standing
 from labkit.inspector.common_tabs import Chain, Joints, Tasks
@@ -24,8 +24,7 @@ from labkit.inspector.draw import Sketch
 from labkit.inspector.ghost import Difference, Seen, compare
 from labkit.inspector.page import Page
 from labkit.inspector.panel import Panel
-from labkit.inspector.pointed import Pointed
-from labkit.inspector.scene import GHOST_COLOUR, ArmScene
+from labkit.inspector.scene import GHOST_COLOUR, ArmScene, Pointed
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Tab
@@ -53,12 +52,8 @@ class Inspector:
     ) -> None:
         """Draw everything but the meshes; call it on the server's event loop.
 
-        Args:
-            server: already listening.
-            arm: the one that every browser moves.
-            about: what to say of the robot, below all; "" for nothing.
-            day: what it brings.
-            simple: draw a tab's robots with simple meshes, too.
+        What `about` says of the robot stands below all, what the day brings in between;
+        simple are the meshes of a tab's own robots, too.
         """
         self.server, self.arm, self.day, self.simple = server, arm, day, simple
         self.standing, self.heard_words = Standing(""), 0
@@ -81,10 +76,7 @@ class Inspector:
         self.update()
 
     def move(self, q: ArrayLike) -> None:
-        """Move the arm, in every browser; `arm` follows in `update`.
-
-        Args:
-            q: configuration, (nq,).
+        """Move the arm to q, (nq,), in every browser; `arm` follows in `update`.
 
         Raises:
             ValueError: wrong shape, or a number that is not finite.
@@ -145,7 +137,7 @@ class Inspector:
     @property
     def address(self) -> str:
         """The query that leads here: the configuration, the frame, the tab."""
-        return address.write(self.q, self.panel.frame.value, self.kind.title)
+        return typed.write_address(self.q, self.panel.frame.value, self.kind.title)
 
     def on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
         """Return a function for other threads that has the event loop call this one."""
@@ -160,16 +152,13 @@ class Inspector:
     # What the browsers and the student's file say
 
     def receive(self, query: str) -> int:
-        """Go where an address says, as far as that is somewhere.
-
-        Args:
-            query: "?q=...&frame=...&tab=..."; believed by nobody.
+        """Go where "?q=...&frame=...&tab=..." says, as far as that is somewhere.
 
         Returns:
             The number of this word: a state that knows of it follows.
         """
         self.heard_words += 1
-        q, frame, title = address.read(query, self.arm.model.nq)
+        q, frame, title = typed.read_address(query, self.arm.model.nq)
         self.open_tab(title)
         if frame in self.arm.names:
             self.panel.frame.value = frame  # type: ignore[misc]
@@ -207,7 +196,7 @@ class Inspector:
             self.panel.explain(COLOURS if self.day.ghost else {})
             self.scene.hide(False)
             self.scene.light(self.panel.frame.value, None)
-            self.scene.trace(np.zeros((0, 3)))
+            self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
             self.page = Page(self, Sketch(self.server, self.scene.coarse))

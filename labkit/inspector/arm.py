@@ -41,27 +41,21 @@ class Arm:
     def __init__(self, model: mujoco.MjModel, end_frame: str) -> None:
         """Start at the handout's `home_q`; another robot at its first key.
 
-        Args:
-            model: a Panda, see `robo47.panda.load`, or any chain of hinges and slides.
-            end_frame: full name of the frame that is called `ee`.
+        It may be any chain of hinges and slides; `ee` is a frame by its full name.
         """
         self.model = model
         self.chain = chain_to(model, end_frame)
         self.names = _short_names(model, self.chain)
         self.joints = [model.joint(j).name for j in range(model.njnt)]
         home = (model.key_qpos if model.nkey else [model.qpos0])[0].copy()
-        self.named_q = {"home": home, "zero": np.zeros(model.nq)}
-        count = len(panda.READY_Q)
+        self.named_q, count = {"home": home}, len(panda.READY_Q)
         if self.joints[:count] == list(panda.ARM_JOINTS):
-            ready = np.concatenate([panda.READY_Q, home[count:]])
-            self.named_q = {"home": home, "ready": ready, "zero": np.zeros(model.nq)}
+            self.named_q["ready"] = np.concatenate([panda.READY_Q, home[count:]])
+        self.named_q["zero"] = np.zeros(model.nq)
         self.move(self.named_q.get("ready", home))
 
     def move(self, q: ArrayLike) -> None:
-        """Take a configuration and compute every frame twice.
-
-        Args:
-            q: radians and metres, (nq,); it may be out of limits.
+        """Take a configuration, (nq,), also out of limits; compute every frame twice.
 
         Raises:
             ValueError: wrong shape, or a number that is not finite.
@@ -83,20 +77,14 @@ class Arm:
         poses = mujoco_poses(self.model, np.asarray(q)[None])
         return {name: poses[full][0] for name, full in self.names.items()}
 
-    def body_pose(self, body: str) -> Array:
-        """Return MuJoCo's pose of any body, (4, 4), whether it has a triad or not."""
-        return self.by_mujoco[f"body:{body}"]
-
     def random_q(self, seed: int) -> Array:
         """Return a configuration within the limits, to the sliders' four decimals."""
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
     def difference(self, name: str, T: Array | None = None) -> float:
-        """Return the largest difference of any entry between MuJoCo's pose and another.
+        """Return a frame's largest difference of any entry between MuJoCo's pose and T.
 
-        Args:
-            name: short name of the frame, a key of `names`.
-            T: the other pose, (4, 4); the library's unless given.
+        T is (4, 4); the library's unless given.
         """
         full = self.names[name]
         ours = self.by_library[full] if T is None else T
@@ -154,11 +142,9 @@ def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:
     A body that is only there to carry the end's site (`attachment`) shares its pose
     with `ee` and would hide it.
     """
-    carrier = chain.links[-1].name
-    bodies = [
-        full
+    hidden = "body:world", chain.links[-1].name
+    return {END: chain.frame} | {
+        full.removeprefix("body:"): full
         for full in frame_names(model)
-        if full.startswith("body:") and full not in ("body:world", carrier)
-    ]
-    names = {END: chain.frame}
-    return names | {full.partition(":")[2]: full for full in bodies}
+        if full.startswith("body:") and full not in hidden
+    }

@@ -47,25 +47,22 @@ class Checks:
         check: Callable[[], Sequence[TaskResult]],
         deliver: Callable[[Standing], None],
     ) -> None:
-        """Take the checker and who is told, on the thread; none runs yet."""
+        """Take the checker and who is told, on the thread; nothing is checked yet."""
         self.check, self.deliver = check, deliver
         self.wanted = threading.Event()
         self.ended = False
-        self.thread: threading.Thread | None = None
+        self.thread = threading.Thread(target=self._run, daemon=True, name="checks")
+        self.thread.start()
 
     def again(self) -> None:
         """Check as soon as the check that runs is done."""
         self.wanted.set()
-        if self.thread is None:
-            self.thread = threading.Thread(target=self._run, daemon=True, name="checks")
-            self.thread.start()
 
     def close(self) -> None:
         """End it once the check that runs is done: Python must not end before."""
         self.ended = True
         self.wanted.set()
-        if self.thread is not None:
-            self.thread.join(LEAVE_SECONDS)
+        self.thread.join(LEAVE_SECONDS)
 
     def _run(self) -> None:
         while self.wanted.wait() and not self.ended:

@@ -45,7 +45,8 @@ class Joints(Tab):
         """Make a slider for every joint, the buttons, and a box for all of q."""
         super().__init__(page)
         self.buttons = page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
-        self.units = ["m" if self.slides(joint) else "" for joint in page.arm.joints]
+        slides = page.model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
+        self.units = ["m" if slide else "" for slide in slides]
         self.sliders = [
             page.slider(
                 joint, *page.arm.limits(joint), float(page.q[i]), mover(page, i),
@@ -56,10 +57,6 @@ class Joints(Tab):
         self.box = page.gui.add_text("q", "")
         page.host.listen(self.box, self.type)
         self.exact = page.html()
-
-    def slides(self, joint: str) -> bool:
-        """Return whether a joint's number is in metres."""
-        return self.page.model.joint(joint).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
 
     def type(self, text: str) -> None:
         """Take the arm where the box says, once that is a configuration."""
@@ -93,8 +90,8 @@ class Joints(Tab):
         self.exact.content = (
             words.line(degrees, "degrees", "quiet")
             + '<div class="r47-row">'
-            + words.copy_button("copy q as NumPy", words.numpy_q(q))
-            + words.copy_button("copy T_world_ee", words.numpy_T(self.page.pose("ee")))
+            + words.copy_button("copy q as NumPy", q)
+            + words.copy_button("copy T_world_ee", self.page.pose("ee"))
             + "</div>"
             + words.line(ABOUT, "about-buttons", "quiet")
         )
@@ -165,14 +162,11 @@ class Chain(Tab):
             slider.visible = joint == this.joint
             slider.value = float(q[self.place[joint]])  # type: ignore[misc]
         self.page.light(this.link, {step.link for step in done})
-        self.page.host.scene.trace(np.array([step.after[:3, 3] for step in done]))
+        self.page.host.scene.trace([step.after[:3, 3] for step in done])
 
 
 def says_of(this: Step, number: int, of: int, whole: bool) -> str:
-    """Return one factor of the chain: what it is, and the three matrices, as HTML.
-
-    It is whole where the link has no factor after this one.
-    """
+    """Return a factor of the chain with its matrices; the whole link's is its last."""
     if this.joint:
         about = f"{this.joint} at q = {this.q:.4f} rad; marked is what q moves"
     else:

@@ -40,7 +40,7 @@ COLOURS = {
 }
 Points = NDArray[np.float32]
 Colour = str | tuple[int, int, int]
-Anchor = Literal["bottom-left", "center-left", "center-right", "top-right"]
+Anchor = Literal["bottom-left", "center-left", "top-right"]
 
 
 class Sketch:
@@ -50,7 +50,7 @@ class Sketch:
         """Begin with the arm's simple meshes, for ghosts."""
         self.server, self.coarse = server, list(coarse)
         self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
-        # Everything drawn hangs from it.
+        # All that is drawn hangs from it.
         self.root = server.scene.add_frame(ROOT, show_axes=False)
 
     def clear(self) -> None:
@@ -132,12 +132,7 @@ class Sketch:
             self._bare.pop()(self.coarse)
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
-        """Draw a handle at a pose that the mouse drags and turns.
-
-        Args:
-            T: where it is at first, (4, 4).
-            on_drag: is given its new pose, (4, 4).
-        """
+        """Draw a handle at T, (4, 4), that the mouse drags; `on_drag` is given it."""
         return Target(self.server.scene.add_transform_controls(
             self.path(), scale=0.18, depth_test=False
         ), T, on_drag)  # fmt: skip
@@ -293,11 +288,7 @@ def joined(points: ArrayLike) -> Points:
 
 
 def rgb(colour: Colour) -> tuple[int, int, int]:
-    """Return a colour's numbers.
-
-    Raises:
-        ValueError: no colour has that name.
-    """
+    """Return a colour's numbers; ValueError where none has that name."""
     if not isinstance(colour, str):
         return colour
     if colour not in COLOURS:

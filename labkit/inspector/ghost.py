@@ -25,20 +25,15 @@ FARTHEST = 1e3  # metres; a frame further away is not drawn
 
 @dataclass(frozen=True)
 class Ghost:
-    """Which function of the student's draws the ghost arm, and how.
+    """Which function of the student's draws the ghost arm, and how."""
 
-    Attributes:
-        function: its name in the student's file.
-        frames: short names of the frames along the arm, the base first, the end last.
-        questions: `questions(model, q)` returns the function's arguments for each of
-            the frames, in that order; `model` itself may be among them.
-        whole: `whole(model, q)` returns the arguments for the last frame alone, asked
-            where the function answers none of the questions; None for never.
-    """
-
-    function: str
-    frames: tuple[str, ...]
+    function: str  # its name in the student's file
+    frames: tuple[str, ...]  # short names, from the base to the end
+    # `questions(model, q)` returns the function's arguments for each of the frames, in
+    # that order; `model` itself may be among them.
     questions: Callable[[mujoco.MjModel, Array], Sequence[Arguments]]
+    # `whole(model, q)` returns those for the last frame alone, asked where the function
+    # answers none of the questions; None for never.
     whole: Callable[[mujoco.MjModel, Array], Arguments] | None = None
 
 

@@ -58,10 +58,7 @@ class LocalServer(viser.ViserServer):
     """A viser server for this machine's browsers alone."""
 
     def __init__(self, port: int) -> None:
-        """Listen on 127.0.0.1, at this port or the next free one.
-
-        Args:
-            port: the wish; `get_port()` tells what it became.
+        """Listen on 127.0.0.1, at this port or the next free one; see `get_port()`.
 
         Raises:
             Robo47Error: this viser starts its web server in a way not known here, so
@@ -122,10 +119,7 @@ class Door:
         request: Request,
         viser_answers: Callable[[ServerConnection, Request], Response | None],
     ) -> Response | None:
-        """Return the answer to a request, viser's own once it passed.
-
-        None opens a WebSocket.
-        """
+        """Return the answer, viser's own where all is well; None opens a WebSocket."""
         if why := self.refusal(request):
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
         path, _, query = request.path.partition("?")
@@ -157,9 +151,7 @@ def foreign(headers: Headers) -> str | None:
 def with_client(page: bytes, first: str) -> bytes:
     """Return viser's `index.html` with our style and script at its head.
 
-    Args:
-        page: viser's.
-        first: HTML that stands there until viser has drawn something: seconds later.
+    The first HTML stands there until viser has drawn something: seconds later.
 
     Raises:
         Robo47Error: it has no head or body where it is expected.

@@ -1,15 +1,22 @@
-"""The meshes of one arm in the scene: the real one, the student's, a tab's ghost."""
+"""Meshes in the scene: the arm, the student's, a tab's ghost or its own robot."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
-from labkit.inspector.shapes import Shape
+from labkit.inspector.shapes import Shape, shapes, simple_links
 from robo47 import se3
 from robo47.checks import Array
+
+if TYPE_CHECKING:
+    from labkit.inspector.page import Page
+
+Load = Callable[[], mujoco.MjModel]
 
 
 def place(node: viser.SceneNodeHandle, T: Array) -> None:
@@ -29,18 +36,18 @@ class Skin:
 
     def put_on(
         self,
-        shapes: Sequence[Shape],
+        made: Sequence[Shape],
         colour: tuple[int, int, int] | None = None,
         opacity: float | None = None,
     ) -> None:
         """Replace its meshes; without a colour they have their own, or are solid."""
         scene, old, self.meshes = self.server.scene, self.meshes, []
-        for i, shape in enumerate(shapes):
+        for i, shape in enumerate(made):
             path = f"{self.path}/{shape.body}"
             if shape.body not in self.bodies:
                 self.bodies[shape.body] = scene.add_frame(path, show_axes=False)
             mesh = scene.add_mesh_simple(
-                f"{path}/{len(shapes)}_{i}", shape.vertices.astype(np.float32),
+                f"{path}/{len(made)}_{i}", shape.vertices.astype(np.float32),
                 shape.faces, color=colour or _rgb(shape), opacity=opacity,
             )  # fmt: skip
             self.meshes.append((mesh, shape))
@@ -58,11 +65,9 @@ class Skin:
                 place(body, T)
 
     def poses(self, data: mujoco.MjData, qpos: ArrayLike) -> dict[str, Array]:
-        """Return where its bodies are, {body: T_world_body (4, 4)}.
+        """Return where its bodies are at qpos, {body: T_world_body (4, 4)}.
 
-        Args:
-            data: of the model whose bodies these are.
-            qpos: a configuration; a shorter one is that of the first joints, (n,).
+        The data are the model's; a shorter qpos, (n,), is that of the first joints.
         """
         data.qpos[: len(np.asarray(qpos))] = qpos
         mujoco.mj_kinematics(data.model, data)
@@ -78,6 +83,43 @@ class Skin:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color, mesh.opacity = _rgb(shape, shade), opacity
+
+
+class Robot:
+    """A scene of MuJoCo's in a tab: robot, table, cube, where qpos has them.
+
+    What the bare model has is there at once; the meshes follow when they are loaded.
+    """
+
+    def __init__(self, page: "Page", model: mujoco.MjModel, dressed: Load) -> None:
+        """Draw what is simulated instead of the page's arm.
+
+        `dressed` loads the same with its looks; a function of a module, asked once.
+        """
+        self.page, self.model, self.data = page, model, mujoco.MjData(model)
+        self.skin = Skin(page.host.server, page.draw.path())
+        self.skin.put_on(shapes(model))
+        page.hide_arm()
+        page.jobs_apart().want(partial(_looks, dressed, page.host.simple), self._dress)
+
+    def _dress(self, made: list[Shape]) -> None:
+        with self.page.host.server.atomic():
+            self.skin.put_on(made)
+            self.show(self.data.qpos)
+
+    def show(self, qpos: ArrayLike) -> None:
+        """Put everything where a configuration has it, (nq,)."""
+        self.skin.pose(self.skin.poses(self.data, qpos))
+
+
+@cache
+def _looks(dressed: Load, simple: bool) -> list[Shape]:
+    model = dressed()
+    if not simple:
+        return shapes(model)
+    coarse = simple_links(model)
+    links = {shape.body for shape in coarse}
+    return coarse + [shape for shape in shapes(model) if shape.body not in links]
 
 
 def _rgb(

@@ -41,19 +41,10 @@ class Own:
         library: Any,
         free: Collection[str] = (),
     ) -> None:
-        """Ask nobody yet.
-
-        Args:
-            student: who is asked; None before the page knows the file.
-            library: a module, or {name: function}.
-            free: names of functions that have more than one right answer.
-        """
+        """Ask nobody yet, see `Page.own`; no student as long as no file is known."""
         self._free, self._student = free, student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
-        self._forget()
-
-    def _forget(self) -> None:
         self._apart: dict[str, float] = {}
         self._lent: dict[str, str] = {}
 
@@ -62,22 +53,16 @@ class Own:
         return lambda *args: self.many((name, *args))[0]
 
     def many(self, *calls: Call) -> list[Any]:
-        """Return the answers to several calls, asked at once.
+        """Return the answers to several calls (name, argument, ...), asked at once.
 
-        Args:
-            calls: (name, argument, ...) each.
-
-        Raises:
-            NoAnswerError: one of them gave none.
+        Where one of them gave none NoAnswerError is raised.
         """
         right = [self._library[name](*args) for name, *args in calls]
         student = self._student()
-        there = student is not None and student.there
-        version = student.version if student is not None and there else -1
+        version = student.version if student and student.there else -1
         if version != self.version:
-            self.version = version
-            self._forget()
-        if student is None or not there:
+            self.version, self._apart, self._lent = version, {}, {}
+        if student is None or version < 0:
             why = "there is no file yet" if student else "yours is being opened"
             self._lent |= {name: why for name, *_ in calls}
             return right

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from labkit.inspector import words
 from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
-from labkit.inspector.instruments import Bars, Plot
+from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
 from robo47 import kinematics
 from robo47.checks import Array
@@ -56,13 +56,9 @@ class Page:
         return self.arm.pose(name)
 
     def links(self, q: ArrayLike) -> dict[str, Array]:
-        """Return where every link is at a configuration, for a ghost's `pose`.
-
-        Args:
-            q: of the seven joints, (7,); fingers stay as they are.
-        """
+        """Return where every link is at q, (7,), for a ghost's `pose`."""
         whole = self.q
-        whole[: len(np.asarray(q))] = q
+        whole[: len(np.asarray(q))] = q  # fingers stay as they are
         poses = kinematics.fk_all(self.model, whole)
         return {
             name.removeprefix("body:"): T
@@ -77,11 +73,9 @@ class Page:
     def light(
         self, chosen: str | None = None, shown: Collection[str] | None = None
     ) -> None:
-        """Choose which frames are drawn.
+        """Choose by short names which frame stands out, and which are shown at all.
 
-        Args:
-            chosen: short name of the one that stands out; None for no one.
-            shown: short names of those drawn at all; None for every one.
+        None is no one of the first, and every one of the second.
         """
         self.host.scene.light(chosen, shown)
 
@@ -116,23 +110,18 @@ class Page:
         return made
 
     def job(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
-        """Do something that waits; of several that wait the newest is done.
+        """Do work that waits, and may call `own`; `done` is given what it returned.
 
-        Args:
-            work: may call `own`.
-            done: is given what it returned.
+        Of several that wait the newest is done.
         """
         self.jobs.want(work, done)
 
     def animate(
         self, step: Step, hz: float = 30.0, work: Callable[[float], Any] | None = None
     ) -> Animation:
-        """Prepare a loop in real time; `start()` and `stop()` it from a button.
+        """Prepare a loop in real time, see `Animation`; its work may call `own`.
 
-        Args:
-            step: is given the seconds since the start; returning False ends the loop.
-            hz: calls a second.
-            work: called before each step, on another thread: may call `own`.
+        `start()`, `stop()` or `toggle()` it from a button.
         """
 
         def told(seconds: float) -> bool | None:
@@ -169,12 +158,7 @@ class Page:
         return self.gui.add_html(text)
 
     def say(self, text: str, kind: str = "") -> None:
-        """Show a line at the tab's end, instead of the one before.
-
-        Args:
-            text: plain text; "" for none.
-            kind: "", "good", "bad" or "quiet".
-        """
+        """Show a line at the tab's end, instead of the one before; see `words.line`."""
         self.end().content = words.line(text, "tab", kind) if text else ""
 
     def end(self) -> viser.GuiHtmlHandle:
@@ -204,12 +188,10 @@ class Page:
         """Add a slider from low to high with a box; setting `value` moves it.
 
         Args:
-            label: what a person reads.
-            low: the least value.
-            high: the greatest.
-            start: at first.
+            label: what a person reads, with the unit behind it unless "".
+            low, high, start: values; the slider's ends are whole steps between.
             on_change: is given the new value.
-            unit: behind the label; "" for none.
+            unit: of the values.
             step: between values, and of an arrow key.
         """
         # What the mouse gives are whole steps: from a whole step on, they are round.
@@ -266,17 +248,34 @@ class Page:
         return Bars(self.html(), labels, full, unit, title, kind)
 
     def plot(
-        self, curves: Sequence[str], *, y: str = "", height: int = 150, least: float = 0
+        self,
+        curves: Sequence[str],
+        *,
+        x: str = "t (s)",
+        y: str = "",
+        height: int = 150,
+        least: float = 0,
     ) -> Plot:
-        """Add a plot over t in seconds; `show(x, ys)` or `add(x, values)` fills it.
+        """Add a plot; `show(x, ys)` or `add(x, values)` fills it.
 
         Args:
             curves: one name per curve.
+            x: the horizontal axis.
             y: the title: what is drawn, with its unit.
             height: pixels.
             least: the lowest value of a logarithmic axis; 0 for a plain one.
         """
-        return Plot(self.gui, curves, y, height, least)
+        return Plot(self.gui, curves, x, y, height, least)
+
+    def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
+        """Add an image; setting `image` to what `as_bytes` makes of one changes it.
+
+        Args:
+            picture: (rows, columns, 3) of bytes, or (rows, columns) of any numbers,
+                drawn from black (the smallest) to white.
+            title: above.
+        """
+        return self.gui.add_image(as_bytes(picture), label=title or None, format="png")
 
     def close(self) -> None:
         """Stop the loops, remove the drawings."""

@@ -37,10 +37,7 @@ class Panel:
         return self.gui._container_handle_from_uuid["root"]._children  # type: ignore[return-value]
 
     def open(self, titles: list[str], chosen: str, wide: bool) -> None:
-        """Remove what a tab put into the panel, and mark another of them as open.
-
-        A wide one needs the room of the two matrices.
-        """
+        """Remove what a tab put here; open another one, a wide one without proof."""
         for uuid, child in list(self._children().items()):
             if uuid not in self.fixed:
                 child.remove()

@@ -39,11 +39,9 @@ class Recording:
     """What a robot does, with all that is drawn around it."""
 
     def __init__(self, model: mujoco.MjModel, back: float = 1.0) -> None:
-        """Begin with the model at zero.
+        """Begin with a model at zero, with the looks that are to be seen.
 
-        Args:
-            model: with the looks that are to be seen.
-            back: how far the camera stands back; 1 suits an arm at ready.
+        The camera stands back by 1, which suits an arm at ready, or more.
         """
         self.model, self.data = model, mujoco.MjData(model)
         self.server = LocalServer(0)
@@ -82,11 +80,9 @@ class Recording:
         self.seconds += seconds
 
     def page(self, title: str, nonce: str = "") -> str:
-        """Return the HTML file, and end the recording.
+        """Return the HTML file with a window's title, and end the recording.
 
-        Args:
-            title: of the window.
-            nonce: of its scripts, where a page's policy (`ALLOWED`) lets no other run.
+        The nonce is its scripts', where a page's policy (`ALLOWED`) lets no other run.
         """
         self.wait(0.0)
         assert self._recorded is not None

@@ -6,15 +6,17 @@ collides with, then those that one looks at. Metres.
 
 import asyncio
 import contextlib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 
+import mujoco
 import numpy as np
 import viser
+from numpy.typing import ArrayLike
 
 from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Anchor, Triad, joined, lines
 from labkit.inspector.meshes import Skin
-from labkit.inspector.shapes import Shape
+from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS, Shape
 from labkit.inspector.tab import View
 from robo47.checks import Array
 
@@ -31,6 +33,8 @@ SEE_THROUGH = 0.5  # opacity
 GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
 HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.6
+AXIS = 0.3  # metres of a joint's axis, to both sides
+SHORT, FAR = 1e-6, 1e6  # metres of a ray
 
 
 class ArmScene:
@@ -74,7 +78,7 @@ class ArmScene:
     def update(self) -> None:
         """Move everything to the arm's present configuration."""
         bodies = () if self.hidden else self.skin.bodies
-        self.skin.pose({name: self.arm.body_pose(name) for name in bodies})
+        self.skin.pose({name: self.arm.by_mujoco[f"body:{name}"] for name in bodies})
         for name, triad in self.triads.items():
             triad.place(self.arm.by_library[self.arm.names[name]])
 
@@ -102,10 +106,7 @@ class ArmScene:
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
-        """Draw the student's arm where it is not the real one, {short name: (4, 4)}.
-
-        A line leads to its end from where that should be.
-        """
+        """Draw the student's arm, {short name: (4, 4)}, and a line to its end."""
         self.ghost.pose(poses)
         there = poses.get(end)
         self.yours.show(there is not None, chosen=True)
@@ -119,11 +120,11 @@ class ArmScene:
         for name, triad in self.triads.items():
             triad.show(shown is None or name in shown, name == chosen)
 
-    def trace(self, origins: Array) -> None:
-        """Draw the way from the world through these origins, (n, 3); n = 0: none."""
+    def trace(self, origins: Sequence[Array]) -> None:
+        """Draw the way from the world through these origins, (3,) each; or none."""
         self.way.visible = len(origins) > 0
         if self.way.visible:
-            self.way.points = joined([[0.0, 0.0, 0.0], *origins])
+            self.way.points = joined([np.zeros(3), *origins])
 
     def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
         """Make the arm solid or see-through, and green or not; None leaves it so."""
@@ -139,6 +140,69 @@ class ArmScene:
             self.skin.look(None)
         else:
             self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
+
+
+class Pointed:
+    """The link that was clicked: its name, and the axis that its joint turns about."""
+
+    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+        """Make the axis and the name, hidden until a link is clicked."""
+        self.server, self.arm = server, arm
+        self.model: mujoco.MjModel | None = None
+        self.body = 0
+        nowhere = np.zeros((1, 2, 3))
+        self.line = lines(server, "/pointed/axis", nowhere, "purple", 3.0)
+        self.line.visible = False
+        self.label = server.scene.add_label(
+            "/pointed/name", "", visible=False, font_screen_scale=0.9
+        )
+
+        @server.scene.on_click()  # type: ignore[arg-type]
+        async def _(event: viser.SceneClickEvent) -> None:
+            self.body = self.find(event.ray_origin, event.ray_direction)
+            self.show()
+
+    def watch(self, model: mujoco.MjModel) -> None:
+        """Look for links from now on, in the arm's model with its shapes."""
+        self.model, self.data = model, mujoco.MjData(model)
+
+    def show(self) -> None:
+        """Name what was clicked, where it is now; or nothing."""
+        self.label.visible = self.line.visible = bool(self.body)
+        if not self.body or self.model is None:
+            return
+        self._pose()
+        name = self.model.body(self.body).name
+        self.label.position = self.data.xpos[self.body]
+        joint = int(self.model.body_jntadr[self.body])
+        self.line.visible = joint >= 0
+        if joint < 0:
+            self.label.text = f"{name}: no joint of its own"
+            return
+        kind = mujoco.mjtJoint(self.model.jnt_type[joint])
+        does = "slides along" if kind == mujoco.mjtJoint.mjJNT_SLIDE else "turns about"
+        self.label.text = f"{name}: {self.model.joint(joint).name} {does} this axis"
+        anchor, axis = self.data.xanchor[joint], self.data.xaxis[joint]
+        self.line.points = joined([anchor - AXIS * axis, anchor + AXIS * axis])
+
+    def find(self, origin: ArrayLike, direction: ArrayLike) -> int:
+        """Return the id of the body that a ray meets first, (3,) each; 0 for none."""
+        start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)
+        near = np.abs([start, ray]).max() < FAR  # not NaN either
+        if self.model is None or not near or np.linalg.norm(ray) < SHORT:
+            return 0  # no browser says that: MuJoCo would stop over it
+        self._pose()
+        simple = np.isin(self.model.geom_group, COLLISION_GROUPS).any()
+        groups = COLLISION_GROUPS if simple else VISIBLE_GROUPS
+        wanted = np.array([g in groups for g in range(6)], dtype=np.uint8)
+        geom, ray = np.array([-1], dtype=np.int32), ray / np.linalg.norm(ray)
+        mujoco.mj_ray(self.model, self.data, start, ray, wanted, True, -1, geom)
+        return int(self.model.geom_bodyid[geom[0]]) if geom[0] >= 0 else 0
+
+    def _pose(self) -> None:
+        assert self.model is not None
+        self.data.qpos[:] = self.arm.q
+        mujoco.mj_kinematics(self.model, self.data)
 
 
 def set_stage(server: viser.ViserServer) -> None:

@@ -33,11 +33,9 @@ class Shape(NamedTuple):
 def shapes(
     model: mujoco.MjModel, groups: tuple[int, ...] = VISIBLE_GROUPS
 ) -> list[Shape]:
-    """Return the model's looks, one shape per body and colour.
+    """Return a model's looks, one shape per body and colour, of some groups of geoms.
 
-    Args:
-        model: compiled with its meshes; planes and height fields are left out.
-        groups: of geoms; the collision shapes are some 60 times simpler.
+    Planes and height fields are left out; collision shapes are some 60 times simpler.
     """
     parts: dict[tuple[str, Rgba], list[tuple[Array, Faces]]] = {}
     for geom in range(model.ngeom):
@@ -59,10 +57,8 @@ def simple_links(model: mujoco.MjModel) -> list[Shape]:
 def thinned(shape: Shape, grid: float) -> Shape:
     """Return a shape with a quarter of its bytes, for a file that is sent to others.
 
-    Args:
-        shape: its corners that share a cell of a grid, and look the same way, become
-            one in their middle; triangles without an area go.
-        grid: metres.
+    Corners that share a cell of a grid, in metres, and look the same way become one in
+    their middle; triangles without an area go.
     """
     sides = shape.vertices[shape.faces]
     facing = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])

@@ -37,10 +37,7 @@ class Source:
 
 
 def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
-    """Return the student's file of a day, to be opened in a sandbox.
-
-    The model is the robot that the page shows, as it is in questions.
-    """
+    """Return a day's file, to be opened in a sandbox with the model of questions."""
 
     def opened(script: Path) -> Session:
         return sandbox.session(script, [model], library_of(day), limits=day.limits)

@@ -1,6 +1,7 @@
 """A tab of the page, and the tabs of a day, found in its own folder."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.inspector.ghost import Ghost
 from labkit.lesson import folder
@@ -31,6 +32,15 @@ class Tab:
 
     def on_move(self, q: Array) -> None:
         """Show the configuration that the arm has now; radians and metres, (nq,)."""
+
+    def sets(self, name: str) -> Callable[[Any], None]:
+        """Return what a widget calls to set an attribute; then all is shown anew."""
+
+        def changed(value: Any) -> None:
+            setattr(self, name, value)
+            self.on_move(self.page.q)
+
+        return changed
 
     def lost(self) -> None:
         """Show no numbers: the student's function gave none."""

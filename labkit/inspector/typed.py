@@ -1,13 +1,23 @@
-"""Numbers as people type them: 0.5, pi/2, -3*pi/4, 90 deg, 90°, 1e-3."""
+"""A configuration as people type it, and in the page's address.
+
+Numbers are 0.5, pi/2, -3*pi/4, 90 deg, 90°, 1e-3. By the address a person reloads a
+configuration, goes back to it, shares it.
+"""
 
 import ast
 import math
 import operator
 import re
+import urllib.parse
 from collections.abc import Callable
+
+import numpy as np
+
+from robo47.checks import Array
 
 LONGEST, MOST = 60, 2_000  # characters of a number, of a configuration
 TURN = 2 * math.pi
+FARTHEST = 100.0  # radians or metres; no address leads further
 _DEGREES = re.compile(r"\s*(deg|degrees?|°)\s*$", re.IGNORECASE)
 _BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -18,13 +28,10 @@ _BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
 
 
 def number(text: str) -> float:
-    """Return the number that a text stands for.
-
-    Args:
-        text: a sum or product of numbers and pi; degrees with `deg` or ° behind it.
+    """Return what a sum or product of numbers and pi is; `deg` or ° may follow it.
 
     Raises:
-        ValueError: it stands for no finite number; the message is for the person.
+        ValueError: it is no finite number; the message is for the person.
     """
     plain = text[: LONGEST + 1].replace("π", "pi").replace("−", "-")
     bare = _DEGREES.sub("", plain)
@@ -40,14 +47,10 @@ def number(text: str) -> float:
 
 
 def configuration(text: str, count: int) -> list[float]:
-    """Return the numbers of a configuration, radians and metres.
-
-    Args:
-        text: as one types it or as NumPy prints it: "[0, -pi/4, 0, -90 deg, 0, 2, 1]".
-        count: how many there must be.
+    """Return a configuration's numbers, as typed or as NumPy prints them.
 
     Raises:
-        ValueError: the message is for the person.
+        ValueError: they are not `count` numbers; the message is for the person.
     """
     plain = text[:MOST].strip().removeprefix("np.array(").strip()
     if plain.startswith("["):
@@ -72,3 +75,23 @@ def _value(node: ast.expr) -> float:
     if isinstance(node, ast.BinOp) and type(node.op) in _BINARY:
         return _BINARY[type(node.op)](_value(node.left), _value(node.right))
     raise ValueError
+
+
+def write_address(q: Array, frame: str, tab: str) -> str:
+    """Return the query behind the page's address; every digit of q, (nq,), is kept."""
+    numbers = ",".join(f"{float(x)!r}".removesuffix(".0") for x in q)
+    query = {"q": numbers, "frame": frame, "tab": tab}
+    return "?" + urllib.parse.urlencode(query, safe=",")
+
+
+def read_address(query: str, nq: int) -> tuple[Array | None, str, str]:
+    """Return q or None, frame and tab of "?q=...&frame=...&tab=..." or of anything."""
+    given = urllib.parse.parse_qs(query.removeprefix("?"))
+    frame, tab = (given.get(name, [""])[0] for name in ("frame", "tab"))
+    try:
+        q = np.array([float(x) for x in given.get("q", [""])[0].split(",")])
+    except ValueError:
+        return None, frame, tab
+    if q.shape != (nq,) or not (np.abs(q) <= FARTHEST).all():
+        return None, frame, tab
+    return q, frame, tab

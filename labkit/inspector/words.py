@@ -31,7 +31,7 @@ def matrix(
     Args:
         name: such as "T_world_ee".
         T: (4, 4).
-        key: unique in the page.
+        key: as above.
         marked: entries to mark, (4, 4) of bool.
         mark: how: "off" for wrong ones, "moves" for what q changes.
     """
@@ -80,14 +80,9 @@ def verdict(difference: float, whose: str = "the library") -> str:
 
 
 def proof(arm: Arm, name: str, seen: Seen | None) -> str:
-    """Return one frame's pose from MuJoCo and from the student's file.
+    """Return a frame's pose from MuJoCo, and from what the student's function said.
 
-    Where there is no pose of the student's, the library's stands there, by its name.
-
-    Args:
-        arm: in its present configuration.
-        name: short name of the frame.
-        seen: what the student's function said, with a pose of this frame; or None.
+    Where that is None the library's stands there, by its name.
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
     if seen is None:
@@ -109,17 +104,6 @@ def limits(arm: Arm) -> str:
     return line(text, "limits", "bad")
 
 
-def numpy_q(q: Array) -> str:
-    """Return a configuration as NumPy reads it, every digit of it."""
-    return f"np.array({q.tolist()!r})"
-
-
-def numpy_T(T: Array) -> str:
-    """Return a matrix as NumPy reads it, every digit of it."""
-    rows = ",\n    ".join(map(repr, T.tolist()))
-    return f"np.array([\n    {rows},\n])"
-
-
 def tab_row(names: Iterable[str], chosen: str) -> str:
     """Return the row of tabs, one of them open; a click sends the address of the tab.
 
@@ -133,8 +117,13 @@ def tab_row(names: Iterable[str], chosen: str) -> str:
     return f'<div class="r47-tabs" role="tablist">{made}</div>'
 
 
-def copy_button(label: str, text: str) -> str:
-    """Return a button with a label that copies a text."""
+def copy_button(label: str, value: Array) -> str:
+    """Return a button that copies numbers as NumPy reads them, every digit of them."""
+    text = repr(value.tolist())
+    if value.ndim > 1:  # one row a line
+        rows = ",\n    ".join(map(repr, value.tolist()))
+        text = f"[\n    {rows},\n]"
+    text = f"np.array({text})"
     return (
         f'<button type="button" class="r47-copy" data-r47-copy="{escape(text)}">'
         f"{escape(label)}</button>"

@@ -25,30 +25,3 @@ from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import Count, Image, Mask, Pixels, Waypoints
 from labkit.judge.rigid_kinds import Pose, Rotation
-
-__all__ = [
-    "Ask",
-    "Case",
-    "Count",
-    "Covariance",
-    "Finding",
-    "HeldOut",
-    "Image",
-    "Jacobian",
-    "Mask",
-    "Matrix",
-    "Mistake",
-    "Pixels",
-    "Points",
-    "Pose",
-    "Robot",
-    "Rotation",
-    "Scalar",
-    "Slip",
-    "Symmetric",
-    "Twist",
-    "Vector",
-    "Verdict",
-    "Waypoints",
-    "Wrench",
-]

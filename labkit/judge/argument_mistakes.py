@@ -14,21 +14,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Change:
-    """A mistake with one argument.
+    """A mistake with one argument."""
 
-    Attributes:
-        slug: its name.
-        says: as in a `Mistake`; {name} is the argument's.
-        change: from the argument to what is used in its place.
-        redone: as in a `Mistake`; {name} is the argument's.
-        hidden: why the lab cannot show it, "" where it can.
-    """
-
-    slug: str
-    says: str
-    change: Callable[[Any], Any]
-    redone: str
-    hidden: str = ""
+    slug: str  # its name
+    says: str  # as in a `Mistake`; {name} is the argument's
+    change: Callable[[Any], Any]  # from the argument to what is used in its place
+    redone: str  # as in a `Mistake`; {name} is the argument's
+    hidden: str = ""  # why the lab cannot show it, "" where it can
 
 
 DEGREES = Change(

@@ -32,14 +32,11 @@ ANY = None  # truth of a function that is judged by `accept`
 
 @dataclass(frozen=True)
 class Robot:
-    """A model as an argument: student code gets plain data that reads like an MjModel.
+    """A model as an argument: student code gets data that reads like an MjModel."""
 
-    Attributes:
-        entry: as `panda.load` names it, or the path of any MJCF file.
-        change: is given the compiled model to alter, such as longer links.
-    """
-
+    # As `panda.load` names it, or the path of any MJCF file.
     entry: str | File = "panda_nohand"
+    # Is given the compiled model to alter, such as longer links.
     change: Callable[[mujoco.MjModel], None] | None = None
 
     @cached_property
@@ -68,106 +65,78 @@ def model_of(entry: str | File) -> mujoco.MjModel:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Further questions to a right function: how did its answers come about?
+    """Further questions to a right function: how did its answers come about?"""
 
-    Attributes:
-        slug: what is found where an answer is not right.
-        says: what to say then, a sentence or two.
-        inputs: as those of `Ask`.
-        truth: the right answers; None is the function's own truth.
-        mistaken: instead of `truth`: what is found are these very answers.
-        status: "wrong", "close", or "passed" for a remark only.
-    """
-
-    slug: str
-    says: str
-    inputs: Inputs
+    slug: str  # what is found where an answer is not right
+    says: str  # what to say then, a sentence or two
+    inputs: Inputs  # as those of `Ask`
+    # The right answers; None is the function's own truth.
     truth: Callable[..., Any] | None = None
+    # Instead of `truth`: what is found are these very answers.
     mistaken: Callable[..., Any] | None = None
-    status: str = "wrong"
+    status: str = "wrong"  # "wrong", "close", or "passed" for a remark only
 
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip that ends in an exception whose own text does not help.
+    """A slip that ends in an exception whose own text does not help."""
 
-    Attributes:
-        error: regular expression that the "Type: text" of the exception matches.
-        source: one that the student's file matches.
-        slug: its name.
-        says: what to say, a sentence or two.
-    """
-
-    error: str
-    source: str
-    slug: str
-    says: str
+    error: str  # regular expression that the "Type: text" of the exception matches
+    source: str  # one that the student's file matches
+    slug: str  # its name
+    says: str  # what to say, a sentence or two
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a hook is given: all that was asked of one function, and what came back.
+    """What a hook is given: all that was asked of one function, and what came back."""
 
-    Attributes:
-        ask: the row of the function.
-        arguments: of the main questions, stacked, (n, ...) each; a Robot as its model.
-        S: the student's answers, (n, ...).
-        T: the right ones.
-        given: the inputs in words, one per question.
-        probes: per question of `Ask.probe` its arguments and the answer, or None.
-    """
-
-    ask: "Ask"
+    ask: "Ask"  # the row of the function
+    # Of the main questions, stacked, (n, ...) each; a Robot as its model.
     arguments: tuple[Any, ...]
-    S: Any
-    T: Any
-    given: Sequence[str]
+    S: Any  # the student's answers, (n, ...)
+    T: Any  # the right ones
+    given: Sequence[str]  # the inputs in words, one per question
+    # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
 
 
 @dataclass(frozen=True)
 class Ask:
-    """One function of a day.
+    """One function of a day."""
 
-    Attributes:
-        inputs: from a seeded generator to the arguments of every call: the case of the
-            docstring first, drawn ones last. What is random is an argument: noise is
-            drawn here. Round what is drawn (`draw.rounded`), so that a student can
-            type it. Arrays of bools and of whole numbers stay what they are.
-        kind: of the answer; a tuple of kinds where the function returns a tuple.
-        truth: the right answers to all calls, from stacked arguments as `Mistake.redo`
-            takes them; an oracle, never the lab script.
-        accept: instead of `truth` where many answers are right: takes one call's
-            arguments and the answer, and returns what is wrong with it, or None.
-        mistakes: the named ones, the more general first; a function that returns them
-            where making them costs something.
-        fresh: how many of the drawn inputs, from the end, are drawn anew at each check.
-        tolerance: an answer is right up to this, in units of its kind's scale.
-        near: and nearly right up to this.
-        held_out: further questions to a right function.
-        probe: inputs of further questions, whose replies only help to say where a wrong
-            answer goes wrong; they may be errors.
-        unnamed: says where an answer that no named mistake gives goes wrong.
-        near_miss: says why an answer is right to some digits only.
-        measured: adds lines for --explain.
-        slips: exceptions that have better words than their own.
-        at_edge: whether a call with edge values has one right answer; None is yes.
-    """
-
+    # From a seeded generator to the arguments of every call: the case of the docstring
+    # first, drawn ones last. What is random is an argument: noise is drawn here. Round
+    # what is drawn (`draw.rounded`), so that a student can type it. Arrays of bools and
+    # of whole numbers stay what they are.
     inputs: Inputs
+    # Of the answer; a tuple of kinds where the function returns a tuple.
     kind: Kind | tuple[Kind, ...]
+    # The right answers to all calls, from stacked arguments as `Mistake.redo` takes
+    # them; an oracle, never the lab script.
     truth: Callable[..., Any] | None = ANY
+    # Instead of `truth` where many answers are right: takes one call's arguments and
+    # the answer, and returns what is wrong with it, or None.
     accept: Callable[..., Finding | str | None] | None = None
+    # The named ones, the more general first; a function that returns them where making
+    # them costs something.
     mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()
+    # How many of the drawn inputs, from the end, are drawn anew at each check.
     fresh: int = 2
+    # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
-    near: float = 1e-4
-    held_out: Sequence[HeldOut] = ()
+    near: float = 1e-4  # and nearly right up to this
+    held_out: Sequence[HeldOut] = ()  # further questions to a right function
+    # Inputs of further questions, whose replies only help to say where a wrong answer
+    # goes wrong; they may be errors.
     probe: Inputs | None = None
+    # Says where an answer that no named mistake gives goes wrong.
     unnamed: Callable[[Case], Finding | None] | None = None
+    # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
-    measured: Callable[[Case], Sequence[str]] | None = None
-    slips: Sequence[Slip] = ()
+    measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain
+    slips: Sequence[Slip] = ()  # exceptions that have better words than their own
+    # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
@@ -215,23 +184,14 @@ class Ask:
 
 @dataclass(frozen=True)
 class Asked:
-    """All that one function is asked in one check, by role.
+    """All that one function is asked in one check, by role."""
 
-    Attributes:
-        function: its name.
-        ask: its row.
-        main: the questions that are the same at every check.
-        fresh: edge values, and those that are drawn anew.
-        held_out: per entry of `ask.held_out`.
-        probes: those of `ask.probe`.
-    """
-
-    function: str
-    ask: Ask
-    main: list[Exchange]
-    fresh: list[Exchange]
-    held_out: list[list[Exchange]]
-    probes: list[Exchange]
+    function: str  # its name
+    ask: Ask  # its row
+    main: list[Exchange]  # the questions that are the same at every check
+    fresh: list[Exchange]  # edge values, and those that are drawn anew
+    held_out: list[list[Exchange]]  # per entry of `ask.held_out`
+    probes: list[Exchange]  # those of `ask.probe`
 
     @cached_property
     def right(self) -> Parts:

@@ -24,21 +24,15 @@ NEAR = 1e-4
 
 @dataclass(frozen=True)
 class Factor:
-    """One factor of a product.
+    """One factor of a product."""
 
-    Attributes:
-        place: what it is called, "link5", after "the step to".
-        T: the right factor at every question, (n, 4, 4).
-        fixed: whether it is the same at every q.
-        candidates: what else may stand there: findings (a clause without full stop),
-            each with the factor that it makes, (n, 4, 4).
-        unnamed: what to say of any other factor found in its place, or None.
-    """
-
-    place: str
-    T: Array
-    fixed: bool
+    place: str  # what it is called, "link5", after "the step to"
+    T: Array  # the right factor at every question, (n, 4, 4)
+    fixed: bool  # whether it is the same at every q
+    # What else may stand there: findings (a clause without full stop), each with the
+    # factor that it makes, (n, 4, 4).
     candidates: Callable[[], Iterable[tuple[Finding, Array]]] = tuple
+    # What to say of any other factor found in its place, or None.
     unnamed: Callable[[Array], Finding | None] | None = None
 
 

@@ -16,24 +16,15 @@ from robo47.checks import Array
 
 @dataclass(frozen=True)
 class Failing:
-    """One call whose answer is not right.
+    """One call whose answer is not right."""
 
-    Attributes:
-        says: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
-        whole: the same with every argument and entry, in lines.
-    """
-
+    # In a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
     says: str = ""
-    whole: tuple[str, ...] = ()
+    whole: tuple[str, ...] = ()  # the same with every argument and entry, in lines
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
-    """Return the call that is furthest off, of those that are always asked if any is.
-
-    Args:
-        asked: all questions, with their replies.
-        names: of the function's arguments, where they are known.
-    """
+    """Return the call that is furthest off, of those always asked if one of them is."""
     with np.errstate(all="ignore"):
         for exchanges, held in _rounds(asked):
             if found := _broken(exchanges, names):
@@ -147,10 +138,6 @@ def in_words(question: Question, names: Sequence[str] = ()) -> str:
 
     Numbers and vectors can be typed; where a matrix is among them, the rest would
     mislead.
-
-    Args:
-        question: whose arguments.
-        names: theirs, where they are known.
     """
     args = question.args
     if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):

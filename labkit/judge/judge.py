@@ -79,13 +79,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
-    """Return what keeps some answers from being judged, and what is wrong with others.
-
-    Args:
-        found: of the answers that cannot be judged.
-        asked: all questions, with their replies.
-        names: of the function's arguments.
-    """
+    """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
     rest = replace(asked, main=good, probes=[])
     S = problems.read(replies(good), asked.ask, "") if good else found
@@ -194,13 +188,7 @@ def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
 
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
-    """Return how far off calls are, and how many are right.
-
-    Args:
-        ask: the row of the function.
-        gap: per call, as `gaps` has it.
-        which: calls these are.
-    """
+    """Return how far off calls are by their gaps, and how many are right."""
     return (
         f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
         f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
@@ -219,7 +207,10 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
         return found
-    return ask.unnamed(case) if ask.unnamed else None
+    try:
+        return ask.unnamed(case) if ask.unnamed else None
+    except np.linalg.LinAlgError:  # of a singular answer
+        return None
 
 
 def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:

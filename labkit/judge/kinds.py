@@ -41,19 +41,15 @@ TRUNCATED = Mistake(
 
 @dataclass(frozen=True)
 class Kind:
-    """Any array of numbers; the base of the others.
+    """Any array of numbers; the base of the others."""
 
-    Attributes:
-        shape: of one answer; None is a size that the question decides.
-        unit: of its entries, "" where they have none.
-        scale: what an entry is like; errors are judged in units of it. An array, (m, n)
-            say, gives each entry a weight of its own.
-        called: what it is in a sentence, "the torque"; used where a tuple has several.
-    """
-
+    # Of one answer; None is a size that the question decides.
     shape: tuple[int | None, ...] = ()
-    unit: str = ""
+    unit: str = ""  # of its entries, "" where they have none
+    # What an entry is like; errors are judged in units of it. An array, (m, n) say,
+    # gives each entry a weight of its own.
     scale: Any = 1.0
+    # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
 
@@ -99,7 +95,8 @@ class Kind:
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
-        return "it has one axis too many" if got in _with_an_axis(self.shape) else ""
+        thicker = got in ((*self.shape, 1), (1, *self.shape))
+        return "it has one axis too many" if thicker else ""
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
@@ -133,12 +130,9 @@ class Scalar(Kind):
 
 @dataclass(frozen=True)
 class Vector(Kind):
-    """A vector. `Vector((7,), "Nm", names=JOINTS)`.
+    """A vector. `Vector((7,), "Nm", names=JOINTS)`."""
 
-    Attributes:
-        names: of its entries, "joint1" and so on; else they are counted from 0.
-    """
-
+    # Of its entries, "joint1" and so on; else they are counted from 0.
     names: tuple[str, ...] = ()
 
     @property
@@ -219,14 +213,11 @@ class Wrench(_Halves):
 
 @dataclass(frozen=True)
 class Points(Kind):
-    """Points in metres, (m, 3), that may come as a tuple of vectors. `Points((2, 3))`.
-
-    Attributes:
-        names: what each is called, "first" and so on.
-    """
+    """Points in metres, (m, 3), or a tuple of vectors. `Points((2, 3))`."""
 
     shape: tuple[int, ...] = (2, 3)
     unit: str = "m"
+    # What each is called, "first" and so on.
     names: tuple[str, ...] = ("first", "second")
 
     @property
@@ -279,7 +270,3 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
         f"It is {say_factor(factor)} times the right one, in every entry and every "
         "time.",
     )
-
-
-def _with_an_axis(shape: tuple[int | None, ...]) -> set[tuple[int | None, ...]]:
-    return {(*shape, 1), (1, *shape)}

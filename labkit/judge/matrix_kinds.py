@@ -18,15 +18,11 @@ TRANSPOSED = Mistake(
 
 @dataclass(frozen=True)
 class Matrix(Kind):
-    """Any matrix. `Matrix((6, 6), rows=..., columns=...)`.
+    """Any matrix. `Matrix((6, 6), rows=..., columns=...)`."""
 
-    Attributes:
-        rows: what its rows are called, "omega x" and so on; else they are counted.
-        columns: likewise.
-    """
-
+    # What its rows are called, "omega x" and so on; else they are counted.
     rows: tuple[str, ...] = ()
-    columns: tuple[str, ...] = ()
+    columns: tuple[str, ...] = ()  # likewise
 
     @property
     def expected(self) -> str:  # noqa: D102
@@ -69,11 +65,8 @@ class Jacobian(Matrix):
         wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         rows = wrong.any(axis=1)
-        where = (
-            ""
-            if rows.all() or (rows[:3].any() and rows[3:].any())
-            else (" in its omega rows" if rows[:3].any() else " in its v rows")
-        )
+        halves = [i for i, half in enumerate((rows[:3], rows[3:])) if half.any()]
+        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
         if found := one_factor(self, S, T):
             return found
         if len(bad) == 1:
@@ -82,10 +75,8 @@ class Jacobian(Matrix):
             says = (
                 f"The columns are right up to joint {bad[0]}, and wrong from there on"
             )
-        elif where:
-            says = "Half of it is right"
         else:
-            says = "It is not the right one"
+            says = "Half of it is right" if where else "It is not the right one"
         return Finding(
             "columns-off", f"{says}: off by up to {self.apart(S, T)}{where}."
         )

@@ -22,49 +22,37 @@ class Finding(NamedTuple):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the answers to a task's questions show.
+    """What the answers to a task's questions show."""
 
-    Attributes:
-        status: "passed"; "close": the method is right, the digits are not; "wrong";
-            or "todo": not written yet.
-        mistake: its name ("joint-before-link"), "" when passed.
-        message: one or two sentences for the student, with the telling number; "" when
-            passed and there is nothing to add.
-        measured: lines for --explain.
-        follows: the id of the task that has to be right first, "" where none.
-        wrong_calls: places of the main questions with a wrong answer, where neither a
-            named mistake nor anything else says more than by how much.
-        function: that was judged.
-        call: the call that failed, in a line, with theirs and the right answer.
-    """
-
+    # "passed"; "close": the method is right, the digits are not; "wrong"; or "todo":
+    # not written yet.
     status: str
-    mistake: str = ""
+    mistake: str = ""  # its name ("joint-before-link"), "" when passed
+    # One or two sentences for the student, with the telling number; "" when passed and
+    # there is nothing to add.
     message: str = ""
-    measured: tuple[str, ...] = ()
-    follows: str = ""
+    measured: tuple[str, ...] = ()  # lines for --explain
+    follows: str = ""  # the id of the task that has to be right first, "" where none
+    # Places of the main questions with a wrong answer, where neither a named mistake
+    # nor anything else says more than by how much.
     wrong_calls: tuple[int, ...] = ()
-    function: str = ""
-    call: str = ""
+    function: str = ""  # that was judged
+    call: str = ""  # the call that failed, in a line, with theirs and the right answer
 
 
 @dataclass(frozen=True)
 class Mistake:
-    """One way to be wrong. It is claimed only where redoing it gives the answer.
+    """One way to be wrong. It is claimed only where redoing it gives the answer."""
 
-    Attributes:
-        slug: its name, "chain-reversed".
-        says: for the student: a clause without capital and full stop, so that it can
-            follow "In the links' factors, ".
-        redo: the function with the mistake in it. It takes all questions' arguments
-            stacked, one array (n, ...) per argument (a `Robot` as its model), and
-            returns (n, ...), or a tuple of such where the function returns several.
-        redone: what to call that answer, as in "0 from its transpose".
-    """
-
-    slug: str
+    slug: str  # its name, "chain-reversed"
+    # For the student: a clause without capital and full stop, so that it can follow "In
+    # the links' factors, ".
     says: str
+    # The function with the mistake in it. It takes all questions' arguments stacked,
+    # one array (n, ...) per argument (a `Robot` as its model), and returns (n, ...), or
+    # a tuple of such where the function returns several.
     redo: Callable[..., Any]
+    # What to call that answer, as in "0 from its transpose".
     redone: str = "the answer with this mistake"
 
 

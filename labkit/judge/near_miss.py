@@ -1,4 +1,7 @@
-"""Close but not equal: the method is right, and this is where the digits went."""
+"""Close but not equal: the method is right, and this is where the digits went.
+
+S are the student's answers, (n, ...), T the right ones.
+"""
 
 import numpy as np
 
@@ -12,12 +15,7 @@ ABOUT = 1e-2  # of its largest entry: an answer is about right
 
 
 def explain(S: Array, T: Array) -> Finding:
-    """Return why answers agree with the right ones to some digits only.
-
-    Args:
-        S: the student's answers, (n, ...), nearly right.
-        T: the right ones.
-    """
+    """Return why answers agree with the right ones to some digits only."""
     if found := rounded(S, T):
         return found
     off = difference(S, T).max()
@@ -35,12 +33,7 @@ def explain(S: Array, T: Array) -> Finding:
 
 
 def rounded(S: Array, T: Array) -> Finding | None:
-    """Return to how many decimals the right answers are rounded, if they are.
-
-    Args:
-        S: the student's answers, (n, ...).
-        T: the right ones.
-    """
+    """Return to how many decimals the right answers are rounded, if they are."""
     for decimals in range(1, 8):
         if difference(S, np.round(T, decimals)).max() < 1e-12:
             return Finding(
@@ -53,12 +46,7 @@ def rounded(S: Array, T: Array) -> Finding | None:
 
 
 def in_common(S: Array, T: Array) -> str:
-    """Return what all of a function's wrong answers share with the right ones, or "".
-
-    Args:
-        S: the student's answers, (n, ...), more than a rounding off.
-        T: the right ones.
-    """
+    """Return what all wrong answers of a function share with the right ones, or ""."""
     if S.shape != T.shape:
         return ""
     tiny = MATCHES * max(1.0, float(np.abs(T).max(initial=0.0)))

@@ -100,12 +100,7 @@ def refusal(what: str, line: int | None) -> Verdict:
 
 
 def not_loaded(script: Path, reply: Reply) -> str:
-    """Return one line on a file that Python could not load.
-
-    Args:
-        script: the student's file.
-        reply: what loading it gave.
-    """
+    """Return one line on a file that Python could not load."""
     where = f"{script.name}, line {reply.line}" if reply.line else script.name
     if reply.kind == "SystemExit":
         return f"{where}: it ends Python while being loaded. {IN_MAIN}"
@@ -145,11 +140,7 @@ def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
 
 
 def answers(asked: Asked) -> Iterator[Any]:
-    """Yield the answers to all questions, none of them filled up: what `accept` takes.
-
-    Args:
-        asked: questions whose replies `read` has read.
-    """
+    """Yield the answers that `read` has read, none of them filled up, for `accept`."""
     columns = _columns(replies([*asked.main, *asked.fresh]), asked.ask.kinds)
     for row in zip(*columns, strict=True):
         parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
@@ -173,12 +164,7 @@ def of_another_size(asked: Asked) -> Finding | None:
 
 
 def kept_state(asked: Asked, source: str = "") -> Finding | None:
-    """Return that a function keeps something between its calls, if it does.
-
-    Args:
-        asked: questions that were asked twice, apart from each other.
-        source: the student's file.
-    """
+    """Return that a function keeps something between its calls, if it does."""
     replied = replies([*asked.main, *asked.fresh])
     differ = [reply for reply in replied if _differs(reply)]
     code = "\n".join(function_lines(source, asked.function)[2])

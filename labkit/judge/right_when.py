@@ -23,17 +23,11 @@ Call = tuple[Any, ...]
 
 
 class Experiment(NamedTuple):
-    """Calls in which one argument is neutral.
+    """Calls in which one argument is neutral."""
 
-    Attributes:
-        says: "ed is 0".
-        changed: how many numbers of the argument were made neutral.
-        calls: the arguments of each.
-    """
-
-    says: str
-    changed: float
-    calls: list[Call]
+    says: str  # "ed is 0"
+    changed: float  # how many numbers of the argument were made neutral
+    calls: list[Call]  # the arguments of each
 
 
 def neutrals(x: Any) -> Iterator[tuple[str, Any]]:

@@ -61,13 +61,10 @@ class Rotation(Kind):
 
 @dataclass(frozen=True)
 class Pose(Kind):
-    """A rigid transform, (4, 4).
-
-    Attributes:
-        wrong_way: what its rotation does when it is transposed.
-    """
+    """A rigid transform, (4, 4)."""
 
     shape: tuple[int, ...] = (4, 4)
+    # What its rotation does when it is transposed.
     wrong_way: str = "turns the other way"
     expected = "a 4x4 matrix"
 

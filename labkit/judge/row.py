@@ -48,25 +48,17 @@ def _as_they_are(*args: Any) -> tuple[Any, ...]:
 
 @dataclass(frozen=True)
 class Way:
-    """One way to write a function: a mistake, or an unusual one that is right.
+    """One way to write a function: a mistake, or an unusual one that is right."""
 
-    Attributes:
-        status: "wrong", "close" or "right".
-        slug: what it must be told; "" where it must pass.
-        says: as in a `Mistake`; "" where something else names it: a hook of the row,
-            a held-out question, its kind.
-        code: the function, as a student writes it.
-        redone: as in a `Mistake`.
-        hidden: why the lab cannot show it; "" where the lab, run with it, fails.
-        reached: whether it is a mistake of a smaller function that this one calls.
-    """
-
-    status: str
-    slug: str
+    status: str  # "wrong", "close" or "right"
+    slug: str  # what it must be told; "" where it must pass
+    # As in a `Mistake`; "" where something else names it: a hook of the row, a held-out
+    # question, its kind.
     says: str
-    code: Code
-    redone: str = REDONE
-    hidden: str = ""
+    code: Code  # the function, as a student writes it
+    redone: str = REDONE  # as in a `Mistake`
+    hidden: str = ""  # why the lab cannot show it; "" where the lab, run with it, fails
+    # Whether it is a mistake of a smaller function that this one calls.
     reached: bool = False
 
     @property

@@ -52,7 +52,7 @@ def append_row(
             that cannot take the row; then the message carries the row's text.
     """
     row = normalise(_filled(fields), allow_nonfinite)
-    append_or_keep(_own() if path is None else path, encode(row), sync)
+    append_or_keep(_file(path), encode(row), sync)
     return row
 
 
@@ -82,7 +82,7 @@ def append_rows(
         raise Robo47Error(f"no row is recorded: {'. '.join(faults)}.")
     if added:
         text = "\n".join(encode(row) for row in added)
-        append_or_keep(_own() if path is None else path, text, sync)
+        append_or_keep(_file(path), text, sync)
     return added
 
 
@@ -118,16 +118,16 @@ def read_rows(path: StrPath | None = None) -> list[Row]:
 
 def _filled(fields: Mapping[str, object]) -> dict[str, object]:
     """Return the fields with the date and the commit, where not given."""
-    filled = dict(fields)
-    if "date" not in filled:
-        filled["date"] = time.strftime("%Y-%m-%d")
+    filled = {"date": time.strftime("%Y-%m-%d"), **fields}
     if "git_sha" not in filled:
         filled["git_sha"] = _sha(int(time.monotonic()))
     return filled
 
 
-def _own() -> Path:
-    """Return where the log is; an installed package makes its folder."""
+def _file(path: StrPath | None) -> Path:
+    """Return where the log is; an installed package makes its own log's folder."""
+    if path is not None:
+        return Path(path)
     if HOME != ROOT and METRICS_CSV.is_relative_to(HOME):
         METRICS_CSV.parent.mkdir(parents=True, exist_ok=True)
     return METRICS_CSV

@@ -50,23 +50,26 @@ else:
         """Nothing to do: closing the file lets go at once."""
 
 
-def lock(fd: int) -> bool:
+def lock(fd: int, patience: float | None = None) -> bool:
     """Wait until this process alone holds the file.
+
+    Args:
+        fd: an open file.
+        patience: seconds to wait; None is PATIENCE_S.
 
     Returns:
         Whether it does; False where the file system has no locks. There, appends that
         come one at a time still arrive whole.
 
     Raises:
-        TimeoutError: somebody else has held it for PATIENCE_S seconds.
+        TimeoutError: somebody else has held it for so long.
     """
-    deadline = time.monotonic() + PATIENCE_S
+    seconds = PATIENCE_S if patience is None else patience
+    deadline = time.monotonic() + seconds
     try:
         while not try_lock(fd):
             if time.monotonic() > deadline:
-                raise TimeoutError(
-                    f"another program has held it for {PATIENCE_S:.0f} s"
-                )
+                raise TimeoutError(f"another program has held it for {seconds:.0f} s")
             time.sleep(PAUSE_S)
     except OSError as error:
         if error.errno not in NO_LOCKS:

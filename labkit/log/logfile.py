@@ -34,14 +34,12 @@ _FLAGS = (
     | getattr(os, "O_NOINHERIT", 0)
 )
 
-StrPath = str | os.PathLike[str]
-
 
 class CannotAppendError(Exception):
     """The log cannot take the lines: which file, why, and what to do."""
 
 
-def append_or_keep(path: StrPath, text: str, sync: bool) -> None:
+def append_or_keep(path: Path, text: str, sync: bool) -> None:
     """Add lines to the log, or keep them beside it and say so.
 
     Args:
@@ -56,36 +54,36 @@ def append_or_keep(path: StrPath, text: str, sync: bool) -> None:
     try:
         append(path, text, sync)
     except CannotAppendError as error:
-        raise Robo47Error(f"{error}\n{_keep(os.fspath(path), text)}") from None
+        raise Robo47Error(f"{error}\n{_keep(path, text)}") from None
 
 
-def append(path: StrPath, text: str, sync: bool) -> None:
+def append(path: Path, text: str, sync: bool) -> None:
     """Add lines to the log in a single write; arguments as in `append_or_keep`.
 
     Raises:
         CannotAppendError: nothing was added.
     """
-    name = os.fspath(path)
     try:
         for _ in range(TRIES):
-            text = _try_append(name, text, sync)
+            text = _try_append(path, text, sync)
             if not text:
                 return
     except OSError as error:
-        raise CannotAppendError(f"{_shown(name)}: {in_words(error, name)}") from None
+        why = in_words(error, str(path))
+        raise CannotAppendError(f"{shown(path)}: {why}") from None
     raise CannotAppendError(
-        f"{_shown(name)} keeps being replaced by another program."
+        f"{shown(path)} keeps being replaced by another program."
         " Close that and try again."
     )
 
 
 @contextlib.contextmanager
-def locked(name: str) -> Iterator[int]:
+def locked(path: Path) -> Iterator[int]:
     """Open a file, made if absent, to read and append; nobody else may append."""
     with contextlib.suppress(FileNotFoundError):  # opening a pipe would wait for ever
-        if not stat.S_ISREG(os.stat(name).st_mode):
+        if not stat.S_ISREG(path.stat().st_mode):
             raise OSError(errno.EINVAL, "not a file")
-    fd = os.open(name, _FLAGS, 0o666)
+    fd = os.open(path, _FLAGS, 0o666)
     try:
         if not stat.S_ISREG(os.fstat(fd).st_mode):
             raise OSError(errno.EINVAL, "not a file")
@@ -107,35 +105,35 @@ def read_at(fd: int, offset: int, count: int) -> bytes:
     return os.read(fd, count)
 
 
-def _try_append(name: str, text: str, sync: bool) -> str:
+def _try_append(path: Path, text: str, sync: bool) -> str:
     """Append once; return the lines that another program spoilt meanwhile."""
-    with locked(name) as fd:
-        if not _is_at(fd, name):
+    with locked(path) as fd:
+        if not _is_at(fd, path):
             return text
-        before, end, cut = _continuation(fd, name)
+        before, end, cut = _continuation(fd, path)
         data = before + text.encode().replace(b"\n", end) + end
         start = _write(fd, data, sync)
         if sync and start == 0:
-            _sync_folder(name)
+            _sync_folder(path.parent)
         # A writer without a lock (bash's echo of over 4,096 bytes comes in two
         # parts) may have left half a line before ours: then our first goes again.
         alone = before or read_at(fd, start - 1, 1) == b"\n"
-        there = read_at(fd, start, len(data)) == data and _is_at(fd, name)
+        there = read_at(fd, start, len(data)) == data and _is_at(fd, path)
     if cut is not None:
-        _report_cut(name, cut, before)
+        _report_cut(path, cut, before)
     if not there:
         return text
     return "" if alone else text.partition("\n")[0]
 
 
-def _continuation(fd: int, name: str) -> tuple[bytes, bytes, str | None]:
+def _continuation(fd: int, path: Path) -> tuple[bytes, bytes, str | None]:
     """Return what to write first, the file's line end, and its last line if cut."""
     head = read_at(fd, 0, header.LONGEST)
     if head in (b"", header.BOM):
         return header.LINE.encode() + b"\n", b"\n", None
     end = header.line_end(head)
     if end is None:
-        raise CannotAppendError(header.problem(Path(name)))
+        raise CannotAppendError(header.problem(path))
     size, last = _last_byte(fd)
     if last != b"\n":
         time.sleep(MID_WRITE_S)
@@ -154,14 +152,14 @@ def _last_byte(fd: int) -> tuple[int, bytes]:
     return size, read_at(fd, size - 1, 1)
 
 
-def _report_cut(name: str, text: str, before: bytes) -> None:
+def _report_cut(path: Path, text: str, before: bytes) -> None:
     with (
         contextlib.suppress(OSError),
-        open(name + CUT, "a", encoding="utf-8", newline="\n") as file,
+        open(f"{path}{CUT}", "a", encoding="utf-8", newline="\n") as file,
     ):
         file.write(text + before.decode().strip() + "\n")
     warnings.warn(
-        f"{_shown(name)}: the last line had no line end, so it may be cut. It is"
+        f"{shown(path)}: the last line had no line end, so it may be cut. It is"
         f" kept, and the new row has a line of its own. It ends: {text[-40:]}",
         stacklevel=6,  # the caller of append_row
     )
@@ -194,27 +192,27 @@ def _sync(fd: int) -> None:
         os.fsync(fd)
 
 
-def _sync_folder(name: str) -> None:
+def _sync_folder(folder: Path) -> None:
     """Make a new file's name as durable as its content."""
     if os.name == "nt":
         return
-    fd = os.open(os.path.dirname(name) or ".", os.O_RDONLY)
+    fd = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(fd)
     finally:
         os.close(fd)
 
 
-def _is_at(fd: int, name: str) -> bool:
+def _is_at(fd: int, path: Path) -> bool:
     try:
-        return os.path.samestat(os.fstat(fd), os.stat(name))
+        return os.path.samestat(os.fstat(fd), path.stat())
     except FileNotFoundError:
         return False
 
 
-def _keep(name: str, text: str) -> str:
+def _keep(path: Path, text: str) -> str:
     """Put refused lines beside the log; return what to tell the person."""
-    kept = name + UNSAVED
+    kept = Path(f"{path}{UNSAVED}")
     rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
     them = "them" if "\n" in text else "it"
     try:
@@ -223,13 +221,9 @@ def _keep(name: str, text: str) -> str:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
                     return (
-                        f"{rows}  kept in {_shown(kept)}; to add {them} later:"
-                        f"\n  {command('--restore', Path(name))}"
+                        f"{rows}  kept in {shown(kept)}; to add {them} later:"
+                        f"\n  {command('--restore', path)}"
                     )
     except OSError:
         pass
     return f"{rows}  kept nowhere but here: copy {them}"
-
-
-def _shown(name: str) -> str:
-    return shown(Path(name))

@@ -29,7 +29,7 @@ def restore(path: Path) -> int:
         return 0
     kept = Path(f"{path}{UNSAVED}")
     try:
-        with locked(str(kept)) as fd:
+        with locked(kept) as fd:
             text = read_at(fd, 0, os.fstat(fd).st_size).decode()
             append(path, text.removesuffix("\n"), sync=True)
             os.ftruncate(fd, 0)

@@ -23,6 +23,8 @@ STATUS = {
     "unsigned": ("•", "no file named"),
     "borrowed": ("•", "partly borrowed"),
 }
+COLUMNS = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
+HEADS = {"git_sha": "commit", "n_failures": "failures"}  # where another word says more
 AGAIN = ("stale", "unsigned", "borrowed")  # worth nothing until a run of one's own
 NOTHING = (
     '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
@@ -149,19 +151,17 @@ def _text(cell: object) -> str:
 def _recent(rows: list[Row], whose: str = "") -> str:
     if not rows:
         return ""
-    names = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
-    heads = ("date", "value", "commit", "failures", "config", "method", "notes")
     shown = list(reversed(rows[-RECENT:]))
-    body = ("<tr>" + "".join(_run_cells(row, names)) + "</tr>" for row in shown)
+    body = ("<tr>" + "".join(_run_cells(row)) + "</tr>" for row in shown)
     title = count(len(rows), "run") + whose
     if len(rows) > RECENT:
         title = f"The latest {RECENT} of {title}"
-    head = "".join(f"<th>{name}</th>" for name in heads)
+    head = "".join(f"<th>{HEADS.get(name, name)}</th>" for name in COLUMNS)
     return html.folded(title, html.table(head, body, "scroll"))
 
 
-def _run_cells(row: Row, names: tuple[str, ...]) -> Iterator[str]:
-    for name in names:
+def _run_cells(row: Row) -> Iterator[str]:
+    for name in COLUMNS:
         value = row[name]
         text = "" if value is None else _clipped(str(value))
         if name == "n_failures" and value is not None:

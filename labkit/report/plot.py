@@ -8,7 +8,7 @@ import math
 from html import escape
 
 from labkit.log.rows import Row
-from labkit.report.series import Series, value_of
+from labkit.report.series import Series, float_of, value_of
 
 WIDTH, HEIGHT = 360, 170
 LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
@@ -35,7 +35,7 @@ def draw(series: Series) -> str:
     parts += _threshold(series, axis)
     chosen = _thinned(series.rows)
     places = [(_x(i, len(chosen)), row) for i, row in enumerate(chosen)]
-    line = [(x, axis.y(_finite_value(row))) for x, row in places if _finite(row)]
+    line = [(x, axis.y(float_of(row))) for x, row in places if _finite(row)]
     parts.append(_line(line, "line"))
     radius = 4 if len(places) <= 40 else 2
     parts += [_dot(series, axis, x, row, radius) for x, row in places[:-1]]
@@ -146,19 +146,17 @@ def _threshold(series: Series, axis: _Axis) -> list[str]:
 
 def _y(axis: _Axis, row: Row) -> float:
     """Return a run's height: at the top where its value is no number."""
-    return axis.y(_finite_value(row)) if _finite(row) else TOP
+    return axis.y(float_of(row)) if _finite(row) else TOP
 
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
     """Return a run's dot; hollow where the axis cannot show its value."""
-    role = "line"
-    if series.threshold:
-        role = series.threshold.judge(row)
+    role = series.threshold.judge(row) if series.threshold else "line"
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
     if row["n_failures"]:
         tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
     paint = f'fill="var(--{role})"'
-    if not _finite(row) or (axis.log and _finite_value(row) <= 0):
+    if not _finite(row) or (axis.log and float_of(row) <= 0):
         paint = f'fill="var(--card)" stroke="var(--{role})" stroke-width="1.5"'
     return _circle(x, _y(axis, row), radius, paint, tip)
 
@@ -203,15 +201,8 @@ def _thinned(rows: list[Row]) -> list[Row]:
 
 
 def _height(row: Row) -> float:
-    return _finite_value(row) if _finite(row) else math.inf
+    return float_of(row) if _finite(row) else math.inf
 
 
 def _finite(row: Row) -> bool:
-    value = value_of(row)
-    return value is not None and math.isfinite(value)
-
-
-def _finite_value(row: Row) -> float:
-    value = value_of(row)
-    assert value is not None
-    return value
+    return math.isfinite(float_of(row))

@@ -40,8 +40,7 @@ class Series:
     @property
     def values(self) -> list[float]:
         """The finite values, oldest first."""
-        found = (value_of(row) for row in self.rows)
-        return [value for value in found if value is not None and math.isfinite(value)]
+        return [value for value in map(float_of, self.rows) if math.isfinite(value)]
 
     @property
     def status(self) -> str:
@@ -121,6 +120,12 @@ def value_of(row: Row) -> float | None:
     return value if isinstance(value, int | float) else None
 
 
+def float_of(row: Row) -> float:
+    """Return a row's number, NaN where it has none."""
+    value = value_of(row)
+    return math.nan if value is None else float(value)
+
+
 def collect(
     lines: Iterable[Line],
     thresholds: Mapping[Key, Metric],
@@ -149,7 +154,9 @@ def collect(
         if row is None:
             report.unread.append(line)
             continue
-        if not _wanted(row, since, day, check):
+        if str(row["date"]) < since or day not in (None, row["day"]):
+            continue
+        if check not in ("", row["check"]):
             continue
         report.rows += 1
         if line.problem:
@@ -162,19 +169,7 @@ def collect(
     return report
 
 
-def _wanted(row: Row, since: str, day: int | None, check: str) -> bool:
-    return (
-        str(row["date"]) >= since
-        and day in (None, row["day"])
-        and check in ("", row["check"])
-    )
-
-
-def _add(
-    found: dict[Key, Series],
-    thresholds: Mapping[Key, Metric],
-    row: Row,
-) -> None:
+def _add(found: dict[Key, Series], thresholds: Mapping[Key, Metric], row: Row) -> None:
     name, metric = str(row["check"]), str(row["metric"])
     day = row["day"] if isinstance(row["day"], int) else None
     if day is None:  # a row without its day belongs to the only day that asks for it

@@ -15,8 +15,7 @@ from labkit.check import journal, states
 from labkit.check.journal import Met
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, writers_of
-from labkit.log.rows import Row
-from labkit.report.series import Key, Series, value_of
+from labkit.report.series import Key, Series, float_of
 from robo47.paths import ROOT
 
 GIT_SECONDS = 10.0
@@ -159,20 +158,15 @@ def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
 
 def _number(metric: Metric, series: Series) -> Number:
     mine = [row for row in series.rows if mark_of(row)]
-    own = [_value(row) for row in mine]
+    own = [float_of(row) for row in mine]
     return Number(
         metric,
         own[-1] if own else None,
         series.writers.judge(metric, mine[-1] if mine else None),
         max(own, key=lambda value: _badness(metric, value), default=None),
-        _value(series.kits[-1]) if series.kits else None,
+        float_of(series.kits[-1]) if series.kits else None,
         len(own),
     )
-
-
-def _value(row: Row) -> float:
-    value = value_of(row)
-    return float("nan") if value is None else float(value)
 
 
 def _badness(metric: Metric, value: float) -> float:

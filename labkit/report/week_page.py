@@ -51,7 +51,7 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
         heading: one line of plain text on where this comes from.
     """
     return html.page(
-        title_of(facts),
+        escape(facts[0].day.week.heading),
         escape(heading),
         _tiles(facts),
         _numbers(facts),
@@ -62,11 +62,6 @@ def render(facts: Sequence[DayFacts], heading: str) -> str:
         "Hints and mistakes are on your machine alone.</p>",
         style=STYLE,
     )
-
-
-def title_of(facts: Sequence[DayFacts]) -> str:
-    """Return "Week 1: foundations"."""
-    return escape(facts[0].day.week.heading)
 
 
 def minutes_in_words(minutes: int | None) -> str:
@@ -87,11 +82,7 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
         (sum(f.passed for f in facts), sum(f.tasks for f in facts), "tasks pass"),
         (sum(n.passed for n in numbers), len(numbers), "numbers within limits"),
         (sum(f.own for f in facts), sum(f.functions for f in facts), "functions yours"),
-        (
-            sum(m.now == "left behind" for m in met),
-            len(met),
-            "mistakes left behind",
-        ),
+        (sum(m.now == "left behind" for m in met), len(met), "mistakes left behind"),
     ]
     cells = [
         ("pass" if n and n == of else "", f"{n:,} of {of:,}", label)
@@ -118,7 +109,9 @@ def _numbers(facts: Sequence[DayFacts]) -> str:
 
 def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
     role = number.status if number.status in ("pass", "fail") else "none"
-    mark = "○ the kit's file ran" if _only_kits(number) else _MARKS[number.status]
+    mark = _MARKS[number.status]
+    if number.latest is None and number.kit is not None:
+        mark = "○ the kit's file ran"
     day = one.day.number if first else ""
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
@@ -182,10 +175,6 @@ def _counts(one: DayFacts) -> str:
 def _bar(passed: int, of: int) -> str:
     share = 100 * passed / max(1, of)
     return f'<span class=bar><i style="width:{share:.0f}%"></i></span>{passed} of {of}'
-
-
-def _only_kits(number: Number) -> bool:
-    return number.latest is None and number.kit is not None
 
 
 def _value(value: float | None) -> str:

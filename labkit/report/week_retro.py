@@ -56,10 +56,10 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
             )
     met = [m for one in facts for m in one.met]
     left = sum(m.now == "left behind" for m in met)
-    passed, tasks = (
-        sum(getattr(f, name) for f in facts) for name in ("passed", "tasks")
+    passed, tasks, own, of = (
+        sum(getattr(one, name) for one in facts)
+        for name in ("passed", "tasks", "own", "functions")
     )
-    own, of = (sum(getattr(f, name) for f in facts) for name in ("own", "functions"))
     return "\n".join(
         [
             "",

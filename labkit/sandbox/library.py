@@ -15,7 +15,10 @@ KIT = ROOT / "robo47"
 
 
 def library_of(day: Day) -> dict[str, str]:
-    """Return the sources of what days before this one brought, by module name.
+    """Return the sources of what days before this one brought, and what that imports.
+
+    Returns:
+        By module name: {"robo47.se3": "...", ...}.
 
     Raises:
         Robo47Error: a manifest names a module that is not there, or one that imports an

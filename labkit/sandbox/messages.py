@@ -138,8 +138,9 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
     if script.stat().st_size > LARGEST:
         raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
     found = sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
+    # A grade follows no link either.
     own = [path for path in found if path.is_file() and not path.is_symlink()]
-    return {  # a grade follows no link either
+    return {
         "file": script.name,
         "code": _text(script.read_bytes() + added.encode()),
         "beside": {

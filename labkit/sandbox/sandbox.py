@@ -123,7 +123,15 @@ class Sandbox:
         added: str = "",
         limits: Limits | None = None,
     ) -> "Session":
-        """Return a student's file, loaded, for many rounds of questions; see `run`."""
+        """Return a student's file, loaded, for many rounds of questions.
+
+        Args:
+            script, library, added, limits: see `run`.
+            robots: those that questions will hold.
+
+        Raises:
+            LoadError: the file does not load.
+        """
         limits = limits or Limits()
         request = messages.request(
             script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,

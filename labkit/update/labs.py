@@ -7,13 +7,11 @@ manifests. It prints what became of each lab, and what is new, as JSON.
 import json
 import sys
 
-from labkit.base import git
 from labkit.lesson.day import Day, all_days
 from labkit.lesson.renew import renewed
 from labkit.lesson.sealed import opened
 from labkit.lesson.starter import read_script
-from labkit.update.news import news
-from robo47.errors import Robo47Error
+from labkit.update.news import news, said
 from robo47.paths import ROOT
 
 MOST = 100  # versions of a lab to look through for the one that was begun with
@@ -56,25 +54,17 @@ def versions(day: Day, *commits: str) -> list[str]:
     folder = day.source.parent.relative_to(ROOT).as_posix()
     names = [f"{folder}/{name}" for name in (day.script, *day.was)]
     log = ("log", "--format=%H", f"-{MOST}", *commits, "--", *names)
-    found = []
-    for commit in _git(*log).split():
-        found += [_git("show", f"{commit}:{name}") for name in names]
-    return [opened(text) for text in found if text]
+    found = said(*log).split()
+    texts = [said("show", f"{commit}:{name}") for commit in found for name in names]
+    return [opened(text) for text in texts if text]
 
 
 def changes(before: str) -> list[str]:
     """Return what the changelog has that it had not."""
     path = ROOT / "CHANGELOG.md"
-    old = set(_git("show", f"{before}:CHANGELOG.md").splitlines())
+    old = set(said("show", f"{before}:CHANGELOG.md").splitlines())
     lines = path.read_text("utf-8").splitlines() if path.is_file() else []
     return [line for line in lines if line.strip() and line not in old]
-
-
-def _git(*arguments: str) -> str:
-    try:
-        return git.run(*arguments, folder=ROOT, seconds=60).stdout
-    except git.GitError as error:
-        raise Robo47Error(str(error)) from None
 
 
 if __name__ == "__main__":

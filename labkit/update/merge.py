@@ -136,13 +136,11 @@ def merge(worktree: Path, target: str) -> list[str]:
         )
     how = ("merge", "-q", "--no-ff", "--no-commit", target)
     ask(*NOBODY, *how, at=worktree, may_fail=True)
-    mine = {name for day in all_days() for name in day.files.values()}
-    mine |= {LOG}
+    mine = {LOG, *(name for day in all_days() for name in day.files.values())}
     taken = []
-    for name in ask("diff", "--name-only", "--diff-filter=U", "-z", at=worktree).split(
-        "\0"
-    ):
-        if name and not _resolve(worktree, name, mine):
+    both = ask("diff", "--name-only", "--diff-filter=U", "-z", at=worktree)
+    for name in filter(None, both.split("\0")):
+        if not _resolve(worktree, name, mine):
             taken.append(name)
     _keep_rows(worktree, own)
     ask("add", "-A", at=worktree)
@@ -190,9 +188,8 @@ def _text(worktree: Path, blob: str) -> str | None:
 
 def _keep_rows(worktree: Path, own: str) -> None:
     """Put back rows of the log that a merge left out, however it came about."""
-    name = LOG
-    before = ask("show", f"{own}:{name}", at=worktree, may_fail=True).splitlines()
-    path = worktree / name
+    before = ask("show", f"{own}:{LOG}", at=worktree, may_fail=True).splitlines()
+    path = worktree / LOG
     now = path.read_text("utf-8").splitlines() if path.is_file() else []
     if lost := [row for row in before if row not in set(now)]:
         path.parent.mkdir(exist_ok=True)

@@ -5,6 +5,7 @@ from typing import Any
 
 from labkit.base import git
 from labkit.lesson.day import Day
+from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
 
@@ -16,7 +17,7 @@ def news(day: Day, before: str) -> list[str]:
         before: a commit with the older one.
     """
     own = day.own.relative_to(ROOT).as_posix()
-    text = show(f"{before}:{own}/day.toml")
+    text = said("show", f"{before}:{own}/day.toml")
     if not text:
         return [f"Day {day.number} is new: {day.title}"]
     try:
@@ -26,9 +27,12 @@ def news(day: Day, before: str) -> list[str]:
     return [*_lab(day, old), *_tasks(day, old), *_rows(day, old), *_sheet(day, before)]
 
 
-def show(what: str) -> str:
-    """Return a file of a commit, "" where it is not there."""
-    done = git.run("show", what, folder=ROOT, seconds=git.SECONDS)
+def said(*arguments: str) -> str:
+    """Return what git says of the clone, "" where it fails."""
+    try:
+        done = git.run(*arguments, folder=ROOT, seconds=60)
+    except git.GitError as error:
+        raise Robo47Error(str(error)) from None
     return done.stdout if done.returncode == 0 else ""
 
 
@@ -61,7 +65,7 @@ def _rows(day: Day, old: dict[str, Any]) -> list[str]:
 
 def _sheet(day: Day, before: str) -> list[str]:
     name = day.files.get("worksheet", "")
-    old = show(f"{before}:{name}").splitlines() if name else []
+    old = said("show", f"{before}:{name}").splitlines() if name else []
     now = (ROOT / name).read_text("utf-8").splitlines() if old else []
     new = [line for line in now if line.startswith("#") and line not in old]
     return [f"the worksheet has a heading {line.strip('# ')!r}" for line in new]

@@ -39,28 +39,13 @@ def degrees_into_cos(theta):
     return se3.Rz(np.rad2deg(theta))
 
 
-@row.wrong
-def turns_about_x(theta):
-    """this turns about x, not about z => that turn about x"""
-    return se3.Rx(theta)
-
-
-@row.wrong
-def turns_about_y(theta):
-    """this turns about y, not about z => that turn about y"""
-    return se3.Ry(theta)
-
-
-@row.wrong
-def turns_about_x(theta):
-    """this turns about x, and backwards => that turn about x"""
-    return se3.Rx(-theta)
-
-
-@row.wrong
-def turns_about_y(theta):
-    """this turns about y, and backwards => that turn about y"""
-    return se3.Ry(-theta)
+for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
+    says = f"this turns about {axis}, not about z"
+    row.wrong(f"turns-about-{axis}", says, f"that turn about {axis}")(about)
+    says = f"this turns about {axis}, and backwards"
+    row.wrong(f"turns-about-{axis}", says, f"that turn about {axis}")(
+        lambda theta, about=about: about(-theta)
+    )
 
 
 @row.wrong
@@ -125,27 +110,9 @@ for decimals in range(4):
 row.of_answer(OF_A_ROTATION)
 
 
-@row.right  # A turn of the plane is a product with exp(i theta).
-def _(theta):
-    x = np.exp(1j * theta)
-    y = 1j * x
-    return np.array([[x.real, y.real, 0], [x.imag, y.imag, 0], [0, 0, 1]])
-
-
-@row.close("rounded-somewhere")  # To degrees and back with two different pis.
-def _(theta):
-    return se3.Rz(np.deg2rad(theta * 180 / 3.14159))
-
-
 @row.close("rounded")  # Rounded "to get rid of 6e-17".
 def _(theta):
     return np.round(se3.Rz(theta), 5)
-
-
-@row.close("float32")  # All in float32: right to seven digits.
-def _(theta):
-    c, s = np.float32(np.cos(theta)), np.float32(np.sin(theta))
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], dtype=np.float32)
 
 
 @row.wrong("few-entries-off")  # The sine from the cosine: sqrt forgets its sign.

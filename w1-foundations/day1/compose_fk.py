@@ -71,17 +71,21 @@ for slug, says, end, redone in ends.FRAMES:
         lambda model, q, path=PATH, end=end: fk(model, q, path) @ end
     )
 
+
+def stops_early(row, k, end):
+    """Take the chains that end at link k, turned by its joint or not."""
+    says = f"your chain stops at link{k}; it should end at {end}"
+    row.wrong("stops-early", says, f"the pose of link{k}")(
+        lambda model, q, path=PATH: fk(model, q, path[: k + 1])
+    )
+    says = f"your chain stops at link{k}, before that one's joint turns it"
+    row.wrong("stops-early", says, f"link{k}, unturned")(
+        lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
+    )
+
+
 for k in range(1, 8):
-    row.wrong(
-        "stops-early",
-        f"your chain stops at link{k}; it should end at the end effector",
-        f"the pose of link{k}",
-    )(lambda model, q, path=PATH, k=k: fk(model, q, path[: k + 1]))
-    row.wrong(
-        "stops-early",
-        f"your chain stops at link{k}, before that one's joint turns it",
-        f"link{k}, unturned",
-    )(lambda model, q, path=PATH, k=k: fk(model, q, path[:k]) @ link(model, path[k][0]))
+    stops_early(row, k, "the end effector")
 
 
 # The joints' angles.
@@ -128,23 +132,18 @@ def ready_subtracted(model, q, path=PATH):
     return fk(model, q - READY_Q, path)
 
 
-def two_swapped(i, k):
-    """Return slug, words and what to call it, for two joints counted from 0."""
+def two_swapped(row, i, k, to=PATH, hidden=""):
+    """Take that two joints, counted from 0, are given each other's angle."""
+    order = np.arange(7)
+    order[[i, k]] = k, i
     says = f"joint{i + 1} and joint{k + 1} are given each other's angle"
-    return "two-joints-swapped", says, "the pose with the two swapped"
-
-
-def swapped(q, i, k):
-    """Return q with two of its angles swapped."""
-    q = q.copy()
-    q[[i, k]] = q[[k, i]]
-    return q
+    row.wrong("two-joints-swapped", says, "the pose with the two swapped", hidden)(
+        lambda model, q, path=to: fk(model, q[order], path)
+    )
 
 
 for i, k in combinations(range(7), 2):
-    row.wrong(*two_swapped(i, k))(
-        lambda model, q, path=PATH, i=i, k=k: fk(model, swapped(q, i, k), path)
-    )
+    two_swapped(row, i, k)
 
 
 @row.wrong
@@ -153,8 +152,8 @@ def joints_in_reverse(model, q, path=PATH):
     return fk(model, q[::-1], path)
 
 
-for said, code in products.WRONG:
-    row.wrong(*said)(code)
+for code in products.WRONG:
+    row.wrong(code)
 
 # The factors themselves, and the finished pose.
 
@@ -218,7 +217,7 @@ for decimals in range(3):  # more make no difference: the angles asked have thre
     )
 
 
-# Right, nearly right, and what the hooks and the further questions name.
+# Right and nearly right.
 
 
 @row.right  # Asks each body for its parent until the world is reached; no path.
@@ -232,39 +231,6 @@ def _(model, q):
         return T @ L @ (np.eye(4) if joint < 0 else turn(model, q, joint))
 
     return at(model.site("attachment_site").bodyid[0])
-
-
-@row.right  # Every factor in one stroke, then one product.
-def _(model, q):
-    ids = [model.body(name).id for name, _ in PATH]
-    offsets = pose(se3.quat_to_R(model.body_quat[ids]), model.body_pos[ids])
-    turns = pose(se3.Rz([0.0, *q, 0.0]), np.zeros(3))
-    return np.linalg.multi_dot(list(offsets @ turns))
-
-
-@row.right  # Product of exponentials: each joint's axis in the world at zero.
-def _(model, q, path=PATH):
-    zero, moved = np.eye(4), np.eye(4)
-    for L, J in steps(model, q, path):
-        zero = zero @ L
-        moved = moved @ zero @ J @ np.linalg.inv(zero)
-    return moved @ zero
-
-
-@row.right  # In quaternions and vectors; a matrix only at the very end.
-def _(model, q, path=PATH):
-    def times(a, b):
-        w = a[0] * b[0] - a[1:] @ b[1:]
-        return np.array([w, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
-
-    quat, place = np.array([1.0, 0, 0, 0]), np.zeros(3)
-    for name, joint in path:
-        place = place + se3.quat_to_R(quat) @ model.body(name).pos
-        quat = times(quat, model.body(name).quat)
-        if joint:
-            half = q[model.joint(joint).qposadr[0]] / 2
-            quat = times(quat, np.array([np.cos(half), 0, 0, np.sin(half)]))
-    return pose(se3.quat_to_R(quat), place)
 
 
 @row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.

@@ -40,10 +40,10 @@ class Order(Tab):
     def __init__(self, page: Page) -> None:
         """Start as the lab does: 45 degrees about z, 0.1 m along x."""
         super().__init__(page)
-        page.choice("T_extra", [BOTH, RIGHT, LEFT], self.choose)
-        self.side = BOTH
-        self.angle = page.slider("turn about z", -np.pi, np.pi, np.pi / 4, self.again)
-        self.x = page.slider("move along x", -0.3, 0.3, 0.1, self.again, unit="m")
+        self.side, self.angle, self.x = BOTH, np.pi / 4, 0.1
+        page.choice("T_extra", [BOTH, RIGHT, LEFT], self.sets("side"))
+        page.slider("turn about z", -np.pi, np.pi, self.angle, self.sets("angle"))
+        page.slider("move along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")
         self.result = page.html()
         self.arm = page.draw.ghost("purple")
         self.right = page.draw.frame("T_world_ee @ T_extra")
@@ -52,30 +52,21 @@ class Order(Tab):
         page.light(END, {END})
         page.legend({"T_extra on the left moves the whole arm": "purple"})
 
-    def choose(self, side: str) -> None:
-        """Show one product, or both."""
-        self.side = side
-        self.again()
-
-    def again(self, _: float = 0.0) -> None:
-        """Show both products in the arm's present configuration."""
-        self.on_move(self.page.q)
-
     def on_move(self, q: Array) -> None:
         """Put T_extra on the right, and on the left of the whole arm."""
         T_world_ee = self.page.pose(END)
-        T_extra = se3.make_T(se3.Rz(self.angle.value), [self.x.value, 0.0, 0.0])
+        T_extra = se3.make_T(se3.Rz(self.angle), [self.x, 0.0, 0.0])
         right, left = T_world_ee @ T_extra, T_extra @ T_world_ee
         self.right.place(right)
         self.left.place(left)
         self.right.show(self.side != LEFT, chosen=self.side == RIGHT)
         self.left.show(self.side != RIGHT, chosen=self.side == LEFT)
-        bodies = {name: self.page.arm.body_pose(name) for name in self.arm.bodies}
-        moved = {name: T_extra @ T for name, T in bodies.items()}
+        poses = self.page.arm.by_mujoco
+        moved = {name: T_extra @ poses[f"body:{name}"] for name in self.arm.bodies}
         self.arm.pose({} if self.side == RIGHT else moved)
-        start = T_world_ee[:3, 3]
         ends = {RIGHT: [right], LEFT: [left], BOTH: [right, left]}[self.side]
-        self.lines.points = np.array([[start, T[:3, 3]] for T in ends], np.float32)
+        both = [[T_world_ee[:3, 3], T[:3, 3]] for T in ends]
+        self.lines.points = np.array(both, np.float32)
         apart = float(np.linalg.norm(right[:3, 3] - left[:3, 3]))
         T, name = (left, "left") if self.side == LEFT else (right, "right")
         says = {

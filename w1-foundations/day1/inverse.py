@@ -138,15 +138,6 @@ def one_over_each_entry(T):
 row.of_answer(of_a_pose())
 
 
-@row.right  # Inside a copy, in place.
-def _(T):
-    T = T.copy()
-    T[:3, :3] = T[:3, :3].T.copy()
-    T[:3, 3] = T[:3, :3] @ T[:3, 3]
-    T[:3, 3] *= -1
-    return T
-
-
 @row.close("general-inverse")  # Solves T X = I.
 def _(T):
     return np.linalg.solve(T, np.eye(4))

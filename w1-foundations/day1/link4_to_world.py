@@ -2,15 +2,13 @@
 
 from itertools import combinations
 
-import numpy as np
-
 from labkit.judge import Pose
 from labkit.judge.matrices import rigid_inverse
 from labkit.judge.row import Row
 from robo47.panda import READY_Q
 
 from . import ends, places
-from .compose_fk import swapped, two_swapped
+from .compose_fk import stops_early, two_swapped
 from .panda_chain import NEAR, PANDA, PATH, by_mujoco, fk, link, on, turn
 
 TO_LINK4 = PATH[:5]
@@ -29,17 +27,7 @@ row = Row(
 row.inputs(on(PANDA))
 
 for k in (1, 2, 3):
-    row.wrong(
-        "stops-early",
-        f"your chain stops at link{k}; it should end at link4",
-        f"the pose of link{k}",
-    )(lambda model, q, k=k: fk(model, q, PATH[: k + 1]))
-    row.wrong(
-        "stops-early",
-        f"your chain stops at link{k}, before that one's joint turns it",
-        f"link{k}, unturned",
-    )(lambda model, q, k=k: fk(model, q, PATH[:k]) @ link(model, f"link{k}"))
-
+    stops_early(row, k, "link4")
 for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5):
     row.wrong(
         "too-long",
@@ -56,25 +44,7 @@ row.reached_by(
 for i, k in combinations(range(7), 2):
     if i < 4:  # of the other joints link4 does not depend
         same = AT_READY if READY_Q[i] == READY_Q[k] else ""
-        row.wrong(*two_swapped(i, k), same)(
-            lambda model, q, i=i, k=k: fk(model, swapped(q, i, k), TO_LINK4)
-        )
-
-
-@row.right  # Only the axes and the place on the way; the last row is added at the end.
-def _(model, q):
-    x, y, z = np.eye(3)
-    p = model.body("link0").pos
-    for i in range(1, 5):
-        body = model.body(f"link{i}")
-        p = p + np.column_stack([x, y, z]) @ body.pos
-        # The Panda's links are turned about x only, and its joints about z.
-        half = np.arctan2(body.quat[1], body.quat[0])
-        c, s = np.cos(2 * half), np.sin(2 * half)
-        y, z = c * y + s * z, c * z - s * y
-        c, s = np.cos(q[i - 1]), np.sin(q[i - 1])
-        x, y = c * x + s * y, c * y - s * x
-    return np.vstack([np.column_stack([x, y, z, p]), [0, 0, 0, 1]])
+        two_swapped(row, i, k, TO_LINK4, same)
 
 
 @row.wrong("joint-skipped")  # joint4 turns link4 itself, so it belongs in.

@@ -161,8 +161,3 @@ def whole_numbers(T_world_ee, T_extra):
 
 
 row.close("by-4x4-products")(by_4x4)
-
-
-@row.wrong("shape")  # Homogeneous points, with their fourth entry.
-def _(T_world_ee, T_extra):
-    return T_world_ee @ T_extra[:, 3], T_extra @ T_world_ee[:, 3]

@@ -18,9 +18,9 @@ def _(rng):
     yield from ((T,) for T in draw.poses(rng, 8))
 
 
-def parts(T):
-    """Return R and [p]."""
-    return T[:3, :3], skew(T[:3, 3])
+def blocks(T, made):
+    """Return the matrix of blocks that are made of R and [p]."""
+    return np.block(made(T[:3, :3], skew(T[:3, 3])))
 
 
 @row.wrong
@@ -35,79 +35,69 @@ def block_top_right(T):
     """[p] R stands top right; that is for twists (v; omega), and for wrenches. Here v
     is the lower half, and it is v that the distance changes => the right one with that
     block moved"""
-    R, P = parts(T)
-    return np.block([[R, P @ R], [O, R]])
+    return blocks(T, lambda R, P: [[R, P @ R], [O, R]])
 
 
 @row.wrong
 def factors_swapped(T):
     """the lower left block is R [p]; the lever arm is told in the outer frame, so it
     acts after R => the right one with R [p]"""
-    R, P = parts(T)
-    return np.block([[R, O], [R @ P, R]])
+    return blocks(T, lambda R, P: [[R, O], [R @ P, R]])
 
 
 @row.wrong
 def no_lever_arm(T):
     """the lower left block is 0: v is only turned, but a spin moves a far origin => the
     right one without that block"""
-    R, _ = parts(T)
-    return np.block([[R, O], [O, R]])
+    return blocks(T, lambda R, P: [[R, O], [O, R]])
 
 
 @row.wrong
 def lever_arm_not_turned(T):
     """the lower left block is [p] alone; omega has to be turned before => the right one
     with [p]"""
-    R, P = parts(T)
-    return np.block([[R, O], [P, R]])
+    return blocks(T, lambda R, P: [[R, O], [P, R]])
 
 
 @row.wrong
 def lever_arm_sign(T):
     """the lower left block has the wrong sign => the right one with -[p] R"""
-    R, P = parts(T)
-    return np.block([[R, O], [-P @ R, R]])
+    return blocks(T, lambda R, P: [[R, O], [-P @ R, R]])
 
 
 @row.wrong
 def on_both_sides(T):
     """[p] R stands in both corners; omega does not depend on where the origin is => the
     right one with it top right too"""
-    R, P = parts(T)
-    return np.block([[R, P @ R], [P @ R, R]])
+    return blocks(T, lambda R, P: [[R, P @ R], [P @ R, R]])
 
 
 @row.wrong
 def block_by_entries(T):
     """the lower left block is [p] * R, entry by entry; it is a product of matrices =>
     the right one with [p] * R"""
-    R, P = parts(T)
-    return np.block([[R, O], [P * R, R]])
+    return blocks(T, lambda R, P: [[R, O], [P * R, R]])
 
 
 @row.wrong
 def last_block_identity(T):
     """the lower right block is the identity; v has to be turned by R too => the right
     one with I there"""
-    R, P = parts(T)
-    return np.block([[R, O], [P @ R, I]])
+    return blocks(T, lambda R, P: [[R, O], [P @ R, I]])
 
 
 @row.wrong
 def last_block_zero(T):
     """the blocks are R, [p] and 0: the lower right one has to be R, and the lower left
     one [p] R => the right one with those blocks"""
-    R, P = parts(T)
-    return np.block([[R, O], [P, O]])
+    return blocks(T, lambda R, P: [[R, O], [P, O]])
 
 
 @row.wrong
 def lever_arm_turned_twice(T):
     """the lower left block is R [p] R; p is told in the outer frame already, so [p] R
     is all => the right one with R [p] R"""
-    R, P = parts(T)
-    return np.block([[R, O], [R @ P @ R, R]])
+    return blocks(T, lambda R, P: [[R, O], [R @ P @ R, R]])
 
 
 @row.wrong
@@ -122,8 +112,7 @@ def point_turned_back(T):
 def R_turned_back(T):
     """R is transposed in every block: twists come out turned the other way => the right
     one with R^T"""
-    R, P = parts(T)
-    return np.block([[R.T, O], [P @ R.T, R.T]])
+    return blocks(T, lambda R, P: [[R.T, O], [P @ R.T, R.T]])
 
 
 @row.wrong
@@ -133,14 +122,3 @@ def transposed(T):
 
 
 row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
-
-
-@row.right  # [Ad(T) V] = T [V] T^-1, column by column.
-def _(T):
-    columns = []
-    for V in np.eye(6):
-        A = np.zeros((4, 4))
-        A[:3, :3], A[:3, 3] = skew(V[:3]), V[3:]
-        B = T @ A @ np.linalg.inv(T)
-        columns.append([B[2, 1], B[0, 2], B[1, 0], *B[:3, 3]])
-    return np.array(columns).T

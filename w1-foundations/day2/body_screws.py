@@ -80,8 +80,3 @@ row.reached_by(
     ],
     hidden={"R-turned-back": "the Panda's M is symmetric"},
 )
-
-
-@row.right  # Solved for, not inverted.
-def _(screws, M):
-    return np.linalg.solve(adjoint(M), screws.T).T

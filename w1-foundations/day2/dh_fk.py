@@ -1,7 +1,5 @@
 """2.9 `dh_fk(table, q)`: its questions and its mistakes."""
 
-from itertools import zip_longest
-
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -11,7 +9,6 @@ from robo47.screws import dh_link
 
 from . import places
 from .arms import FAR, FRANKA
-from .dh_link import in_order
 
 row = Row(
     Pose(wrong_way="maps the world to the flange"),
@@ -147,20 +144,8 @@ row.of_argument(
 row.reached_by("dh_link", "in every row, ", but=["a-and-d-swapped", "theta-forgotten"])
 
 
-@row.right  # theta by zip_longest.
+@row.wrong("a-sign")  # The minus of row 5 taken for a slip of the pen.
 def _(table, q):
-    T = np.eye(4)
-    for one, theta in zip_longest(table, q, fillvalue=0.0):
-        T = T @ dh_link(*one, theta)
-    return T
-
-
-@row.right  # The other convention, with its own rows: alpha and a one row earlier.
-def _(table, q):
-    T = dh_link(table[0, 0], table[0, 1], 0.0, 0.0)
-    rows = zip(
-        [*table[1:, 0], 0.0], [*table[1:, 1], 0.0], table[:, 2], [*q, 0.0], strict=True
-    )
-    for alpha, a, d, theta in rows:
-        T = T @ in_order("zZXx", alpha, a, d, theta)
-    return T
+    sign = np.ones_like(table)
+    sign[4, 1] = -1
+    return product(links(sign * table, [*q, 0.0]))

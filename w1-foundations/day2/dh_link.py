@@ -1,9 +1,11 @@
 """2.9 `dh_link(alpha, a, d, theta)`: its questions and its mistakes."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import Change
+from labkit.judge.argument_mistakes import DEGREES, NEGATED, Change
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47 import se3
@@ -105,70 +107,37 @@ def radians_taken_for_degrees(alpha, a, d, theta):
     return dh_link(np.deg2rad(alpha), a, d, np.deg2rad(theta))
 
 
+for name, says in (
+    ("alpha", "alpha turns the wrong way"),
+    ("theta", "theta turns the wrong way"),
+    ("a", "the length a is taken the wrong way along x"),
+    ("d", "the length d is taken the wrong way along z"),
+):
+    row.of_argument(name, replace(NEGATED, slug=f"{name}-sign", says=says))
+for name in ("alpha", "theta"):
+    row.of_argument(
+        name,
+        Change(
+            f"{name}-forgotten",
+            f"{name} has no effect",
+            np.zeros_like,
+            f"the right one with {name} = 0",
+        ),
+    )
 row.of_argument(
     "alpha",
-    Change(
-        "alpha-sign",
-        "alpha turns the wrong way",
-        np.negative,
-        "the right one with -alpha",
-    ),
-    Change(
-        "alpha-forgotten",
-        "alpha has no effect",
-        np.zeros_like,
-        "the right one with alpha = 0",
-    ),
-    Change(
-        "radians-taken-for-degrees",
-        "alpha is in radians already, and is converted from degrees once more",
-        np.deg2rad,
-        "the right one with a smaller alpha",
-    ),
-)
-row.of_argument(
-    "theta",
-    Change(
-        "theta-sign",
-        "theta turns the wrong way",
-        np.negative,
-        "the right one with -theta",
-    ),
-    Change(
-        "theta-forgotten",
-        "theta has no effect",
-        np.zeros_like,
-        "the right one with theta = 0",
-    ),
-)
-row.of_argument(
-    "a",
-    Change(
-        "a-sign",
-        "the length a is taken the wrong way along x",
-        np.negative,
-        "the right one with -a",
-    ),
-)
-row.of_argument(
-    "d",
-    Change(
-        "d-sign",
-        "the length d is taken the wrong way along z",
-        np.negative,
-        "the right one with -d",
+    replace(
+        DEGREES,
+        slug="radians-taken-for-degrees",
+        says="alpha is in radians already, and is converted from degrees once more",
+        redone="the right one with a smaller alpha",
     ),
 )
 row.of_answer(of_a_pose("maps the link before to this one"))
 
 
-@row.close("rounded-somewhere")  # Angles through degrees, with a typed pi.
+@row.wrong("few-entries-off")  # One minus forgotten.
 def _(alpha, a, d, theta):
-    alpha, theta = alpha * 180 / np.pi, theta * 180 / np.pi
-    alpha, theta = alpha * 3.1415926 / 180, theta * 3.1415926 / 180
-    return dh_link(alpha, a, d, theta)
-
-
-@row.right  # Four elementary poses; those along and about one axis may be swapped.
-def _(alpha, a, d, theta):
-    return in_order("XxZz", alpha, a, d, theta)
+    T = dh_link(alpha, a, d, theta)
+    T[1, 3] *= -1
+    return T

@@ -26,26 +26,29 @@ def _(rng):
     return zip(axes, angles, strict=True)
 
 
+def formula(axis, one, first, second):
+    """Return one I + first K + second K K."""
+    K = skew(axis)
+    return one * I + first * K + second * K @ K
+
+
 def rodrigues(axis, theta):
     """Return the right formula; of an axis 0 too, as a slide has it."""
-    K = skew(axis)
-    return I + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    return formula(axis, 1, np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
 def turns_backwards(axis, theta):
     """it turns the other way: the sine's term has the wrong sign => the rotation by
     -theta"""
-    K = skew(axis)
-    return I - np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    return formula(axis, 1, -np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
 def minus_square(axis, theta):
     """the last term is subtracted: lengths grow (det R is far from 1) => the formula
     with that minus"""
-    K = skew(axis)
-    return I + np.sin(theta) * K - (1 - np.cos(theta)) * K @ K
+    return formula(axis, 1, np.sin(theta), np.cos(theta) - 1)
 
 
 @row.wrong
@@ -59,48 +62,42 @@ def square_missing(axis, theta):
 def sine_term_missing(axis, theta):
     """the term with K itself is missing, so turning by theta and -theta is the same =>
     the formula without it"""
-    K = skew(axis)
-    return I + (1 - np.cos(theta)) * K @ K
+    return formula(axis, 1, 0, 1 - np.cos(theta))
 
 
 @row.wrong
 def identity_missing(axis, theta):
     """the identity is missing: at theta = 0 a rotation leaves everything as it is =>
     the formula without it"""
-    K = skew(axis)
-    return np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    return formula(axis, 0, np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
 def cosine_for_one_minus_cosine(axis, theta):
     """before K K stands the cosine; at theta = 0 that factor has to vanish => the
     formula with cos"""
-    K = skew(axis)
-    return I + np.sin(theta) * K + np.cos(theta) * K @ K
+    return formula(axis, 1, np.sin(theta), np.cos(theta))
 
 
 @row.wrong
 def one_minus_sine(axis, theta):
     """before K K stands 1 minus the sine; at theta = 0 that factor has to vanish => the
     formula with 1 - sin"""
-    K = skew(axis)
-    return I + np.sin(theta) * K + (1 - np.sin(theta)) * K @ K
+    return formula(axis, 1, np.sin(theta), 1 - np.sin(theta))
 
 
 @row.wrong
 def sin_and_cos_swapped(axis, theta):
     """sine and cosine have changed places: at theta = 0 it already turns => the formula
     with the two swapped"""
-    K = skew(axis)
-    return I + np.cos(theta) * K + (1 - np.sin(theta)) * K @ K
+    return formula(axis, 1, np.cos(theta), 1 - np.sin(theta))
 
 
 @row.wrong
 def coefficients_swapped(axis, theta):
     """the two factors have changed places: the sine belongs to K, 1 - cos to K K => the
     formula with the two swapped"""
-    K = skew(axis)
-    return I + (1 - np.cos(theta)) * K + np.sin(theta) * K @ K
+    return formula(axis, 1, 1 - np.cos(theta), np.sin(theta))
 
 
 @row.wrong
@@ -129,8 +126,7 @@ def first_order_only(axis, theta):
 def second_order_only(axis, theta):
     """the series stops after the term with theta squared; it goes on for ever => the
     series cut there"""
-    K = skew(axis)
-    return I + theta * K + theta**2 / 2 * K @ K
+    return formula(axis, 1, theta, theta**2 / 2)
 
 
 @row.wrong
@@ -153,15 +149,13 @@ def dyad_without_factor(axis, theta):
 def cosine_before_identity(axis, theta):
     """before the identity stands the cosine; that goes with axis axis^T, and I itself
     with K K => the formula with cos I"""
-    K = skew(axis)
-    return np.cos(theta) * I + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    return formula(axis, np.cos(theta), np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
 def theta_for_sine(axis, theta):
     """before K stands theta; it has to be its sine => the formula with theta K"""
-    K = skew(axis)
-    return I + theta * K + (1 - np.cos(theta)) * K @ K
+    return formula(axis, 1, theta, 1 - np.cos(theta))
 
 
 @row.wrong
@@ -220,17 +214,6 @@ for small in (1e-3, 1e-2):  # any bound between two angles that are asked does i
 
 # Of an axis of length 1 "made-unit" changes nothing; "p-cross-w" is the angle's sign.
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
-
-
-@row.right  # By a quaternion and Day 1's library.
-def _(axis, theta):
-    return se3.quat_to_R(np.hstack([np.cos(theta / 2), np.sin(theta / 2) * axis]))
-
-
-@row.right  # cos I + sin [a] + (1 - cos) a a^T.
-def _(axis, theta):
-    c, s = np.cos(theta), np.sin(theta)
-    return c * I + s * skew(axis) + (1 - c) * np.outer(axis, axis)
 
 
 @row.close("rounded-somewhere")  # The series to the sixteenth term.

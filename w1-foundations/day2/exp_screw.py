@@ -10,7 +10,7 @@ from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47.screws import skew
 
-from .exp_rotation import rodrigues
+from .exp_rotation import formula, rodrigues
 
 row = Row(Pose())
 
@@ -53,8 +53,7 @@ def _(rng):
 
 def motion(S, theta):
     """Return the right pose, whatever S is: the lab tries (v; omega) on purpose."""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, 1 - np.cos(theta), theta - np.sin(theta))
 
 
 def moved(S, theta, t):
@@ -64,9 +63,9 @@ def moved(S, theta, t):
     return T
 
 
-def terms(S, theta):
-    """Return K, the cosine and the sine."""
-    return skew(S[:3]), np.cos(theta), np.sin(theta)
+def travelled(S, theta, one, first, second):
+    """Return the pose whose translation is (one I + first K + second K K) v."""
+    return moved(S, theta, formula(S[:3], one, first, second) @ S[3:])
 
 
 @row.wrong
@@ -80,24 +79,21 @@ def twist_order(S, theta):
 def identity_for_theta(S, theta):
     """R is right, but the translation starts with I v, not with theta: at theta = 0 it
     moves already => the right one with I instead of theta I"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (I + (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+    return travelled(S, theta, 1, 1 - np.cos(theta), theta - np.sin(theta))
 
 
 @row.wrong
 def exp_coefficients_swapped(S, theta):
     """R is right, but in the translation the two factors have changed places => the
     right one with the two swapped"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I + (theta - s) * K + (1 - c) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, theta - np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
 def as_in_the_rotation(S, theta):
     """R is right, but the translation uses R's own factors, sin and 1 - cos; it needs
     their integrals => the right one with those factors"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I + s * K + (1 - c) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, np.sin(theta), 1 - np.cos(theta))
 
 
 @row.wrong
@@ -118,32 +114,28 @@ def R_times_theta_v(S, theta):
 def travel_sign_of_K(S, theta):
     """R is right, but in the translation the term with K has the wrong sign => the
     right one with that sign"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I - (1 - c) * K + (theta - s) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, np.cos(theta) - 1, theta - np.sin(theta))
 
 
 @row.wrong
 def travel_sign_of_KK(S, theta):
     """R is right, but in the translation the term with K K has the wrong sign => the
     right one with that sign"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I + (1 - c) * K - (theta - s) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, 1 - np.cos(theta), np.sin(theta) - theta)
 
 
 @row.wrong
 def travel_without_K(S, theta):
     """R is right, but in the translation the term with K is missing => the right one
     without it"""
-    K, s = skew(S[:3]), np.sin(theta)
-    return moved(S, theta, (theta * I + (theta - s) * K @ K) @ S[3:])
+    return travelled(S, theta, theta, 0, theta - np.sin(theta))
 
 
 @row.wrong
 def travel_without_KK(S, theta):
     """R is right, but in the translation the term with K K is missing => the right one
     without it"""
-    K, c = skew(S[:3]), np.cos(theta)
-    return moved(S, theta, (theta * I + (1 - c) * K) @ S[3:])
+    return travelled(S, theta, theta, 1 - np.cos(theta), 0)
 
 
 @row.wrong
@@ -214,8 +206,7 @@ def travel_over_theta(S, theta):
 def travel_K_for_KK(S, theta):
     """R is right, but in the last term of the translation stands K, not K K => the
     right one with K there"""
-    K, c, s = terms(S, theta)
-    return moved(S, theta, (theta * I + (1 - c) * K + (theta - s) * K) @ S[3:])
+    return travelled(S, theta, theta, 1 - np.cos(theta) + theta - np.sin(theta), 0)
 
 
 @row.wrong
@@ -298,27 +289,6 @@ row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 
 
-@row.right  # Two moves and a turn about a line through the origin.
-def _(S, theta):
-    omega, v = S[:3], S[3:]
-    if not np.any(omega):
-        return moved(S, theta, theta * v)
-    there, back = np.eye(4), np.eye(4)
-    there[:3, 3], back[:3, 3] = np.cross(omega, v), -np.cross(omega, v)
-    return there @ moved(S, theta, omega @ v * theta * omega) @ back
-
-
-@row.right  # The series itself, by squaring.
-def _(S, theta):
-    A = np.zeros((4, 4))
-    A[:3, :3], A[:3, 3] = skew(S[:3]), S[3:]
-    out, term = np.eye(4), np.eye(4)
-    for k in range(1, 30):
-        term = term @ A * theta / (64 * k)
-        out = out + term
-    return np.linalg.matrix_power(out, 64)
-
-
 @row.close("float32")  # float32 throughout.
 def _(S, theta):
     S, theta = S.astype(np.float32), np.float32(theta)
@@ -335,3 +305,13 @@ def _(S, theta):
     n = 2000
     steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
     return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)
+
+
+@row.wrong("pose-off")  # omega = 0 is asked of its z alone.
+def _(S, theta):
+    return motion(S if S[2] else S * [0, 0, 0, 1, 1, 1], theta)
+
+
+@row.wrong("not-finite")  # omega is scaled to length 1: a slide has none.
+def _(S, theta):
+    return motion(S, theta) if S[:3].any() else np.full((4, 4), np.nan)

@@ -10,6 +10,7 @@ import numpy as np
 
 from labkit.inspector import words
 from labkit.inspector.arm import END
+from labkit.inspector.draw import joined
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
@@ -40,13 +41,9 @@ def ask_fk_space(model: mujoco.MjModel, q: Array) -> list[tuple]:
     return [*shorter, (S, M, q[:JOINTS])]
 
 
-def ask_for_the_end(model: mujoco.MjModel, q: Array) -> tuple:
-    """Return fk_space's arguments for the end effector alone."""
-    S, M, _ = _at_zero(model)
-    return S, M, q[:JOINTS]
-
-
-GHOST = Ghost("fk_space", FRAMES, ask_fk_space, whole=ask_for_the_end)
+GHOST = Ghost(
+    "fk_space", FRAMES, ask_fk_space, whole=lambda model, q: ask_fk_space(model, q)[-1]
+)
 
 
 class Screws(Tab):
@@ -87,16 +84,12 @@ class Screws(Tab):
 
     def press(self, name: str) -> None:
         """Apply one more exponential, take one back, or play them all."""
-        running = self.loop.running
+        if name == PLAY:
+            self.loop.toggle()
+            return
         self.loop.stop()
-        if name == PLAY and not running:
-            self.loop.start()
-        elif name == NEXT:
-            self.go(np.floor(self.done) + 1)
-        elif name == BACK:
-            self.go(np.ceil(self.done) - 1)
-        elif name == WHOLE:
-            self.go(JOINTS)
+        on, back = np.floor(self.done) + 1, np.ceil(self.done) - 1
+        self.go({NEXT: on, BACK: back, WHOLE: JOINTS}[name])
 
     def play(self, seconds: float) -> bool:
         """Go on smoothly; return whether there is more."""
@@ -170,7 +163,7 @@ class Screws(Tab):
         for arm, colour, name in zip(self.arms, COLOURS, READINGS, strict=True):
             p = READINGS[name](FRANKA, q[:JOINTS])[:, :3, 3]
             p = np.concatenate([p, np.repeat(p[-1:], len(FRANKA) + 1 - len(p), axis=0)])
-            arm.points = np.stack([p[:-1], p[1:]], axis=1).astype(np.float32)
+            arm.points = joined(p)
             says = f"{colour}: {1000 * far[name][0]:.0f} mm, {name}"
             lines.append(words.line(says, f"reading-{colour}"))
         self.legend.content = "".join(lines)

@@ -95,27 +95,17 @@ def next_links_point(T_zero):
     return through(np.roll(T_zero[:, :3, 3], -1, axis=0), T_zero)
 
 
-BEFORE = (
-    "each joint's point is the origin of the link before, which need not be on its axis"
-)
-
-
-@row.wrong("previous-links-point", BEFORE, "the answer with those points")
-def _(T_zero):
-    p = T_zero[:, :3, 3]
-    return through([p[0], *p[:-1]], T_zero)
-
-
-@row.wrong("previous-links-point", BEFORE, "the answer with those points")
-def _(T_zero):
-    p = T_zero[:, :3, 3]
-    return through([p[i - 1] for i in range(7)], T_zero)
-
-
-@row.wrong("previous-links-point", BEFORE, "the answer with those points")
-def _(T_zero):
-    p = T_zero[:, :3, 3]
-    return through([np.zeros(3), *p[:-1]], T_zero)
+for before in (
+    lambda p: [p[0], *p[:-1]],
+    lambda p: [p[i - 1] for i in range(7)],
+    lambda p: [np.zeros(3), *p[:-1]],
+):
+    row.wrong(
+        "previous-links-point",
+        "each joint's point is the origin of the link before, which need not be on its "
+        "axis",
+        "the answer with those points",
+    )(lambda T_zero, before=before: through(before(T_zero[:, :3, 3]), T_zero))
 
 
 @row.wrong
@@ -135,7 +125,6 @@ def last_joint_first(T_zero):
 row.reached_by("screw_axis", "in every screw, ")
 
 
-@row.right  # All joints at once.
+@row.wrong("v-off")  # The points are measured from link1.
 def _(T_zero):
-    z, p = T_zero[:, :3, 2], T_zero[:, :3, 3]
-    return np.hstack([z, np.cross(p, z)])
+    return through(T_zero[:, :3, 3] - T_zero[0, :3, 3], T_zero)

@@ -5,10 +5,13 @@ A mistake in one joint only is not listed here: `places` finds which one.
 
 import numpy as np
 
+from labkit.judge import Pose
 from labkit.judge.argument_mistakes import Change
+from labkit.judge.row import Row
 from robo47 import se3
 
-from .exp_screw import motion
+from . import places
+from .exp_screw import NOT_OF_AN_ARM, motion
 
 
 def space(screws, M, q):
@@ -22,11 +25,6 @@ def space(screws, M, q):
 def body(screws, M, q):
     """Return M e^[B1] q1 ... e^[B7] q7, whatever the screws are."""
     return M @ space(screws, np.eye(4), q)
-
-
-def quick(fk):
-    """Return a product of the library by its way for many arms: of one it is slow."""
-    return lambda S, M, q: fk(S[None], M, q[None])[0]
 
 
 def _with_joints(q, which):
@@ -170,3 +168,111 @@ IN_M = (
 # A joint's exponential by a wrong angle is the product at a wrong q.
 ALIKE = ({"turns-backwards", "all-backwards"}, {"degrees-into-cos", "degrees"})
 HIDDEN = {"pair-of-signs": "at q = 0 the Panda has no axis with an x"}
+
+
+def product_row(fk, inputs):
+    """Return the row of a product.
+
+    Args:
+        fk: the library's, which is slow for one arm and quick for many.
+        inputs: generator of screws, M and q.
+    """
+    row = Row(
+        Pose(wrong_way="maps the world to the end effector"),
+        truth=lambda S, M, q: fk(S[None], M, q[None])[0],
+        alike=ALIKE,
+        probe=places.alone(inputs),
+        unnamed=places.unnamed,
+        measured=places.measured,
+    )
+    row.inputs(inputs)
+    return row
+
+
+EITHER = []  # mistakes that are made in `space` and in `body`, the form, alike
+
+
+def either(code):
+    """Take one of them; its words are as below `Row.wrong`."""
+    EITHER.append(code)
+    return code
+
+
+def with_M(form, T, M):
+    """Return T M or M T, as the form has it."""
+    return T @ M if form is space else M @ T
+
+
+def by_entries(form, screws, M, q, T):
+    """Return the product with the exponentials multiplied entry by entry, T first."""
+    for S, theta in zip(screws, q, strict=True):
+        T = T * motion(S, theta)
+    return with_M(form, T, M)
+
+
+@either
+def product_reversed(form, screws, M, q):
+    """the exponentials stand in the reverse order: the joint nearest to the base
+    belongs on the left => the product in reverse"""
+    return form(screws[::-1], M, q[::-1])
+
+
+@either
+def M_twice(form, screws, M, q):
+    """M stands on both sides of the exponentials => the product with M twice"""
+    return M @ space(screws, M, q)
+
+
+@either
+def M_in_the_loop(form, screws, M, q):
+    """M is in the loop, beside every exponential: at q = 0 your pose is M seven times,
+    not M => that product"""
+    T = np.eye(4)
+    for S, theta in zip(screws, q, strict=True):
+        T = T @ with_M(form, motion(S, theta), M)
+    return T
+
+
+@either
+def exponentials_summed(form, screws, M, q):
+    """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
+    where the order does not matter => the exponential of the sum"""
+    V = q @ screws
+    size = np.linalg.norm(V[:3]) or 1.0
+    return with_M(form, motion(V / size, size), M)
+
+
+@either
+def multiplied_by_entries(form, screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries"""
+    return by_entries(form, screws, M, q, np.ones((4, 4)))
+
+
+@either
+def multiplied_by_entries(form, screws, M, q):
+    """the exponentials are multiplied entry by entry, not as matrices => the product by
+    entries, from the identity on"""
+    return by_entries(form, screws, M, q, np.eye(4))
+
+
+def either_form(row, form):
+    """Take the mistakes that both forms have: in the product, in q, M or one factor."""
+    for code in EITHER:
+
+        def way(screws, M, q, code=code):
+            return code(form, screws, M, q)
+
+        way.__name__, way.__doc__ = code.__name__, code.__doc__
+        row.wrong(way)
+    for one in IN_Q:
+        row.wrong(one.slug, one.says, one.redone)(
+            lambda screws, M, q, change=one.change: form(screws, M, change(q))
+        )
+    for one in IN_M:
+        row.wrong(one.slug, one.says, one.redone, one.hidden)(
+            lambda screws, M, q, change=one.change: form(screws, change(M), q)
+        )
+    row.reached_by(
+        "exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN
+    )

@@ -60,18 +60,12 @@ def twist_order_and_sign(axis, point):
     return np.append(np.cross(axis, point), axis)
 
 
-@row.wrong
-def product_by_entries(axis, point):
-    """v is omega times the point entry by entry; a cross product mixes the entries =>
-    (omega; -omega * point)"""
-    return np.append(axis, -axis * point)
-
-
-@row.wrong
-def product_by_entries(axis, point):
-    """v is omega times the point entry by entry; a cross product mixes the entries =>
-    (omega; omega * point)"""
-    return np.append(axis, axis * point)
+for sign, minus in ((-1, "-"), (1, "")):
+    row.wrong(
+        "product-by-entries",
+        "v is omega times the point entry by entry; a cross product mixes the entries",
+        f"(omega; {minus}omega * point)",
+    )(lambda axis, point, sign=sign: np.append(axis, sign * axis * point))
 
 
 @row.wrong
@@ -98,3 +92,9 @@ def omega_reversed(axis, point):
 @row.close("rounded")  # Rounded for reading.
 def _(axis, point):
     return np.round(np.hstack([axis, -np.cross(axis, point)]), 6)
+
+
+@row.wrong("axis-turned-round")  # Every axis is made to point the positive way.
+def _(axis, point):
+    sign = np.sign(axis[np.argmax(np.abs(axis))])
+    return screw_axis(sign * axis, point)

@@ -67,18 +67,15 @@ row.of_argument(
 )
 
 
-@row.wrong
-def half_empty(w):
-    """only the upper right half is filled; the lower left one is its negative => the
-    right one without its lower half"""
-    return np.triu(skew(w))
-
-
-@row.wrong
-def half_empty(w):
-    """only the lower left half is filled; the upper right one is its negative => the
-    right one without its upper half"""
-    return np.tril(skew(w))
+for half, filled, empty in (
+    (np.triu, "upper right", "lower left"),
+    (np.tril, "lower left", "upper right"),
+):
+    row.wrong(
+        "half-empty",
+        f"only the {filled} half is filled; the {empty} one is its negative",
+        f"the right one without its {empty.split()[0]} half",
+    )(lambda w, half=half: half(skew(w)))
 
 
 @row.wrong
@@ -109,6 +106,11 @@ def made_unit(w):
     return skew(w / np.linalg.norm(w))
 
 
-@row.right  # Column by column.
+@row.wrong("whole-numbers")  # An array of integers to start from.
 def _(w):
-    return np.array([np.cross(w, e) for e in np.eye(3)]).T
+    return skew(w).astype(int)
+
+
+@row.wrong("shape")  # A cross product instead of a matrix.
+def _(w):
+    return np.cross(w, [1.0, 0.0, 0.0])

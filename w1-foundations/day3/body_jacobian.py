@@ -65,8 +65,3 @@ def turned_by_R(J_space, T):
     """J_site is turned by R, which leads from the hand's axes to the world's; the way
     back is R^T => J_site turned by R"""
     return turned(site_jacobian(J_space, T[:3, 3]), T[:3, :3])
-
-
-@row.right  # J_site, turned back.
-def _(J_space, T):
-    return turned(site_jacobian(J_space, T[:3, 3]), T[:3, :3].T)

@@ -9,6 +9,7 @@ Both go by the student's own `pose_error` and `dls_step`.
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.draw import joined
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from robo47 import jacobian, panda, verify
@@ -85,7 +86,7 @@ class Circle(Tab):
         self.circle, q = verify.circle(arm, self.limits, radius, TIMES)
         self.pens = [Pen(self.arm, q, damping) for damping in (DAMPING, 0.0)]
         points = self.circle[:, :3, 3]
-        self.goal.points = _segments([*points, points[0]])
+        self.goal.points = joined([*points, points[0]])
         self.show()
 
     def press(self, name: str) -> None:
@@ -93,7 +94,7 @@ class Circle(Tab):
         if name == AGAIN or self.steps >= len(TIMES) - 1:
             self.turn(self.radius)
         if name == DRAW:
-            (self.loop.stop if self.loop.running else self.loop.start)()
+            self.loop.toggle()
 
     def step(self, seconds: float) -> bool:
         """Show both arms; after a lap there is no more."""
@@ -121,7 +122,7 @@ class Circle(Tab):
         """Draw both arms and their lines, and say how far off each has been."""
         for pen, ghost, line in zip(self.pens, self.ghosts, self.lines, strict=True):
             ghost.pose(self.page.links(pen.q))
-            line.points = _segments([*pen.path[:1], *pen.path])
+            line.points = joined([*pen.path[:1], *pen.path])
         self.bars.show([max(pen.rate) for pen in self.pens])
         told = "; ".join(
             f"{name} {pen.off[-1]:.1f} mm off, at most {max(pen.off):.1f}"
@@ -129,8 +130,3 @@ class Circle(Tab):
         )
         says = f"radius {self.radius:g} m, {self.steps * DT:.1f} s: {told}"
         self.numbers.content = words.line(says, "circle")
-
-
-def _segments(points: list[Array]) -> Array:
-    p = np.array(points, dtype=np.float32)
-    return np.stack([p[:-1], p[1:]], axis=1)

@@ -77,13 +77,3 @@ def arm_twice(J_space, p, F):
     two => the torques with both"""
     moment = F[:3] + np.cross(p, F[3:])
     return joint_torques(J_space, p, np.append(moment, F[3:]))
-
-
-@row.wrong("raises")  # J F, whose shapes do not fit.
-def _(J_space, p, F):
-    return site_jacobian(J_space, p) @ F
-
-
-@row.right  # The wrench carried to the origin, where J_space is at home.
-def _(J_space, p, F):
-    return J_space.T @ np.append(F[:3] + np.cross(p, F[3:]), F[3:])

@@ -328,12 +328,6 @@ def _(R):
     return np.round(log_rotation(R), 6)
 
 
-@row.close("rounded-somewhere")  # A pi typed by hand.
-def _(R):
-    angle = np.linalg.norm(log_rotation(R))
-    return axis(R) * (3.1415927 - (np.pi - angle))
-
-
 @row.right  # The axis is what R leaves alone: an eigenvector of its symmetric part.
 def _(R):
     a, sine, angle = parts(R)

@@ -18,11 +18,6 @@ _ROWS = """
 -3 2 -1 -1 3 -2 -2  1 1 3 1 1 3 -3  -4 4 1 -4 6 -2 -3
 """
 SINGULAR = np.array(_ROWS.split(), dtype=float).reshape(3, 6, 7) / 8.0
-NAN_SAYS = (
-    "NaN comes back for some singular J: rounding leaves a bit less than 0 under "
-    "the root there, so it has to be cut off at 0"
-)
-NAN_HIDDEN = "rounding at q = 0 differs"
 
 
 class Number(OrNaN, Scalar):
@@ -105,29 +100,17 @@ def position_only(J):
     return values(J[3:]).prod()
 
 
-@row.wrong(
-    "nan-at-a-singularity",
-    NAN_SAYS,
-    "the root of det(J J^T), with its NaN,",
-    hidden=NAN_HIDDEN,
-)
-def _(J):
-    return np.sqrt(np.linalg.det(J @ J.T))
-
-
-@row.wrong(
-    "nan-at-a-singularity",
-    NAN_SAYS,
-    "the root of the eigenvalues' product, with its NaN,",
-    hidden=NAN_HIDDEN,
-)
-def _(J):
-    return np.sqrt(np.prod(np.linalg.eigvalsh(J @ J.T)))
-
-
-@row.wrong("raises")  # J is not square.
-def _(J):
-    return np.sqrt(np.linalg.det(J))
+for determinant, called in (
+    (np.linalg.det, "det(J J^T)"),
+    (lambda A: np.prod(np.linalg.eigvalsh(A)), "the eigenvalues' product"),
+):
+    row.wrong(
+        "nan-at-a-singularity",
+        "NaN comes back for some singular J: rounding leaves a bit less than 0 under "
+        "the root there, so it has to be cut off at 0",
+        f"the root of {called}, with its NaN,",
+        hidden="rounding at q = 0 differs",
+    )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
 
 
 @row.wrong
@@ -135,8 +118,3 @@ def diagonal_only(J):
     """only the diagonal of J J^T is multiplied; a determinant needs all entries => the
     root of that product"""
     return np.sqrt(np.prod(np.diag(J @ J.T)))
-
-
-@row.right  # The product of the singular values.
-def _(J):
-    return float(np.prod(values(J)))

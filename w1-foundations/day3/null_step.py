@@ -89,25 +89,13 @@ def nothing_left(J, dq):
     return np.zeros(7)
 
 
-@row.wrong
-def damped_projector(J, dq):
-    """the pseudo-inverse in it is damped (by 0.05), so a part of the felt motion stays
-    => the projector with damping"""
-    return dq - dls_step(J, J @ dq, 0.05)
-
-
-@row.wrong
-def damped_projector(J, dq):
-    """the pseudo-inverse in it is damped (by 0.1), so a part of the felt motion stays
-    => the projector with damping"""
-    return dq - dls_step(J, J @ dq, 0.1)
-
-
-@row.wrong
-def damped_projector(J, dq):
-    """the pseudo-inverse in it is damped (by 0.01), so a part of the felt motion stays
-    => the projector with damping"""
-    return dq - dls_step(J, J @ dq, 0.01)
+for damping in (0.05, 0.1, 0.01):
+    row.wrong(
+        "damped-projector",
+        f"the pseudo-inverse in it is damped (by {damping}), so a part of the felt "
+        "motion stays",
+        "the projector with damping",
+    )(lambda J, dq, damping=damping: dq - dls_step(J, J @ dq, damping))
 
 
 @row.wrong
@@ -141,16 +129,6 @@ def _(J, dq):
 @row.wrong("not-felt-but-off")  # The last right singular vector, whatever dq is.
 def _(J, dq):
     return np.linalg.svd(J)[2][-1]
-
-
-@row.wrong("raises")  # J J^+ is 6x6.
-def _(J, dq):
-    return dq - J @ pinv(J) @ dq
-
-
-@row.right  # By least squares.
-def _(J, dq):
-    return dq - np.linalg.lstsq(J, J @ dq, rcond=None)[0]
 
 
 @row.right  # Along the right singular vectors whose value is 0.

@@ -151,8 +151,3 @@ row.reached_by(
 @row.wrong("halves-swapped")  # The translation above.
 def _(T, T_goal):
     return np.roll(pose_error(T, T_goal), 3)
-
-
-@row.wrong("all-signs")  # From the goal to the hand.
-def _(T, T_goal):
-    return pose_error(T_goal, T)

@@ -74,11 +74,3 @@ def _(J_space, p):
 def _(J_space, p):
     omega, v = J_space[:3], J_space[3:]
     return np.vstack([v + np.cross(omega, p, axis=0), omega])
-
-
-@row.right  # np.cross, column by column, in place.
-def _(J_space, p):
-    J = J_space.copy()
-    for i in range(7):
-        J[3:, i] += np.cross(J[:3, i], p)
-    return J

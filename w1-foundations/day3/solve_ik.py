@@ -83,12 +83,10 @@ def damping_not_squared(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong
-def damping_not_squared(screws, M, T_goal, q_start, limits):
+def damping_not_squared(*target):
     """the damping in it is too large by far: it is not squared => what that damping
     leads to"""
-    return walk(
-        screws, M, T_goal, q_start, limits, damping=lambda ee: np.sqrt(adaptive(ee))
-    )
+    return walk(*target, damping=lambda ee: np.sqrt(adaptive(ee)))
 
 
 @row.wrong
@@ -128,11 +126,8 @@ def q_start_unused(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("position-only")  # Only the translation is steered.
-def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return pose_error(T, T_goal) * [0, 0, 0, 1, 1, 1]
-
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: pose_error(T, goal) * [0, 0, 0, 1, 1, 1])
 
 
 @row.wrong("position-only", hidden=BOTH_MOVE)  # The best is chosen by it.
@@ -166,11 +161,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("not-reached")  # Half of each step is taken.
-def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return pose_error(T, T_goal) / 2
-
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: pose_error(T, goal) / 2)
 
 
 @row.wrong("not-reached")  # The damping is the same far away and near.
@@ -207,18 +199,13 @@ def _(screws, M, T_goal, q_start, limits):
 
 
 @row.wrong("start-returned")  # The error's sign.
-def _(screws, M, T_goal, q_start, limits):
-    def gap(T, T_goal):
-        return -pose_error(T, T_goal)
-
-    return walk(screws, M, T_goal, q_start, limits, gap=gap)
+def _(*target):
+    return walk(*target, gap=lambda T, goal: -pose_error(T, goal))
 
 
 @row.right  # The error and the Jacobian are the hand's: they go together too.
-def _(screws, M, T_goal, q_start, limits):
-    return walk(
-        screws, M, T_goal, q_start, limits, seen=body_jacobian, gap=in_the_hands_axes
-    )
+def _(*target):
+    return walk(*target, seen=body_jacobian, gap=in_the_hands_axes)
 
 
 @row.right  # The damping shrinks after a good step and grows after a bad one.
@@ -233,4 +220,17 @@ def _(screws, M, T_goal, q_start, limits):
             q, T, damping = new, T_new, max(damping / 3, 1e-6)
         else:
             damping = 3 * damping
+    return q
+
+
+@row.wrong("shape")  # The number of steps comes back too.
+def _(screws, M, T_goal, q_start, limits):
+    return np.append(walk(screws, M, T_goal, q_start, limits), 60.0)
+
+
+@row.wrong("raises")  # A target out of reach stops it.
+def _(screws, M, T_goal, q_start, limits):
+    q = walk(screws, M, T_goal, q_start, limits)
+    if np.linalg.norm(pose_error(fk_space(screws, M, q), T_goal)) > 1e-8:
+        raise ValueError("not reached")
     return q

@@ -44,6 +44,11 @@ def carried(screws, moved, adjoint=adjoint):
     return np.array([adjoint(T) @ S for S, T in zip(screws, moved, strict=False)]).T
 
 
+def own(blocks):
+    """Return an adjoint made of blocks, a function of R and [p]."""
+    return lambda T: np.block(blocks(T[:3, :3], skew(T[:3, 3])))
+
+
 ZERO = np.zeros((3, 3))
 
 
@@ -98,11 +103,7 @@ def moved_by_all(screws, q):
 def moved_by_those_after(screws, q):
     """each screw is moved by the joints after it; those before it carry it => the
     Jacobian with the product of the joints after each"""
-    T, columns = np.eye(4), []
-    for S, theta in zip(screws[::-1], q[::-1], strict=True):
-        columns.append(adjoint(T) @ S)
-        T = exp_screw(S, theta) @ T
-    return np.array(columns[::-1]).T
+    return product_reversed(screws[::-1], q[::-1])[:, ::-1]
 
 
 @row.wrong
@@ -116,46 +117,32 @@ def adjoint_of_the_inverse(screws, q):
 def bracket_top_right(screws, q):
     """in the adjoint, [p] R stands top right; with (omega; v) it stands bottom left =>
     the Jacobian with that adjoint"""
-
-    def own(T):
-        R, p = T[:3, :3], T[:3, 3]
-        return np.block([[R, skew(p) @ R], [ZERO, R]])
-
-    return carried(screws, products(screws, q), own)
+    top_right = own(lambda R, P: [[R, P @ R], [ZERO, R]])
+    return carried(screws, products(screws, q), top_right)
 
 
 @row.wrong
 def bracket_after_R(screws, q):
     """in the adjoint, R [p] stands where [p] R belongs => the Jacobian with that
     adjoint"""
-
-    def own(T):
-        R, p = T[:3, :3], T[:3, 3]
-        return np.block([[R, ZERO], [R @ skew(p), R]])
-
-    return carried(screws, products(screws, q), own)
+    after_R = own(lambda R, P: [[R, ZERO], [R @ P, R]])
+    return carried(screws, products(screws, q), after_R)
 
 
 @row.wrong
 def rotation_only(screws, q):
     """the screws are only rotated; where the joints have moved to is left out ([p] R is
     missing in the adjoint) => the Jacobian with R alone"""
-
-    def own(T):
-        return np.kron(np.eye(2), T[:3, :3])
-
-    return carried(screws, products(screws, q), own)
+    alone = own(lambda R, P: [[R, ZERO], [ZERO, R]])
+    return carried(screws, products(screws, q), alone)
 
 
 @row.wrong
 def translation_only(screws, q):
     """the screws are only translated; the rotation R is left out of the adjoint => the
     Jacobian with I for R"""
-
-    def own(T):
-        return np.block([[np.eye(3), ZERO], [skew(T[:3, 3]), np.eye(3)]])
-
-    return carried(screws, products(screws, q), own)
+    unturned = own(lambda R, P: [[np.eye(3), ZERO], [P, np.eye(3)]])
+    return carried(screws, products(screws, q), unturned)
 
 
 row.of_argument(
@@ -195,11 +182,6 @@ def _(screws, q):
     return J
 
 
-@row.wrong("rows-swapped")  # MuJoCo's and Pinocchio's order: v above omega.
-def _(screws, q):
-    return np.roll(space_jacobian(screws, q), 3, axis=0)
-
-
 @row.wrong("shape")  # One row per joint: (7, 6).
 def _(screws, q):
     return space_jacobian(screws, q).T
@@ -213,17 +195,3 @@ def _(screws, q):
         V = (ahead - behind) / 2e-3 @ back
         J[:, i] = V[2, 1], V[0, 2], V[1, 0], *V[:3, 3]
     return J
-
-
-@row.right  # Each screw is moved by its own exponential as well: it does not change it.
-def _(screws, q):
-    return carried(screws, products(screws, q)[1:])
-
-
-@row.right  # The adjoint of a product is the product of the adjoints.
-def _(screws, q):
-    A, columns = np.eye(6), []
-    for S, theta in zip(screws, q, strict=True):
-        columns.append(A @ S)
-        A = A @ adjoint(exp_screw(S, theta))
-    return np.column_stack(columns)

@@ -22,20 +22,16 @@ def _(rng):
 
 
 # What that one says of its inside, said of the call: it is right when this is judged.
-@wrong(
-    "base-acceleration-sign",
-    "gravity has the wrong sign, as if g were given as -g; inverse_dynamics wants g "
-    "as it is",
-)
-def _(J, G, qd, g):
+@wrong()
+def base_acceleration_sign(J, G, qd, g):
+    """gravity has the wrong sign, as if g were given as -g; inverse_dynamics wants g as
+    it is"""
     return inverse_dynamics(J, G, qd, STILL, -g)
 
 
-@wrong(
-    "gravity-forgotten",
-    "gravity is missing, as if g were given as 0; it is part of the bias",
-)
-def _(J, G, qd, g):
+@wrong()
+def gravity_forgotten(J, G, qd, g):
+    """gravity is missing, as if g were given as 0; it is part of the bias"""
     return inverse_dynamics(J, G, qd, STILL, 0 * g)
 
 
@@ -66,35 +62,29 @@ def _(J, G, qd, g):
     return inverse_dynamics(J, G, STILL, STILL, g)
 
 
-@wrong(
-    "coriolis-twice", "Coriolis and centrifugal forces count twice; gravity is right"
-)
-def _(J, G, qd, g):
+@wrong()
+def coriolis_twice(J, G, qd, g):
+    """Coriolis and centrifugal forces count twice; gravity is right"""
     holding = inverse_dynamics(J, G, STILL, STILL, g)
     return 2 * inverse_dynamics(J, G, qd, STILL, g) - holding
 
 
-@wrong(
-    "coriolis-half",
-    "only half of the Coriolis and centrifugal forces is there; gravity is right",
-)
-def _(J, G, qd, g):
+@wrong()
+def coriolis_half(J, G, qd, g):
+    """only half of the Coriolis and centrifugal forces is there; gravity is right"""
     holding = inverse_dynamics(J, G, STILL, STILL, g)
     return 0.5 * (holding + inverse_dynamics(J, G, qd, STILL, g))
 
 
-@wrong(
-    "speed-for-acceleration", "qd is given as the acceleration, too; that has to be 0"
-)
-def _(J, G, qd, g):
+@wrong()
+def speed_for_acceleration(J, G, qd, g):
+    """qd is given as the acceleration, too; that has to be 0"""
     return inverse_dynamics(J, G, qd, qd, g)
 
 
-@wrong(
-    "speed-in-place-of-acceleration",
-    "qd is given as the acceleration, and 0 as the speed",
-)
-def _(J, G, qd, g):
+@wrong()
+def speed_in_place_of_acceleration(J, G, qd, g):
+    """qd is given as the acceleration, and 0 as the speed"""
     return inverse_dynamics(J, G, STILL, qd, g)
 
 
@@ -103,12 +93,10 @@ def _(J, G, qd, g):
     return inverse_dynamics(J, G, qd, np.ones(7), g)
 
 
-@wrong(
-    "rate-of-the-mass-matrix",
-    "the rate of M times qd is not the Coriolis torque: half of what it holds belongs "
-    "there",
-)
-def _(J, G, qd, g):
+@wrong()
+def rate_of_the_mass_matrix(J, G, qd, g):
+    """the rate of M times qd is not the Coriolis torque: half of what it holds belongs
+    there"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])
@@ -117,29 +105,7 @@ def _(J, G, qd, g):
     return inverse_dynamics(J, G, STILL, STILL, g) + M_rate @ qd
 
 
-@wrong(
-    "damping-added",
-    "the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8",
-)
-def _(J, G, qd, g):
+@wrong()
+def damping_added(J, G, qd, g):
+    """the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8"""
     return inverse_dynamics(J, G, qd, STILL, g) + qd
-
-
-def rate_of_M(J, G, j):
-    """Return the rate of the links' part of M when joint j moves."""
-    X = ad(J[:, j])
-    dM = np.zeros((7, 7))
-    for i in range(j, 7):
-        J_i, dJ = J[:, : i + 1], X @ J[:, : i + 1]
-        dJ[:, : j + 1] = 0.0  # it carries the joints beyond it, not itself
-        mixed = dJ.T @ G[i] @ J_i
-        dM[: i + 1, : i + 1] += mixed + mixed.T - J_i.T @ (X.T @ G[i] + G[i] @ X) @ J_i
-    return dM
-
-
-@row.right  # Lagrange: Christoffel symbols, and no recursion at all.
-def _(J, G, qd, g):
-    dM = [rate_of_M(J, G, k) for k in range(7)]
-    rate = sum(dM[k] * qd[k] for k in range(7))
-    holding = inverse_dynamics(J, G, STILL, STILL, g)
-    return holding + rate @ qd - [0.5 * qd @ dM[i] @ qd for i in range(7)]

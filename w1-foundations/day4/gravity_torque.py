@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge.row import Row
-from robo47.dynamics import bias_torque, gravity_torque, spatial_inertia
+from robo47.dynamics import gravity_torque
 from robo47.screws import exp_screw, skew
 
 from .gravity import other_gravity
@@ -142,12 +142,6 @@ def mass_forgotten(J, masses, coms_world, g):
 
 
 row.of_argument("g", *other_gravity("the torque with that gravity"))
-
-
-@row.right  # The bias at rest, with point masses for the links.
-def _(J, masses, coms_world, g):
-    G = spatial_inertia(masses, coms_world, np.zeros((7, 3, 3)))
-    return bias_torque(J, G, np.zeros(7), g)
 
 
 @row.close("rounded-somewhere")  # The slope of the potential energy, by differences.

@@ -5,9 +5,12 @@ where they should be; their own M as coloured cells; and the arm in a real simul
 let go, floating on their own gravity torque, or pushed. A wrong sign falls.
 """
 
+from functools import partial
+
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.draw import joined
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from robo47 import dynamics, panda, simulate
@@ -41,7 +44,8 @@ class Forces(Tab):
         self.begun = self.shown = page.q
         self.own = page.own(dynamics)
         page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
-        page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, self.weigh, unit="")
+        set_share = partial(setattr, self, "share")
+        page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, set_share, unit="")
         self.clock = page.html()
         limits = simulate.limits(self.model)[1]
         title = "gravity_torque; marked is what holds the arm"
@@ -53,10 +57,6 @@ class Forces(Tab):
         self.loop = page.animate(self.show_arm, HZ, work=self.advance)
         page.light("ee", {"ee"})
         page.legend({"centre of mass of a link, its size what it weighs": "orange"})
-
-    def weigh(self, share: float) -> None:
-        """Hold the arm with that share of its weight."""
-        self.share = share
 
     def press(self, name: str) -> None:
         """Start a simulation where the last one began, or go back there."""
@@ -110,10 +110,9 @@ class Forces(Tab):
             ball.position = com
         pushing = self.loop.running and self.force.any() and self.data.time < PUSHED
         hand = now.T_world_ee[:3, 3]
-        ends = np.array([[hand - LENGTH * self.force, hand]])
         self.arrow.visible = bool(pushing)
         if pushing:
-            self.arrow.points = ends.astype(np.float32)
+            self.arrow.points = joined([hand - LENGTH * self.force, hand])
         self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
 
     def ask(self, q: Array) -> tuple[Array, Array, Array, Array]:
@@ -146,11 +145,9 @@ class Forces(Tab):
 
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:
-    """Return M as a table of coloured cells: blue above 0, red below, as HTML.
+    """Return M, kg m2, (7, 7), as coloured cells: blue above 0, red below, as HTML.
 
-    Args:
-        M: mass matrix, kg m2, (7, 7).
-        wrong: entries to mark, (7, 7) of bool.
+    Wrong entries, (7, 7) of bool, are marked.
     """
     rows = []
     for row, off in zip(np.round(M, 2) + 0.0, wrong if wrong is not None else 0 * M):
@@ -164,10 +161,10 @@ def heat_map(M: Array, wrong: Array | None = None) -> str:
                 f'padding:2px 4px;text-align:right{mark}">{value:.2f}</td>'
             )
         rows.append(f"<tr>{cells}</tr>")
-    table = "".join(rows)
-    style = "font:11px monospace;border-collapse:collapse"
-    title = "<b>M, kg m2</b>"
-    return f'<div class="r47">{title}<table style="{style}">{table}</table></div>'
+    table = (
+        f'<table style="font:11px monospace;border-collapse:collapse">{"".join(rows)}'
+    )
+    return f'<div class="r47"><b>M, kg m2</b>{table}</table></div>'
 
 
 TABS = [Forces]

@@ -12,8 +12,7 @@ from .gravity import other_gravity
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
-SO = "the torque so"
-wrong = partial(row.wrong, redone=SO)
+wrong = partial(row.wrong, redone="the torque so")
 row.inputs(motions)
 
 
@@ -53,19 +52,16 @@ def passes(
     return np.array([J[:, i] @ felt(np.array(F), i) for i in range(7)])
 
 
-@wrong(
-    "base-acceleration-sign",
-    "the base accelerates the wrong way: to stand still on the ground feels like a "
-    "lift that starts upwards, against g",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def base_acceleration_sign(J, G, qd, qdd, g):
+    """the base accelerates the wrong way: to stand still on the ground feels like a
+    lift that starts upwards, against g"""
     return inverse_dynamics(J, G, qd, qdd, -g)
 
 
-@wrong(
-    "gravity-forgotten", "gravity is missing: the acceleration starts at 0 at the base"
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_forgotten(J, G, qd, qdd, g):
+    """gravity is missing: the acceleration starts at 0 at the base"""
     return inverse_dynamics(J, G, qd, qdd, 0 * g)
 
 
@@ -181,56 +177,45 @@ for slug, says, other in (
         return passes(J, G, qd, qdd, lift(g), **other)
 
 
-@wrong(
-    "gravity-as-omega",
-    "the base's acceleration stands in the angular half; a twist is (omega; v)",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_as_omega(J, G, qd, qdd, g):
+    """the base's acceleration stands in the angular half; a twist is (omega; v)"""
     return passes(J, G, qd, qdd, np.append(-g, np.zeros(3)))
 
 
-@wrong(
-    "gravity-at-every-link",
-    "gravity is added again at every link; the sum carries it from the base to all",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_at_every_link(J, G, qd, qdd, g):
+    """gravity is added again at every link; the sum carries it from the base to all"""
     up = lift(g)
     return passes(J, G, qd, qdd, 0 * up, turned=lambda X, S, speed: X @ S * speed + up)
 
 
-@wrong(
-    "gravity-at-every-link",
-    "gravity is added at the base and again at every link; the sum carries it from "
-    "the base to all",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_at_every_link(J, G, qd, qdd, g):
+    """gravity is added at the base and again at every link; the sum carries it from the
+    base to all"""
     up = lift(g)
     return passes(J, G, qd, qdd, up, turned=lambda X, S, speed: X @ S * speed + up)
 
 
-@wrong(
-    "gravity-twice",
-    "gravity counts twice: it is in A from the base on, so the wrench needs no weight",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_twice(J, G, qd, qdd, g):
+    """gravity counts twice: it is in A from the base on, so the wrench needs no
+    weight"""
     return inverse_dynamics(J, G, qd, qdd, 2 * g)
 
 
-@wrong(
-    "speed-sign-lost",
-    "the speeds qd are taken without their signs: which way a joint turns counts "
-    "when another one turns as well",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def speed_sign_lost(J, G, qd, qdd, g):
+    """the speeds qd are taken without their signs: which way a joint turns counts when
+    another one turns as well"""
     return inverse_dynamics(J, G, abs(qd), qdd, g)
 
 
-@wrong(
-    "accelerations-not-added",
-    "A is set anew at every link, so what the joints before gave, and gravity, are "
-    "lost; it adds up, as V does",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def accelerations_not_added(J, G, qd, qdd, g):
+    """A is set anew at every link, so what the joints before gave, and gravity, are
+    lost; it adds up, as V does"""
     return passes(J, G, qd, qdd, 0.0, A_before=0.0)
 
 
@@ -259,47 +244,29 @@ def _(J, G, qd, qdd, g):
     return inverse_dynamics(J, G, 0 * qd, qdd, g)
 
 
-@wrong(
-    "gravity-only", "neither qd nor qdd is used: this is the torque that holds the arm"
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def gravity_only(J, G, qd, qdd, g):
+    """neither qd nor qdd is used: this is the torque that holds the arm"""
     return inverse_dynamics(J, G, 0 * qd, 0 * qdd, g)
 
 
-@wrong(
-    "armature-added",
-    "the armature's 0.1 qdd is in it; the task is about the links alone",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def armature_added(J, G, qd, qdd, g):
+    """the armature's 0.1 qdd is in it; the task is about the links alone"""
     return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd
 
 
-@wrong(
-    "damping-added", "the damping's 1.0 qd is in it; the task is about the links alone"
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def damping_added(J, G, qd, qdd, g):
+    """the damping's 1.0 qd is in it; the task is about the links alone"""
     return inverse_dynamics(J, G, qd, qdd, g) + qd
 
 
-@wrong(
-    "armature-and-damping-added",
-    "armature and damping are in it, 0.1 qdd and 1.0 qd; the task is about the links "
-    "alone",
-)
-def _(J, G, qd, qdd, g):
+@wrong()
+def armature_and_damping_added(J, G, qd, qdd, g):
+    """armature and damping are in it, 0.1 qdd and 1.0 qd; the task is about the links
+    alone"""
     return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd + qd
-
-
-@row.right  # Each link's force is the rate of G V; its weight acts on top.
-def _(J, G, qd, qdd, g):
-    V, A, F = np.zeros(6), np.zeros(6), []
-    for i in range(7):
-        V = V + J[:, i] * qd[i]
-        X = ad(V)
-        A = A + J[:, i] * qdd[i] + X @ J[:, i] * qd[i]
-        G_rate = -X.T @ G[i] - G[i] @ X
-        F.append(G[i] @ A + G_rate @ V + G[i] @ lift(g))
-    return np.array([J[:, i] @ sum(F[i:]) for i in range(7)])
 
 
 @row.close("rounded")  # Printed and typed in again: six decimals.

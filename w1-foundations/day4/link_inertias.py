@@ -102,6 +102,13 @@ for slug, says, redone, other in (
         "the answer with R I R",
         {"about": lambda R, I: R @ I @ R},
     ),
+    (
+        "R-transposed",
+        "R is transposed, for the centre and for the inertia: this turns both the "
+        "wrong way, from the world to the link",
+        "the answer with R^T for R",
+        {"com": lambda R, p, c: R.T @ c + p, "about": lambda R, I: R.T @ I @ R},
+    ),
 ):
 
     @row.wrong(slug, says, redone)
@@ -134,20 +141,6 @@ def adjoint_not_inverted(T_links, masses, coms, inertias):
 
 
 @row.wrong
-def R_transposed(T_links, masses, coms, inertias):
-    """R is transposed, for the centre and for the inertia: this turns both the wrong
-    way, from the world to the link => the answer with R^T for R"""
-    return carried(
-        T_links,
-        masses,
-        coms,
-        inertias,
-        lambda R, p, c: R.T @ c + p,
-        lambda R, I: R.T @ I @ R,
-    )
-
-
-@row.wrong
 def origin_for_com(T_links, masses, coms, inertias):
     """the mass sits at the link's origin; it sits at its centre of mass => the answer
     with p alone"""
@@ -161,20 +154,18 @@ def first_pose_for_all(T_links, masses, coms, inertias):
     return link_inertias(T_links[[0] * 7], masses, coms, inertias)
 
 
-@row.wrong
-def pose_of_the_link_before(T_links, masses, coms, inertias):
-    """every link is taken to be where the link before it is: T_links[0] is link1's, as
-    masses[0] is => the answer with the identity for link1, its pose for link2 and so
-    on"""
-    return link_inertias([np.eye(4), *T_links[:-1]], masses, coms, inertias)
-
-
-@row.wrong
-def pose_of_the_link_before(T_links, masses, coms, inertias):
-    """every link is taken to be where the link before it is: T_links[0] is link1's, as
-    masses[0] is => the answer with link7's pose for link1, its pose for link2 and so
-    on"""
-    return link_inertias([T_links[i - 1] for i in range(7)], masses, coms, inertias)
+FIRST = (lambda T: np.eye(4), "the identity"), (lambda T: T[-1], "link7's pose")
+for first, whose in FIRST:
+    row.wrong(
+        "pose-of-the-link-before",
+        "every link is taken to be where the link before it is: T_links[0] is link1's, "
+        "as masses[0] is",
+        f"the answer with {whose} for link1, its pose for link2 and so on",
+    )(
+        lambda T_links, *body, first=first: link_inertias(
+            [first(T_links), *T_links[:-1]], *body
+        )
+    )
 
 
 @row.wrong
@@ -200,9 +191,3 @@ def already_summed(T_links, masses, coms, inertias):
 
 
 row.reached_by("spatial_inertia", "in each link's matrix ")
-
-
-@row.right  # Carried by the adjoint of the inverse pose.
-def _(T_links, masses, coms, inertias):
-    X = adjoint(np.linalg.inv(T_links))
-    return np.swapaxes(X, 1, 2) @ spatial_inertia(masses, coms, inertias) @ X

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Symmetric, draw
 from labkit.judge.row import Row
-from robo47.dynamics import inverse_dynamics, mass_matrix
+from robo47.dynamics import mass_matrix
 
 from .states import hinge, states
 
@@ -89,14 +89,11 @@ for slug, says, moves in (
         lambda joint, link: link == 6,
     ),
 ):
+    for rotors in (1, 0):  # The armature is forgotten, too.
 
-    @row.wrong(slug, says, "M with those columns")
-    def _(J, G, armature, moves=moves):
-        return links(J, G, moves) + np.diag(armature)
-
-    @row.wrong(slug, says, "M with those columns")  # The armature is forgotten, too.
-    def _(J, G, armature, moves=moves):
-        return links(J, G, moves)
+        @row.wrong(slug, says, "M with those columns")
+        def _(J, G, armature, moves=moves, rotors=rotors):
+            return links(J, G, moves) + rotors * np.diag(armature)
 
 
 @row.wrong
@@ -135,18 +132,13 @@ def linear_half_only(J, G, armature):
     return mass_matrix(np.vstack([np.zeros((3, 7)), J[3:]]), G, armature)
 
 
-@row.wrong
-def not_mirrored(J, G, armature):
-    """only one half of M is filled; it is symmetric, so the other half is its mirror
-    image => the lower half of M"""
-    return np.tril(mass_matrix(J, G, armature))
-
-
-@row.wrong
-def not_mirrored(J, G, armature):
-    """only one half of M is filled; it is symmetric, so the other half is its mirror
-    image => the upper half of M"""
-    return np.triu(mass_matrix(J, G, armature))
+for half, which in ((np.tril, "lower"), (np.triu, "upper")):
+    row.wrong(
+        "not-mirrored",
+        "only one half of M is filled; it is symmetric, so the other half is its "
+        "mirror image",
+        f"the {which} half of M",
+    )(lambda J, G, armature, half=half: half(mass_matrix(J, G, armature)))
 
 
 @row.wrong
@@ -168,31 +160,24 @@ def not_summed_back(J, G, armature):
     return M
 
 
-@row.wrong
-def half(J, G, armature):
-    """the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2 => M
-    with half of the links"""
-    return mass_matrix(J, G / 2, armature)
-
-
-@row.wrong
-def half(J, G, armature):
-    """the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2 => half
-    of M"""
-    return mass_matrix(J, G, armature) / 2
+for code, what in (
+    (
+        lambda J, G, armature: mass_matrix(J, G / 2, armature),
+        "M with half of the links",
+    ),
+    (lambda J, G, armature: mass_matrix(J, G, armature) / 2, "half of M"),
+):
+    row.wrong(
+        "half",
+        "the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2",
+        what,
+    )(code)
 
 
 @row.wrong
 def inverse_returned(J, G, armature):
     """this is the inverse of M: small where the arm is heavy => the inverse of M"""
     return np.linalg.inv(mass_matrix(J, G, armature))
-
-
-@row.right  # Column i is the torque for qdd = e_i, without gravity and speed.
-def _(J, G, armature):
-    none, still = np.zeros(3), np.zeros(7)
-    columns = [inverse_dynamics(J, G, still, e, none) for e in np.eye(7)]
-    return np.array(columns).T + np.diag(armature)
 
 
 @row.right  # Lists and loops, no matrix product.

@@ -6,12 +6,18 @@ import numpy as np
 from labkit.judge import draw
 from labkit.judge.row import Row
 from robo47.dynamics import spatial_inertia
-from robo47.screws import adjoint, skew
+from robo47.screws import skew
 
 from .states import SIX, solids
 
 row = Row(SIX)
 ONE, NONE = np.eye(3), np.zeros((3, 3))
+
+
+def blocks(m, c, I, made):
+    """Return the matrix of blocks that are made of [c] and the right top left one."""
+    C = skew(c)
+    return np.block(made(C, I + m * C @ C.T))
 
 
 @row.inputs
@@ -111,16 +117,14 @@ def diagonal_of_I(m, c, I):
 def corners_alike(m, c, I):
     """both corners are the same; one has to be the transpose of the other, else the
     matrix is not symmetric => the matrix with m [c] twice"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C], [m * C, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C], [m * C, m * ONE]])
 
 
 @row.wrong
 def corners_alike(m, c, I):
     """both corners are the same; one has to be the transpose of the other, else the
     matrix is not symmetric => the matrix with m [c]^T twice"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C.T], [m * C.T, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C.T], [m * C.T, m * ONE]])
 
 
 @row.wrong
@@ -128,67 +132,52 @@ def corners_swapped(m, c, I):
     """the two corners have changed places. It is still symmetric and positive definite,
     but its angular momentum points the wrong way => the matrix with [c] and [c]^T
     swapped"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C.T], [m * C, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C.T], [m * C, m * ONE]])
 
 
 @row.wrong
 def corners_empty(m, c, I):
     """the two corners are empty: they tie the turning to the moving, and vanish only
     about the centre of mass => the matrix with 0 there"""
-    return np.block([[I + m * skew(c) @ skew(c).T, NONE], [NONE, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, NONE], [NONE, m * ONE]])
 
 
 @row.wrong
 def one_corner_empty(m, c, I):
     """the lower left corner is empty; the matrix is symmetric, so what stands in the
     upper right one says what belongs there => the matrix with 0 there"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C], [NONE, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C], [NONE, m * ONE]])
 
 
 @row.wrong
 def one_corner_empty(m, c, I):
     """the upper right corner is empty; the matrix is symmetric, so what stands in the
     lower left one says what belongs there => the matrix with 0 there"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, NONE], [m * C.T, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, NONE], [m * C.T, m * ONE]])
 
 
 @row.wrong
 def mass_forgotten_in_the_corners(m, c, I):
     """the two corners have [c] without the mass => the matrix without m there"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, C], [C.T, m * ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, C], [C.T, m * ONE]])
 
 
 @row.wrong
 def mass_forgotten_below(m, c, I):
     """the lower right block is the identity, without the mass => the matrix with 1 for
     m there"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C], [m * C.T, ONE]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C], [m * C.T, ONE]])
 
 
 @row.wrong
 def mass_everywhere(m, c, I):
     """the lower right block has the mass in all nine entries; it belongs on the
     diagonal => the matrix with m in all of them"""
-    C = skew(c)
-    return np.block([[I + m * C @ C.T, m * C], [m * C.T, m * np.ones((3, 3))]])
+    return blocks(m, c, I, lambda C, A: [[A, m * C], [m * C.T, m * np.ones((3, 3))]])
 
 
 @row.wrong
 def blocks_v_omega(m, c, I):
     """the blocks are in the order (v; omega); omega comes first, as in J => the right
     one with its halves swapped"""
-    C = skew(c)
-    return np.block([[m * ONE, m * C.T], [m * C, I + m * C @ C.T]])
-
-
-@row.right  # diag(I, m 1) at the centre of mass, carried to the origin by adjoints.
-def _(m, c, I):
-    T = np.eye(4)
-    T[:3, 3] = -c
-    X = adjoint(T)  # twists about the origin to twists about the centre of mass
-    return X.T @ np.block([[I, NONE], [NONE, m * ONE]]) @ X
+    return blocks(m, c, I, lambda C, A: [[m * ONE, m * C.T], [m * C, A]])

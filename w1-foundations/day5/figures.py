@@ -3,18 +3,8 @@
 error_curves   an error of 0.1 rad decays under five controllers; dashed: predicted
 """
 
+import day5_control as lab
 import numpy as np
-from day5_control import (
-    E0,
-    OMEGA,
-    READY_Q,
-    equal_springs,
-    error_response,
-    gains_outside,
-    run,
-    springs,
-    springs_and_gravity,
-)
 from matplotlib.figure import Figure
 
 from labkit.figures import chart
@@ -29,27 +19,27 @@ LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 
 def curves() -> dict[str, Array]:
     """Return the largest |e| / e0 of any joint at every instant, per controller."""
-    model, start, goal = loops.motors(), READY_Q - E0, references.hold(READY_Q)
-    arm = panda.arm(model)
+    ready, model = lab.READY_Q, loops.motors()
+    start, goal, arm = ready - lab.E0, references.hold(ready), panda.arm(model)
     servos = panda.load("panda_nohand")
     logs = {
         "servos": simulate.run(
             servos,
             simulate.start(servos, start),
-            lambda t, q, qd: READY_Q,
+            lambda t, q, qd: ready,
             SECONDS,
             rate=RATE,
         )
     }
     for name, law in {
-        "springs": springs,
-        "springs,\ngravity": springs_and_gravity,
-        "gains\noutside M": gains_outside,
-        "computed\ntorque": equal_springs(),
+        "springs": lab.springs,
+        "springs,\ngravity": lab.springs_and_gravity,
+        "gains\noutside M": lab.gains_outside,
+        "computed\ntorque": lab.equal_springs(),
     }.items():
-        logs[name] = run(model, arm, law, goal, SECONDS, start, RATE)
+        logs[name] = lab.run(model, arm, law, goal, SECONDS, start, RATE)
     return {
-        name: np.abs((READY_Q - log.q) / E0).max(axis=1) for name, log in logs.items()
+        name: np.abs((ready - log.q) / lab.E0).max(axis=1) for name, log in logs.items()
     }
 
 
@@ -61,7 +51,7 @@ def error_curves(figure: Figure) -> None:
         axes.plot(t, e, style, color=colour)
         axes.text(1.01 * SECONDS, e[-1], name, color=colour, va="center",
                   fontsize=chart.SMALL)  # fmt: skip
-    axes.plot(t, error_response(t, OMEGA, 1.0), "k--", lw=1.5)
+    axes.plot(t, lab.error_response(t, lab.OMEGA, 1.0), "k--", lw=1.5)
     axes.text(0.04, 2e-4, "predicted, dashed:\n" r"$(1 + \omega t)\ e^{-\omega t}$")
     axes.set(yscale="log", xlim=(0.0, SECONDS), ylim=(1e-7, 4.0))
     axes.set(xlabel="time, s", ylabel="largest |e| / e0 of the seven joints")

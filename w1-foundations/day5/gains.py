@@ -48,13 +48,6 @@ def omega_in_turns(omega, zeta):
     return np.array([omega**2, 2.0 * zeta * omega])
 
 
-@row.right  # From the two roots of the polynomial.
-def _(omega, zeta):
-    root = np.sqrt(complex(zeta**2 - 1))
-    a, b = omega * (-zeta + root), omega * (-zeta - root)
-    return np.array([(a * b).real, -(a + b).real])
-
-
 @row.right  # A plain list.
 def _(omega, zeta):
     return [omega * omega, 2 * omega * zeta]

@@ -61,7 +61,7 @@ def stiff(rng):
 def springs(rng):
     """Return errors and gains; the second errors are beyond half a turn."""
     ranges = (-0.3, 0.3), (-2, 2), (50, 600), (5, 50)
-    e, ed, kp, kd = (draw.numbers(rng, *ends, 10, 7) for ends in ranges)
+    e, ed, kp, kd = [draw.numbers(rng, *ends, 10, 7) for ends in ranges]
     e[0] += BEYOND
     return [
         (0.1 * ONE, 0.0 * ONE, np.full(7, 100.0), np.full(7, 20.0)),

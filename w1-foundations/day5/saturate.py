@@ -84,8 +84,3 @@ def _(tau, limits):
 @row.right  # The median of three.
 def _(tau, limits):
     return np.median([-limits, tau, limits], axis=0)
-
-
-@row.right  # By sign and size.
-def _(tau, limits):
-    return np.sign(tau) * np.minimum(np.abs(tau), limits)

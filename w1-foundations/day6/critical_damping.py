@@ -145,11 +145,3 @@ def _(K, Lambda):
         Y, Z = (Y + np.linalg.inv(Z)) / 2, (Z + np.linalg.inv(Y)) / 2
     k = np.diag(np.sqrt(K))
     return Y @ k + k @ Y
-
-
-@row.right  # The root by an SVD.
-def _(K, Lambda):
-    U, s, _ = np.linalg.svd(Lambda)
-    root = U @ np.diag(np.sqrt(s)) @ U.T
-    k = np.sqrt(K)
-    return root * k + root * k[:, None]

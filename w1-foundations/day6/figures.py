@@ -7,18 +7,9 @@ loop    the impedance loop as a block diagram
 cone    the friction cone of a tip on a table
 """
 
+import day6_task_space as lab
 import mujoco
 import numpy as np
-from day6_task_space import (
-    PRESS,
-    RATE,
-    READY_Q,
-    SINK,
-    K,
-    set_point_for_force,
-    soft_hand,
-    stiff_arm,
-)
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -36,26 +27,26 @@ MU = 0.6  # sliding friction of the drawn cone
 def moved(force: float, k: float) -> float:
     """Return how far the hand moves along x under a force along x, in metres."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, start = panda.arm(model), simulate.start(model, READY_Q)
-    stiffness = np.append(K[:3], np.full(3, k))
+    arm, start = panda.arm(model), simulate.start(model, lab.READY_Q)
+    stiffness = np.append(lab.K[:3], np.full(3, k))
     push = simulate.push_at(contact.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
-    law = soft_hand(arm, READY_Q, stiffness=stiffness)
-    run = simulate.run(model, start, law, 3.0, rate=RATE, push=push)
+    law = lab.soft_hand(arm, lab.READY_Q, stiffness=stiffness)
+    run = simulate.run(model, start, law, 3.0, rate=lab.RATE, push=push)
     ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]
     return ends[1] - ends[0]
 
 
 def presses() -> tuple[np.ndarray, ...]:
     """Return the force on the table over three seconds: soft, stiff, without limits."""
-    depth, start = set_point_for_force(PRESS, K[5], scenes.TOUCH), scenes.TOUCH + 0.01
+    start = scenes.TOUCH + 0.01
+    depth = lab.set_point_for_force(lab.PRESS, lab.K[5], scenes.TOUCH)
+    sink = lambda t: max(depth, start - lab.SINK * t)  # noqa: E731
     soft = contact.press(
-        lambda arm, q: soft_hand(arm, q, lambda t: max(depth, start - SINK * t)),
-        seconds=3.0,
-        rate=RATE,
+        lambda arm, q: lab.soft_hand(arm, q, sink), seconds=3.0, rate=lab.RATE
     )
     servos = {"drive": "servo", "seconds": 3.0}
-    stiff = contact.press(stiff_arm, **servos)
-    return soft, stiff, contact.press(stiff_arm, change=_no_limits, **servos)
+    stiff = contact.press(lab.stiff_arm, **servos)
+    return soft, stiff, contact.press(lab.stiff_arm, change=_no_limits, **servos)
 
 
 def _no_limits(model: mujoco.MjModel) -> None:
@@ -91,8 +82,8 @@ def press(figure: Figure) -> None:
         words = f"{name}: {felt[-1]:.0f} N, peak {felt.max():.0f} N"
         above = felt[round(0.75 / STEP)] + 14
         axes.text(0.75, above, words, color=colour, fontsize=chart.SMALL)
-    axes.axhline(PRESS, color=INK, ls=":", lw=1.5)
-    axes.text(3.0, PRESS - 32, "20 N: wanted and predicted", ha="right",
+    axes.axhline(lab.PRESS, color=INK, ls=":", lw=1.5)
+    axes.text(3.0, lab.PRESS - 32, "20 N: wanted and predicted", ha="right",
               fontsize=chart.SMALL)  # fmt: skip
     axes.set(xlabel="time, s", ylabel="force on the table, N")
     axes.set_title("Told to go 50 mm into a table", loc="left")

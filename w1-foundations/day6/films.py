@@ -1,15 +1,7 @@
 """The film of Day 6, recorded by the site: a soft arm and a stiff one, pressing."""
 
+import day6_task_space as lab
 import numpy as np
-from day6_task_space import (
-    PRESS,
-    RATE,
-    SINK,
-    K,
-    set_point_for_force,
-    soft_hand,
-    stiff_arm,
-)
 
 from labkit.inspector.recording import FRAMES, Recording
 from robo47 import contact, panda, scenes, simulate
@@ -19,14 +11,15 @@ SECONDS = 3.0
 
 def press() -> Recording:
     """Return both arms, one after the other, and what the table feels."""
-    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
-    height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
+    depth = lab.set_point_for_force(lab.PRESS, lab.K[5], scenes.TOUCH)
+    height = lambda t: max(depth, scenes.TOUCH + 0.01 - lab.SINK * t)  # noqa: E731
     film = Recording(scenes.press_table(meshes=True), back=1.1)
     arrow = film.draw.arrows([[np.zeros(3), np.full(3, 1e-3)]], "red", 0.012)
-    for drive, rate in (("torque", RATE), ("servo", simulate.RATE)):
+    for drive, rate in (("torque", lab.RATE), ("servo", simulate.RATE)):
         model = scenes.press_table(drive=drive)
         q, arm = contact.above_table(model, 0.01), panda.arm(model)
-        law = soft_hand(arm, q, height) if drive == "torque" else stiff_arm(arm, q)
+        soft = drive == "torque"
+        law = lab.soft_hand(arm, q, height) if soft else lab.stiff_arm(arm, q)
         data, felt = simulate.start(model, q), []
         log = simulate.run(
             model, data, law, SECONDS, rate=rate,

@@ -11,9 +11,10 @@ import mujoco
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.draw import joined
 from labkit.inspector.instruments import three
+from labkit.inspector.meshes import Robot
 from labkit.inspector.page import Page
-from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
@@ -53,8 +54,8 @@ class Touch(Tab):
         self.own = page.own(task_space)
         page.buttons([AGAIN, LET_GO, READY], self.press)
         page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
-        unit = "N m/rad"
-        page.slider("elbow held", 0, 40, self.hold, self.set_hold, unit=unit, step=1)
+        unit, hold = "N m/rad", partial(setattr, self, "hold")
+        page.slider("elbow held", 0, 40, self.hold, hold, unit=unit, step=1)
         page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
         self.numbers = page.html()
         self.bars = page.bars(["table"], MOST, "N", "how hard the tip presses", "scale")
@@ -71,30 +72,21 @@ class Touch(Tab):
         self.k = k
         self.show()
 
-    def set_hold(self, hold: float) -> None:
-        """Choose how firmly the elbow is held."""
-        self.hold = hold
-
     def set_elbow(self, force: float) -> None:
         """Push at link4, along y."""
         self.at_elbow = force
-        self.run()
+        self.loop.start()
 
     def drag(self, T: Array) -> None:
         """Pull at the hand, towards the handle."""
         self.force = PULL * (T[:3, 3] - self.arm.at(self.goal_q).T_world_ee[:3, 3])
-        self.run()
+        self.loop.start()
         self.show()
-
-    def run(self) -> None:
-        """Start, unless it runs already."""
-        if not self.loop.running:
-            self.loop.start()
 
     def press(self, name: str) -> None:
         """Start, stop, let go, or press on the table from just above it."""
         if name == AGAIN:
-            (self.loop.stop if self.loop.running else self.loop.start)()
+            self.loop.toggle()
             return
         self.force = np.zeros(3)
         if name == READY:
@@ -104,7 +96,7 @@ class Touch(Tab):
             self.data = simulate.start(self.robot, self.goal_q)
             self.force[2] = -PRESS
         self.target.place(self.arm.at(self.goal_q).T_world_ee)
-        self.run()
+        self.loop.start()
         self.show()
 
     def on_move(self, q: Array) -> None:
@@ -157,11 +149,9 @@ class Touch(Tab):
         self.drawn.show(self.data.qpos)
         mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
         self.mass.show(mass, hand, LONG)
-        pulled = bool(self.force.any())
-        self.arrow.visible = pulled
-        if pulled:
-            ends = [[hand, hand + self.force / PULL]]
-            self.arrow.points = np.array(ends, dtype=np.float32)
+        self.arrow.visible = bool(self.force.any())
+        if self.force.any():
+            self.arrow.points = joined([hand, hand + self.force / PULL])
         felt = scenes.contact_force(self.robot, self.data, "tip", "table_top")
         self.bars.show([felt])
         predicted, moved = 1000 * self.force / self.k, 1000 * (hand - goal)

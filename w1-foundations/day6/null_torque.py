@@ -96,12 +96,6 @@ def _(J, M, Lambda, tau):
     }
 
 
-@row.right  # With the dynamically consistent inverse: I - J^T Jbar^T.
-def _(J, M, Lambda, tau):
-    Jbar = np.linalg.inv(M) @ J.T @ Lambda
-    return (np.eye(7) - J.T @ Jbar.T) @ tau
-
-
 @row.right  # By the accelerations of a constrained arm.
 def _(J, M, Lambda, tau):
     free = np.linalg.solve(M, tau)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Symmetric
+from labkit.judge import HeldOut, Symmetric
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
@@ -24,7 +24,14 @@ DAMPED = (
     "Something is added to the diagonal of J M^-1 J^T before it is inverted. That "
     "keeps Lambda finite at a singularity and makes it too small everywhere else."
 )
-row = Row(Symmetric((6, 6)), unnamed=damped)
+NEARLY_SINGULAR = HeldOut(
+    "small-values-cut",
+    "Right, but not near a singularity: in the direction in which the hand hardly "
+    "moves it is heaviest, not weightless. Does a pseudo-inverse cut small values off?",
+    lambda rng: [(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 0.01]) @ J_CASE, 2.0 * M_CASE)],
+    mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
+)
+row = Row(Symmetric((6, 6)), unnamed=damped, held_out=[NEARLY_SINGULAR])
 
 
 @row.inputs
@@ -96,24 +103,12 @@ def _(J, M):
     return np.linalg.inv(A.T @ A)
 
 
-@row.right  # One unit acceleration after the other.
-def _(J, M):
-    A = J @ np.linalg.inv(M) @ J.T
-    columns = [np.linalg.solve(A, unit) for unit in np.eye(6)]
-    return np.array(columns).T
-
-
 @row.right  # By the singular values of J M^-1/2.
 def _(J, M):
     values, V = np.linalg.eigh(M)
     half = V / np.sqrt(values) @ V.T
     U, s, _ = np.linalg.svd(J @ half, full_matrices=False)
     return U / s**2 @ U.T
-
-
-@row.right  # A pseudo-inverse, which away from singularities is the inverse.
-def _(J, M):
-    return np.linalg.pinv(J @ np.linalg.pinv(M) @ J.T)
 
 
 @row.close("rounded-somewhere")  # float32 inside.

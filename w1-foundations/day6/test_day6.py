@@ -1,6 +1,7 @@
 """Day 6's lab: its functions, the numbers in the guide's sentences, the errata."""
 
 import re
+from unittest.mock import patch
 
 import mujoco
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script
+from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
 from robo47 import contact, jacobian, panda, scenes, screws, simulate, verify
 from robo47.verify import hand
@@ -17,7 +19,6 @@ GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
 SENTENCES = " ".join(GUIDE.split())
 ERRATA = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
 lab = load_script(ROOT / "w1-foundations/src/day6_task_space.py")
-osc_torque, impedance_torque = lab.osc_torque, lab.impedance_torque
 inv, pinv = np.linalg.inv, np.linalg.pinv
 
 
@@ -277,16 +278,12 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
         assert np.linalg.svd(J, compute_uv=False)[-1] < least
 
 
-def circled(motors, project=None, **instead):
+def circled(motors, **instead):
     """Return how far the hand is from the circle, mm and mrad, with other functions."""
     model, arm = motors
-    kept = {name: getattr(lab, name) for name in instead}
-    vars(lab).update(instead)
-    try:
-        law = lab.circling(arm, project or lab.null_torque)
+    with patch.dict(vars(lab), instead):
+        law = lab.circling(arm, lab.null_torque)
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, 2.5)
-    finally:
-        vars(lab).update(kept)
     T = arm.at(lab.READY_Q).T_world_ee
     off = np.array([
         jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
@@ -297,27 +294,22 @@ def circled(motors, project=None, **instead):
 
 MISTAKES = {
     "nothing wrong": {},
-    "`site_bias` forgotten": {
-        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, b, 0 * s, a)
-    },
-    "`site_bias` added": {
-        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, b, -s, a)
-    },
-    "`bias` forgotten": {
-        "osc_torque": lambda J, L, b, s, a: osc_torque(J, L, 0 * b, s, a)
-    },
-    "Lambda left out": {
-        "osc_torque": lambda J, L, b, s, a: osc_torque(J, np.eye(6), b, s, a)
-    },
-    "posture torque not projected": {"project": lambda J, M, L, t: t},
-    "projected as the public page has it": {
-        "project": lambda J, M, L, t: (M - J.T @ L @ J @ inv(M)) @ t
-    },
-    "projected with I - J^+ J": {"project": hand.kinematic},
-    "projector transposed": {
-        "project": lambda J, M, L, t: t - inv(M) @ J.T @ L @ J @ t
-    },
+    "`site_bias` forgotten": {"osc_torque": "site-bias-forgotten"},
+    "`site_bias` added": {"osc_torque": "site-bias-added"},
+    "`bias` forgotten": {"osc_torque": "bias-forgotten"},
+    "Lambda left out": {"osc_torque": "Lambda-left-out"},
+    "posture torque not projected": {"null_torque": "not-projected"},
+    "projected as the public page has it": {"null_torque": "M-for-identity"},
+    "projected with I - J^+ J": {"null_torque": "kinematic-projector"},
+    "projector transposed": {"null_torque": "projector-transposed"},
 }
+
+
+def mistaken(function, slug):
+    """Return a function with a mistake in it, as the catalogue has it."""
+    return next(way.code for way in row_of(DAY, function).named if way.slug == slug)
+
+
 ROWS = {
     row.split(" | ")[0].removeprefix("| "): row.rstrip(" |").split(" | ")[1:]
     for row in GUIDE.splitlines()
@@ -332,7 +324,8 @@ def test_the_guides_table_of_mistakes_has_these_rows():
 @pytest.mark.kit
 @pytest.mark.parametrize("name", MISTAKES)
 def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
-    mm, mrad = circled(motors, **MISTAKES[name])
+    instead = {law: mistaken(law, slug) for law, slug in MISTAKES[name].items()}
+    mm, mrad = circled(motors, **instead)
     for value, written in zip((mm, mrad), ROWS[name], strict=True):
         decimals = len(written.partition(".")[2])
         assert f"{value:.{decimals}f}" == written
@@ -340,7 +333,7 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, hand.kinematic)
+    mm, _ = circled(motors, null_torque=hand.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
     rng, felt = np.random.default_rng(6), []
@@ -356,7 +349,7 @@ def test_the_public_pages_null_space_term_reaches_the_hand(motors):
     now = motors[1].at(lab.READY_Q)
     J, M = now.J_site, now.M
     Lambda, tau = lab.task_inertia(J, M), np.arange(7.0)
-    public = MISTAKES["projected as the public page has it"]["project"]
+    public = mistaken("null_torque", "M-for-identity")
     ours = J @ np.linalg.solve(M, lab.null_torque(J, M, Lambda, tau))
     theirs = J @ np.linalg.solve(M, public(J, M, Lambda, tau))
     assert_same(ours, np.zeros(6), 1e-12)
@@ -386,10 +379,8 @@ def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm):
 
 @pytest.mark.kit
 def test_without_bias_the_soft_hand_sinks(motors, monkeypatch):
-    monkeypatch.setattr(
-        lab, "impedance_torque",
-        lambda J, F, b, *rest: impedance_torque(J, F, 0 * b, *rest),
-    )  # fmt: skip
+    law = "impedance_torque"
+    monkeypatch.setattr(lab, law, mistaken(law, "bias-forgotten"))
     moved, _ = at_rest(motors)
     assert_same(1000 * moved[[3, 5]], [-167, -133], 0.6)
     assert "sinks by 133 mm in three seconds, and 167 mm towards" in GUIDE

@@ -12,9 +12,10 @@ import mujoco
 import numpy as np
 
 from labkit.inspector import words
+from labkit.inspector.draw import joined
+from labkit.inspector.meshes import Robot
 from labkit.inspector.own import week
 from labkit.inspector.page import Page
-from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
@@ -42,10 +43,11 @@ class Plan(Tab):
         self.arm, self.T = panda.arm(page.model), 1.0
         self.q = self.qd = np.zeros((COUNT, 7))
         self.own = page.own(trajectory)
-        page.choice("time scaling", [QUINTIC, TRAPEZOID], self.choose)
-        page.slider("of the limits", 0.1, 1.5, 1.0, self.set_hurry, unit="")
+        page.choice("time scaling", [QUINTIC, TRAPEZOID], self.sets("kind"))
+        # The share of the limits that is used up; over 1 breaks them.
+        page.slider("of the limits", 0.1, 1.5, 1.0, self.sets("hurry"), unit="")
         self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
-        page.buttons([PLAY], self.press)
+        page.buttons([PLAY], lambda _: self.loop.toggle())
         self.numbers = page.html()
         limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
         self.bars = page.bars(JOINTS, limits, "rad/s", title)
@@ -57,24 +59,10 @@ class Plan(Tab):
         page.light("ee", {"ee"})
         page.legend({"goes along your trajectory": "blue", "its hand's way": "purple"})
 
-    def choose(self, kind: str) -> None:
-        """Take another time scaling."""
-        self.kind = kind
-        self.on_move(self.page.q)
-
-    def set_hurry(self, hurry: float) -> None:
-        """Choose the share of the limits that is used up; over 1 breaks them."""
-        self.hurry = hurry
-        self.on_move(self.page.q)
-
     def go(self, share: float) -> None:
         """Show the arm when a share of the time is over."""
         self.share = share
         self.show()
-
-    def press(self, name: str) -> None:
-        """Play the move, or stop it."""
-        (self.loop.stop if self.loop.running else self.loop.start)()
 
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
@@ -114,7 +102,7 @@ class Plan(Tab):
         """Show the whole way."""
         self.T, self.q, self.qd = found
         p = np.array([self.arm.at(q).T_world_ee[:3, 3] for q in self.q])
-        self.way.points = np.stack([p[:-1], p[1:]], axis=1).astype(np.float32)
+        self.way.points = joined(p)
         parts = np.abs(self.qd) / simulate.SPEED_LIMITS
         times = np.linspace(0.0, self.T, COUNT)
         self.plot.show(times, [*parts.T, np.ones(COUNT)])
@@ -128,16 +116,11 @@ class Plan(Tab):
         self.plot.clear()
         self.numbers.content = ""
 
-    def at(self, share: float) -> tuple[Array, Array]:
-        """Return q and qd, (7,) each, when a share of the time is over."""
-        i = round(share * (COUNT - 1))
-        return self.q[i], self.qd[i]
-
     def show(self) -> None:
         """Show the blue arm and its speeds at the chosen moment."""
-        q, qd = self.at(self.share)
-        self.ghost.pose(self.page.links(q))
-        self.bars.show(qd)
+        i = round(self.share * (COUNT - 1))
+        self.ghost.pose(self.page.links(self.q[i]))
+        self.bars.show(self.qd[i])
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
         says = f"{t}; at most {most:.0%} of a speed limit"
@@ -165,7 +148,7 @@ class Pick(Tab):
         super().__init__(page)
         self.own, self.whose, self.begun = page.own(trajectory), TODAY, 0.0
         self.done: Result | None = None
-        page.choice("your functions", [TODAY, ALL], self.choose)
+        page.choice("your functions", [TODAY, ALL], partial(setattr, self, "whose"))
         page.buttons([PICK, STOP], self.press)
         self.clock = page.html()
         limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
@@ -179,10 +162,6 @@ class Pick(Tab):
         page.draw.curve(ring, "blue", 4.0)
         page.legend({"the cube": "orange", "where it is to stand": "blue"})
         self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
-
-    def choose(self, whose: str) -> None:
-        """Take today's functions from the student, or those of all days."""
-        self.whose = whose
 
     def press(self, name: str) -> None:
         """Have the cube picked, or stop."""

@@ -139,12 +139,6 @@ def _(T0, T1, s):
     return se3.make_T(se3.quat_to_R(q), (1 - s) * T0[:3, 3] + s * T1[:3, 3])
 
 
-@row.right  # The turn in world axes, on the left.
-def _(T0, T1, s):
-    R0, R1 = T0[:3, :3], T1[:3, :3]
-    return line(T0, T1, s, lambda: exp(s * log_rotation(R1 @ R0.T)) @ R0)
-
-
 @row.close("float32")  # Single precision at the end.
 def _(T0, T1, s):
     return straight_pose(T0, T1, s).astype(np.float32)

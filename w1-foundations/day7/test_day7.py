@@ -269,13 +269,12 @@ def test_the_tab_plans_the_labs_move_with_ones_own_functions(monkeypatch):
     tab.go(0.5)
     assert "0.50 of 0.995 s; at most 100% of a speed limit" in tab.numbers.content
     assert tab.own.says()[1] == "good"
-    tab.choose(inspector.TRAPEZOID)
+    tab.sets("kind")(inspector.TRAPEZOID)
     assert "of 0.803 s" in tab.numbers.content
-    tab.set_hurry(1.5)
+    tab.sets("hurry")(1.5)
     assert "150% of a speed limit" in tab.numbers.content
-    q, qd = tab.at(1.0)
-    assert_same(q, lab.GOAL_Q, 1e-12)
-    assert_same(qd, np.zeros(7), 1e-12)
+    assert_same(tab.q[-1], lab.GOAL_Q, 1e-12)
+    assert_same(tab.qd[-1], np.zeros(7), 1e-12)
     assert tab.play(10.0) is False
 
 

@@ -1,5 +1,7 @@
 """8.3 `arm_regressor(J_space, T_links, qd, qdd, g)`: its questions and its mistakes."""
 
+import itertools
+
 import numpy as np
 
 from labkit.judge import Matrix
@@ -20,8 +22,7 @@ row = Row(Matrix((7, 70), rows=ROWS, scale=10.0))
 def _(rng):
     drawn = moving(rng)
     J, T, qd, qdd, g = drawn[0]
-    hinge, still = np.zeros((6, 7)), np.zeros(7)
-    hinge[1, 0] = 1.0
+    hinge, still = np.outer(np.eye(6)[1], np.eye(7)[0]), np.zeros(7)
     case = (hinge, np.array([np.eye(4)] * 7), still, np.eye(7)[0], g)
     alone = [(still, still, g), (still, qdd, 0 * g), (qd, still, 0 * g)]
     tipped = (J, T, qd, qdd, np.array([3.0, -5.0, 7.0]))
@@ -29,24 +30,21 @@ def _(rng):
 
 
 def walk(
-    J, T, qd, qdd, g,
-    base=lambda g: np.append(np.zeros(3), -g),
-    own=lambda S, acc: S * acc,
-    turned=lambda V, S, speed: ad(V) @ S * speed,
+    J, T, qd, qdd, g, falls=1.0, own=1.0, turned=1.0,
     into=lambda T: adjoint(inverse(T)),
     back=lambda X: X.T,
     felt=lambda i: slice(0, i + 1),
 ):  # fmt: skip
     """Return Y by the walk out along the arm, with other parts.
 
-    `base` is the acceleration that it starts with, `own` and `turned` are what a joint
-    adds to it; `into` makes X of a link's pose and `back` what the wrench comes back
-    with; `felt` says which joints feel link i.
+    `falls`, `own` and `turned` are factors of the base's and a joint's acceleration;
+    `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
+    which joints feel link i.
     """
-    V, A, Y = np.zeros(6), base(g), np.zeros((7, 70))
+    V, A, Y = np.zeros(6), falls * np.append(np.zeros(3), -g), np.zeros((7, 70))
     for i, S in enumerate(J.T):
         V = V + S * qd[i]
-        A = A + own(S, qdd[i]) + turned(V, S, qd[i])
+        A = A + own * S * qdd[i] + turned * ad(V) @ S * qd[i]
         X, at = into(T[i]), felt(i)
         costs = back(X) @ link_regressor(X @ V, X @ A)
         Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
@@ -55,21 +53,18 @@ def walk(
 
 for slug, says, other in (
     ("base-acceleration-sign", "the base accelerates with +g: to stand on the ground "
-     "feels like a lift that starts upwards, -g",
-     {"base": lambda g: np.append(np.zeros(3), g)}),
+     "feels like a lift that starts upwards, -g", {"falls": -1.0}),
     ("gravity-forgotten", "gravity is missing: A starts at 0 at the base",
-     {"base": lambda g: np.zeros(6)}),
+     {"falls": 0.0}),
     ("acceleration-forgotten", "S qdd is missing: the joints' own acceleration costs "
-     "nothing", {"own": lambda S, acc: 0 * S}),
+     "nothing", {"own": 0.0}),
     ("bracket-forgotten", "A lacks ad(V) S qd: a joint that is carried round changes "
-     "its direction", {"turned": lambda V, S, speed: 0 * S}),
-    ("bracket-sign", "A has ad(S) V qd, which is minus ad(V) S qd",
-     {"turned": lambda V, S, speed: ad(S) @ V * speed}),
+     "its direction", {"turned": 0.0}),
+    ("bracket-sign", "A has ad(S) V qd, which is minus ad(V) S qd", {"turned": -1.0}),
     ("pose-not-inverted", "V and A are turned with Ad(T); from the world into the link "
      "it takes Ad(T^-1)", {"into": adjoint}),
     ("offset-left-out", "V and A are turned, but not shifted: the link's p is not in X",
-     {"into": lambda T: adjoint(inverse(np.block(
-         [[T[:3, :3], np.zeros((3, 1))], [np.eye(4)[3:]]])))}),
+     {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
     ("in-world-axes", "nothing is turned into the links; phi of a link is in its own "
      "axes, about its own origin", {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-X", "the wrench comes back with X; power is the same from both "
@@ -90,10 +85,7 @@ for slug, says, other in (
     ("own-link-only", "each joint feels its own link only; it carries those after it, "
      "too", {"felt": lambda i: slice(i, i + 1)}),
 ):  # fmt: skip
-
-    @row.wrong(slug, says, "the Y so")
-    def _(J_space, T_links, qd, qdd, g, other=other):
-        return walk(J_space, T_links, qd, qdd, g, **other)
+    row.wrong(slug, says, "the Y so")(lambda *args, other=other: walk(*args, **other))
 
 
 @row.wrong
@@ -104,26 +96,22 @@ def grouped_by_number(J_space, T_links, qd, qdd, g):
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 
 
-row.of_argument(
-    "g",
-    Change(
-        "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
-        lambda g: DOWN,
-        "the Y with that gravity",
-        "the lab's robot stands upright",
-    ),
+TYPED_IN = Change(
+    "gravity-typed-in",
+    "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
+    lambda g: DOWN,
+    "the Y with that gravity",
+    "the lab's robot stands upright",
 )
+row.of_argument("g", TYPED_IN)
 row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])
 
 
 @row.right  # Seventy robots with one number each, through Day 4's inverse dynamics.
 def _(J_space, T_links, qd, qdd, g):
-    units, Y = inertia_of(np.eye(10)), []
-    for i in range(7):
-        X = adjoint(inverse(T_links[i]))
-        for unit in units:
-            G = np.zeros((7, 6, 6))
-            G[i] = X.T @ unit @ X
-            Y.append(dynamics.inverse_dynamics(J_space, G, qd, qdd, g))
+    Y = []
+    for i, unit in itertools.product(range(7), inertia_of(np.eye(10))):
+        G, X = np.zeros((7, 6, 6)), adjoint(inverse(T_links[i]))
+        G[i] = X.T @ unit @ X
+        Y.append(dynamics.inverse_dynamics(J_space, G, qd, qdd, g))
     return np.array(Y).T

@@ -3,16 +3,8 @@
 shown   what two motions show, value by value; how far a predicted torque is off
 """
 
+import day8_identification as lab
 import numpy as np
-from day8_identification import (
-    NOISE,
-    RTOL,
-    SEED,
-    SLOW,
-    identifiable,
-    predict_with_sigma,
-    regressor,
-)
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -28,11 +20,11 @@ SAMPLES = 100
 def shown(figure: Figure) -> None:
     """Draw singular values of two motions, and a predicted torque with its band."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, robot = panda.arm(model), secret.changed(model, SEED)
+    arm, robot = panda.arm(model), secret.changed(model, lab.SEED)
     above, below = figure.subplots(2, 1)
-    motion = secret.excitation(robot, SEED, SAMPLES)
-    Y = regressor(arm, motion)
-    _values(above, regressor(arm, secret.swing(SAMPLES)), "Day 5's swing", "s", RED)
+    motion = secret.excitation(robot, lab.SEED, SAMPLES)
+    Y = lab.regressor(arm, motion)
+    _values(above, lab.regressor(arm, secret.swing(SAMPLES)), "Day 5's swing", "s", RED)
     _values(above, Y, "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
@@ -42,10 +34,11 @@ def shown(figure: Figure) -> None:
 def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> None:
     """Draw the singular values of a motion, and say how many count."""
     Y = Y.reshape(-1, Y.shape[-1])
-    s, (rank, condition) = np.linalg.svd(Y, compute_uv=False), identifiable(Y, RTOL)
+    s = np.linalg.svd(Y, compute_uv=False)
+    rank, condition = lab.identifiable(Y, lab.RTOL)
     words = f"{name}: {rank}, condition {condition:.0e}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
-    axes.axhline(RTOL, color=INK, linestyle="--", linewidth=1.5)
+    axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
     axes.set(ylim=(1e-18, 30), title="What a motion shows", xlabel="singular value")
     axes.set_ylabel("share of the largest")
     axes.legend(loc=(0.03, 0.25))
@@ -53,11 +46,11 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
 
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: secret.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
-    noise = NOISE * np.random.default_rng(SEED).normal(size=motion.q.shape)
-    tau, fast = secret.torques(robot, motion) + noise, np.abs(motion.qd) > SLOW
-    new = secret.excitation(robot, SEED + 1, SAMPLES)
-    rows, t = regressor(arm, new)[:, JOINT], np.arange(SAMPLES) * 10.0 / SAMPLES
-    torque, sigma = predict_with_sigma(Y[fast], tau[fast], rows, RTOL)
+    noise = lab.NOISE * np.random.default_rng(lab.SEED).normal(size=motion.q.shape)
+    tau, fast = secret.torques(robot, motion) + noise, np.abs(motion.qd) > lab.SLOW
+    new = secret.excitation(robot, lab.SEED + 1, SAMPLES)
+    rows, t = lab.regressor(arm, new)[:, JOINT], np.arange(SAMPLES) * 10.0 / SAMPLES
+    torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
     true, band = secret.torques(robot, new)[:, JOINT], 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")

@@ -58,11 +58,6 @@ def _(Y, tau, rtol):
     }
 
 
-@row.right  # NumPy's lstsq, told where to cut.
-def _(Y, tau, rtol):
-    return np.linalg.lstsq(Y, tau, rcond=rtol)[0]
-
-
 @row.right  # The pseudo-inverse of Y^T Y, cut at the square.
 def _(Y, tau, rtol):
     return np.linalg.pinv(Y.T @ Y, rcond=max(rtol, 1e-7) ** 2) @ (Y.T @ tau)

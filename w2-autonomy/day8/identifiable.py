@@ -28,11 +28,6 @@ def _(rng):
     return [(CASE, 1e-9), *even, *((Y, CUT) for Y in regressors(rng))]
 
 
-def values(Y):
-    """Return the singular values."""
-    return np.linalg.svd(Y, compute_uv=False)
-
-
 for slug, says, redone, told in (
     ("rtol-absolute", "a value is compared with rtol itself; it counts above rtol "
      "times the largest, or newtons and millinewtons would have another rank",
@@ -55,7 +50,9 @@ for slug, says, redone, told in (
      "smallest over largest",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(lambda Y, rtol, told=told: told(values(Y), rtol))
+    row.wrong(slug, says, redone)(
+        lambda Y, rtol, told=told: told(np.linalg.svd(Y, compute_uv=False), rtol)
+    )
 
 
 @row.right  # By the eigenvalues of Y^T Y, the cut squared too.
@@ -63,9 +60,3 @@ def _(Y, rtol):
     s2 = np.linalg.eigvalsh(Y.T @ Y)[::-1]
     kept = s2[s2 > max(rtol, 1e-7) ** 2 * s2[0]]
     return len(kept), np.sqrt(kept[0] / kept[-1])
-
-
-@row.right  # NumPy's own rank, and norms.
-def _(Y, rtol):
-    rank = np.linalg.matrix_rank(Y, tol=rtol * np.linalg.norm(Y, 2))
-    return rank, np.linalg.norm(Y, 2) / values(Y)[rank - 1]

@@ -21,32 +21,30 @@ def _(rng):
     return [(REST, UP), (SPIN, REST), *((V, A) for V, A in drawn)]
 
 
-for slug, says, redone, carried in (
-    ("ad-not-transposed", "the velocity product has -ad(V); a wrench is carried the "
-     "other way from a twist, by the transpose", "G A - ad(V) G V",
-     lambda X, G, V, A: -X @ G @ V),
-    ("ad-not-transposed-plus", "the velocity product has +ad(V) for -ad(V)^T",
-     "G A + ad(V) G V", lambda X, G, V, A: X @ G @ V),
-    ("velocity-product-sign", "ad(V)^T G V is added; it is taken off",
-     "G A + ad(V)^T G V", lambda X, G, V, A: X.T @ G @ V),
-    ("velocity-product-forgotten", "G A alone: that the momentum is carried along by V "
-     "is missing", "G A", lambda X, G, V, A: 0 * V),
-    ("acceleration-in-the-velocity-product", "the velocity product has G A; what is "
-     "carried along is the momentum, G V", "G A - ad(V)^T G A",
-     lambda X, G, V, A: -X.T @ G @ A),
-):  # fmt: skip
-
-    @row.wrong(slug, says, redone)
-    def _(V, A, carried=carried):
-        G = inertia_of(np.eye(10))
-        return np.array([one @ A + carried(ad(V), one, V, A) for one in G]).T
-
-
-@row.wrong
-def force_first(V, A):
-    """the rows are (force; moment); the moment's three come first => the right one with
-    its rows swapped"""
-    return link_regressor(V, A)[SWAP]
+@row.wrongs
+def _(V, A):
+    """ad-not-transposed: the velocity product has -ad(V); a wrench is carried the other
+      way from a twist, by the transpose => G A - ad(V) G V
+    ad-not-transposed-plus: the velocity product has +ad(V) for -ad(V)^T => G A + ad(V)
+      G V
+    velocity-product-sign: ad(V)^T G V is added; it is taken off => G A + ad(V)^T G V
+    velocity-product-forgotten: G A alone: that the momentum is carried along by V is
+      missing => G A
+    acceleration-in-the-velocity-product: the velocity product has G A; what is carried
+      along is the momentum, G V => G A - ad(V)^T G A
+    force-first: the rows are (force; moment); the moment's three come first => the
+      right one with its rows swapped
+    """
+    X, G = ad(V), inertia_of(np.eye(10))
+    forces, momenta = (G @ A).T, (G @ V).T
+    return {
+        "ad-not-transposed": forces - X @ momenta,
+        "ad-not-transposed-plus": forces + X @ momenta,
+        "velocity-product-sign": forces + X.T @ momenta,
+        "velocity-product-forgotten": forces,
+        "acceleration-in-the-velocity-product": forces - X.T @ forces,
+        "force-first": link_regressor(V, A)[SWAP],
+    }
 
 
 @row.right  # One product of tensors.

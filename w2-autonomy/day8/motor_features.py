@@ -13,8 +13,7 @@ FIRST = np.eye(7)[0]
 def _(rng):
     # The middle of a range is asked, too, and 0 is where a sign jumps.
     qd, qdd = draw.numbers(rng, -2, 3, 6, 7), draw.numbers(rng, -9, 9, 6, 7)
-    qd[0, 2], qd[1, 5] = 0.0, 0.01  # a joint at rest; one that hardly moves
-    qd[2, 3] = 1e-4
+    qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
 
@@ -50,12 +49,3 @@ def by_joint(qd, qdd):
     the right one with its columns by joint"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
-
-
-@row.right  # Joint by joint, without sign().
-def _(qd, qdd):
-    Y = np.zeros((7, 21))
-    for i in range(7):
-        Y[i, i], Y[i, 7 + i] = qdd[i], qd[i]
-        Y[i, 14 + i] = float(qd[i] > 0) - float(qd[i] < 0)
-    return Y

@@ -70,24 +70,20 @@ def _(J_site, R_site, extra, g):
     }
 
 
-row.of_argument(
-    "g",
-    Change(
-        "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument g",
-        lambda g: DOWN,
-        "what is found with that gravity",
-    ),
+TYPED_IN = Change(
+    "gravity-typed-in",
+    "9.81 downwards is typed in; gravity is the argument g",
+    lambda g: DOWN,
+    "what is found with that gravity",
 )
+row.of_argument("g", TYPED_IN)
 
 
 @row.right  # A hold at a time, with cross products; then the normal equations.
 def _(J_site, R_site, extra, g):
     A, b = np.zeros((4, 4)), np.zeros(4)
     for J, R, tau in zip(J_site, R_site, extra, strict=True):
-        moments = [np.cross(axis, g) for axis in R.T]
-        W = np.vstack([np.column_stack([np.zeros(3), *moments]), np.zeros((3, 4))])
-        W[3:, 0] = g
-        rows = -J.T @ W
+        moments, none = np.cross(R.T, g).T, np.zeros((3, 1))
+        rows = -J.T @ np.block([[none, moments], [g[:, None], 0 * R]])
         A, b = A + rows.T @ rows, b + rows.T @ tau
     return np.linalg.pinv(A, rcond=1e-12) @ b

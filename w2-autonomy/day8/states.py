@@ -45,12 +45,9 @@ def regressors(rng, n=6, rows=20):
 
 def hands(rng, n=6, k=5):
     """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
-    return [
-        (
-            draw.numbers(rng, -1, 1, k, 6, 7),
-            se3.quat_to_R(rng.normal(size=(k, 4))),
-            draw.numbers(rng, -20, 20, k, 7),
-            draw.numbers(rng, -10, 10, 3) if i % 2 else DOWN,
-        )
-        for i in range(n)
-    ]
+    found = []
+    for i in range(n):
+        J, R = draw.numbers(rng, -1, 1, k, 6, 7), se3.quat_to_R(rng.normal(size=(k, 4)))
+        extra = draw.numbers(rng, -20, 20, k, 7)
+        found.append((J, R, extra, draw.numbers(rng, -10, 10, 3) if i % 2 else DOWN))
+    return found

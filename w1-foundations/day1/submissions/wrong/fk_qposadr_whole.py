@@ -1,43 +1,22 @@
 # task 1.6: qposadr-is-an-array
 # qposadr without [0].
+import mujoco
 import numpy as np
 
 
-def quat_to_R(quat):
-    w, x, y, z = quat / np.linalg.norm(quat)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def make_T(R, t):
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, t
+def moved(pos, quat):
+    T, R = np.eye(4), np.zeros(9)
+    mujoco.mju_quat2Mat(R, quat)
+    T[:3, :3], T[:3, 3] = R.reshape(3, 3), pos
     return T
 
 
-def link_T(pos, quat):
-    return make_T(quat_to_R(quat), pos)
-
-
-def joint_T(q):
-    c, s = np.cos(q), np.sin(q)
-    return make_T(np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), np.zeros(3))
-
-
-PATH = [("link0", None)] + [(f"link{i}", f"joint{i}") for i in range(1, 8)]
-PATH += [("attachment", None)]
-
-
-def compose_fk(model, q, path=PATH):
+def compose_fk(model, q):
     T = np.eye(4)
-    for name, joint in path:
-        body = model.body(name)
-        T = T @ link_T(body.pos, body.quat)
-        if joint:
-            T = T @ joint_T(q[model.joint(joint).qposadr])
-    return T
+    for i in range(1, 8):
+        body, joint = model.body(f"link{i}"), model.joint(f"joint{i}")
+        half = q[joint.qposadr] / 2
+        turn = moved(np.zeros(3), np.array([np.cos(half), 0, 0, np.sin(half)]))
+        T = T @ moved(body.pos, body.quat) @ turn
+    flange = model.body("attachment")
+    return T @ moved(flange.pos, flange.quat)
