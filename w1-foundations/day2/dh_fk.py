@@ -38,18 +38,36 @@ def product(Ts):
     return T
 
 
-@row.wrong
-def flange_missing(table, q):
-    """the eighth row is missing: your pose is that of link7, not the flange's => the
-    product of seven rows"""
-    return product(links(table, q))
-
-
-@row.wrong
-def flange_turned(table, q):
-    """the eighth row is turned by the last joint's angle again; the flange does not
-    turn => the product with q[6] twice"""
-    return product(links(table, [*q, q[-1]]))
+@row.wrongs
+def _(table, q):
+    """flange-missing: the eighth row is missing: your pose is that of link7, not the
+      flange's => the product of seven rows
+    flange-turned: the eighth row is turned by the last joint's angle again; the flange
+      does not turn => the product with q[6] twice
+    theta-one-row-late: theta is one row late: the first row is joint1's, and gets q[0]
+      => the product with 0 first
+    theta-one-row-early: theta is one row early: the first row is joint1's, and gets
+      q[0] => the product with q[1] first
+    product-reversed: the links stand in the reverse order: the one nearest to the base
+      belongs on the left => the product in reverse
+    multiplied-by-entries: the links are multiplied entry by entry, not as matrices =>
+      the product by entries
+    last-link-only: only the last row counts: what the others do is overwritten => the
+      eighth link alone
+    joints-left-out: no joint turns: whatever q is, your pose is the one at q = 0 => the
+      pose at q = 0
+    """
+    right = links(table, [*q, 0.0])
+    return {
+        "flange-missing": product(right[:-1]),
+        "flange-turned": product(links(table, [*q, q[-1]])),
+        "theta-one-row-late": product(links(table, [0.0, *q])),
+        "theta-one-row-early": product(links(table, [*q[1:], 0.0, q[0]])),
+        "product-reversed": product(right[::-1]),
+        "multiplied-by-entries": np.prod(right, axis=0),
+        "last-link-only": right[-1],
+        "joints-left-out": product(links(table, np.zeros(8))),
+    }
 
 
 @row.wrong(hidden="the lab has one table")
@@ -59,50 +77,6 @@ def flange_typed_in(table, q):
     return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
 
 
-@row.wrong
-def theta_one_row_late(table, q):
-    """theta is one row late: the first row is joint1's, and gets q[0] => the product
-    with 0 first"""
-    return product(links(table, [0.0, *q]))
-
-
-@row.wrong
-def theta_one_row_early(table, q):
-    """theta is one row early: the first row is joint1's, and gets q[0] => the product
-    with q[1] first"""
-    return product(links(table, [*q[1:], 0.0, q[0]]))
-
-
-@row.wrong
-def product_reversed(table, q):
-    """the links stand in the reverse order: the one nearest to the base belongs on the
-    left => the product in reverse"""
-    return product(links(table, [*q, 0.0])[::-1])
-
-
-@row.wrong
-def multiplied_by_entries(table, q):
-    """the links are multiplied entry by entry, not as matrices => the product by
-    entries"""
-    return np.prod(links(table, [*q, 0.0]), axis=0)
-
-
-@row.wrong
-def last_link_only(table, q):
-    """only the last row counts: what the others do is overwritten => the eighth link
-    alone"""
-    return dh_link(*table[-1], 0.0)
-
-
-row.of_argument(
-    "q",
-    Change(
-        "joints-left-out",
-        "no joint turns: whatever q is, your pose is the one at q = 0",
-        np.zeros_like,
-        "the pose at q = 0",
-    ),
-)
 row.of_argument(
     "table",
     Change(
