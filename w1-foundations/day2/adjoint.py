@@ -1,5 +1,7 @@
 """2.7 `adjoint(T)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Matrix, draw
@@ -65,9 +67,9 @@ def _(T):
         "R-turned-back": [[R.T, O], [P @ R.T, R.T]],
     }
     return {
-        **{slug: np.block(some) for slug, some in blocks.items()},
-        "of-the-inverse": adjoint(se3.inverse(T)),
-        "transposed": adjoint(T).T,
+        **{slug: partial(np.block, some) for slug, some in blocks.items()},
+        "of-the-inverse": lambda: adjoint(se3.inverse(T)),
+        "transposed": lambda: adjoint(T).T,
     }
 
 

@@ -40,7 +40,7 @@ def _(screws, M):
         "adjoint-of-M": screws @ adjoint(M).T,
         "from-the-right": screws @ adjoint(se3.inverse(M)),
         "unchanged": screws.copy(),
-        "last-joint-first": body_screws(screws, M)[::-1],
+        "last-joint-first": lambda: body_screws(screws, M)[::-1],
         "transposed-for-inverse": screws @ adjoint(M),
         "no-lever-arm": np.hstack([screws[:, :3] @ R, screws[:, 3:] @ R]),
         "t-only-negated": screws @ adjoint(se3.make_T(R.T, -t)).T,

@@ -1,5 +1,7 @@
 """2.9 `dh_fk(table, q)`: its questions and its mistakes."""
 
+from functools import reduce
+
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -32,10 +34,7 @@ def links(table, theta):
 
 def product(Ts):
     """Return the poses multiplied from left to right."""
-    T = np.eye(4)
-    for step in Ts:
-        T = T @ step
-    return T
+    return reduce(np.matmul, Ts, np.eye(4))
 
 
 @row.wrongs
@@ -57,16 +56,16 @@ def _(table, q):
     joints-left-out: no joint turns: whatever q is, your pose is the one at q = 0 => the
       pose at q = 0
     """
-    right = links(table, [*q, 0.0])
+    theta = [*q, 0.0]
     return {
-        "flange-missing": product(right[:-1]),
-        "flange-turned": product(links(table, [*q, q[-1]])),
-        "theta-one-row-late": product(links(table, [0.0, *q])),
-        "theta-one-row-early": product(links(table, [*q[1:], 0.0, q[0]])),
-        "product-reversed": product(right[::-1]),
-        "multiplied-by-entries": np.prod(right, axis=0),
-        "last-link-only": right[-1],
-        "joints-left-out": product(links(table, np.zeros(8))),
+        "flange-missing": lambda: product(links(table, q)),
+        "flange-turned": lambda: product(links(table, [*q, q[-1]])),
+        "theta-one-row-late": lambda: product(links(table, [0.0, *q])),
+        "theta-one-row-early": lambda: product(links(table, [*q[1:], 0.0, q[0]])),
+        "product-reversed": lambda: product(links(table, theta)[::-1]),
+        "multiplied-by-entries": lambda: np.prod(links(table, theta), axis=0),
+        "last-link-only": lambda: dh_link(*table[-1], 0.0),
+        "joints-left-out": lambda: product(links(table, np.zeros(8))),
     }
 
 

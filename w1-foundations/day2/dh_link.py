@@ -1,5 +1,7 @@
 """2.9 `dh_link(alpha, a, d, theta)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, draw
@@ -56,7 +58,9 @@ def _(alpha, a, d, theta):
         "d-along-the-old-z": "ZxXz",
         "order-of-moves": "ZxzX",
     }
-    return {slug: in_order(o, alpha, a, d, theta) for slug, o in orders.items()}
+    return {
+        slug: partial(in_order, o, alpha, a, d, theta) for slug, o in orders.items()
+    }
 
 
 for order in ("zxXZ", "XzxZ", "XzZx"):
@@ -99,7 +103,7 @@ def _(alpha, a, d, theta):
         "alpha-forgotten": (0.0, a, d, theta),
         "theta-forgotten": (alpha, a, d, 0.0),
     }
-    return {slug: dh_link(*four) for slug, four in instead.items()}
+    return {slug: partial(dh_link, *four) for slug, four in instead.items()}
 
 
 row.wrong(

@@ -111,17 +111,20 @@ def _(axis, theta):
     """
     K, dyad = skew(axis), np.outer(axis, axis)
     c, s = np.cos(theta), np.sin(theta)
+    angles = {
+        "radians-taken-for-degrees": np.deg2rad(theta),
+        "degrees-into-cos": np.rad2deg(theta),
+        "half-angle": theta / 2,
+        "double-angle": 2 * theta,
+        "sign-of-theta-lost": np.abs(theta),
+    }
     return {
         "squared-by-entries": I + s * K + (1 - c) * K**2,
         "exp-by-entries": np.exp(K * theta),
         "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
         "dyad-without-factor": c * I + s * K + dyad,
-        "always-about-z": se3.Rz(theta),
-        "radians-taken-for-degrees": rodrigues(axis, np.deg2rad(theta)),
-        "degrees-into-cos": rodrigues(axis, np.rad2deg(theta)),
-        "half-angle": rodrigues(axis, theta / 2),
-        "double-angle": rodrigues(axis, 2 * theta),
-        "sign-of-theta-lost": rodrigues(axis, np.abs(theta)),
+        "always-about-z": lambda: se3.Rz(theta),
+        **{slug: partial(rodrigues, axis, x) for slug, x in angles.items()},
     }
 
 

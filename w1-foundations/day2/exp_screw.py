@@ -80,13 +80,14 @@ def _(S, theta):
     degrees-into-cos: the angle comes in radians, and is used as degrees => the motion
       by 180 / pi times the angle
     """
-    return {
-        "twist-order": motion(np.roll(S, 3), theta),
-        "hinge-at-the-origin-forgotten": motion(S, theta) if S[3:].any() else np.eye(4),
-        "turns-backwards": motion(S, -theta),
-        "radians-taken-for-degrees": motion(S, np.deg2rad(theta)),
-        "degrees-into-cos": motion(S, np.rad2deg(theta)),
+    motions = {
+        "twist-order": (np.roll(S, 3), theta),
+        "hinge-at-the-origin-forgotten": (S, theta if S[3:].any() else 0.0),
+        "turns-backwards": (S, -theta),
+        "radians-taken-for-degrees": (S, np.deg2rad(theta)),
+        "degrees-into-cos": (S, np.rad2deg(theta)),
     }
+    return {slug: partial(motion, *one) for slug, one in motions.items()}
 
 
 @row.wrongs

@@ -25,6 +25,6 @@ def _(body_screws, M, q):
       together
     """
     return {
-        "M-last": space(body_screws, M, q),
-        "motions-on-the-left": space(body_screws[::-1], M, q[::-1]),
+        "M-last": lambda: space(body_screws, M, q),
+        "motions-on-the-left": lambda: space(body_screws[::-1], M, q[::-1]),
     }

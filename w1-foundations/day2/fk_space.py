@@ -23,12 +23,13 @@ def _(screws, M, q):
     space-screws-in-body-form: the screws are taken to the hand's frame, but the product
       is still that of the world's => that product
     """
-    T = space(screws, np.eye(4), q)
-    seen_by_the_hand = screws @ adjoint(se3.inverse(M)).T
+    added = np.zeros((4, 4))
+    added[:3, 3] = M[:3, 3]
+    by_the_hand = screws @ adjoint(se3.inverse(M)).T
     return {
-        "M-first": body(screws, M, q),
-        "M-only-added": se3.make_T(T[:3, :3], T[:3, 3] + M[:3, 3]),
-        "space-screws-in-body-form": space(seen_by_the_hand, M, q),
+        "M-first": lambda: body(screws, M, q),
+        "M-only-added": lambda: space(screws, np.eye(4), q) + added,
+        "space-screws-in-body-form": lambda: space(by_the_hand, M, q),
     }
 
 

@@ -1,5 +1,6 @@
 """2.5 `joint_screws(T_zero)`: its questions and its mistakes."""
 
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from labkit.judge import draw
 from labkit.judge.row import Row
 from robo47 import se3
-from robo47.screws import joint_screws, screw_axis
+from robo47.screws import screw_axis
 
 from .arms import SCREWS, the_panda
 from .halves import which_half
@@ -51,20 +52,21 @@ def _(T_zero):
     R, p = T_zero[:, :3, :3], T_zero[:, :3, 3]
     x, y, z = np.moveaxis(R, -1, 0)
     local = se3.inverse(np.array([np.eye(4), *T_zero[:-1]])) @ T_zero
-    right = joint_screws(T_zero)
-    return {
-        "axis-row-not-column": screw_axis(R[:, 2], p),
-        "axis-local-z": screw_axis([0.0, 0.0, 1.0], p),
-        "axis-x-column": screw_axis(x, p),
-        "axis-y-column": screw_axis(y, p),
-        "point-is-local-pos": screw_axis(z, local[:, :3, 3]),
-        "all-local": joint_screws(local),
-        "poses-multiplied": joint_screws(list(accumulate(T_zero, np.matmul))),
-        "point-turned-back": screw_axis(z, np.einsum("nij,ni->nj", R, p)),
-        "next-links-point": screw_axis(z, np.roll(p, -1, axis=0)),
-        "first-link-for-all": np.tile(right[0], (7, 1)),
-        "last-joint-first": right[::-1],
+    carried = np.array(list(accumulate(T_zero, np.matmul)))
+    lines = {
+        "axis-row-not-column": (R[:, 2], p),
+        "axis-local-z": ([0.0, 0.0, 1.0], p),
+        "axis-x-column": (x, p),
+        "axis-y-column": (y, p),
+        "point-is-local-pos": (z, local[:, :3, 3]),
+        "all-local": (local[:, :3, 2], local[:, :3, 3]),
+        "poses-multiplied": (carried[:, :3, 2], carried[:, :3, 3]),
+        "point-turned-back": (z, np.einsum("nij,ni->nj", R, p)),
+        "next-links-point": (z, np.roll(p, -1, axis=0)),
+        "first-link-for-all": (np.tile(z[0], (7, 1)), p[0]),
+        "last-joint-first": (z[::-1], p[::-1]),
     }
+    return {slug: partial(screw_axis, *line) for slug, line in lines.items()}
 
 
 for before in (

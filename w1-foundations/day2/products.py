@@ -81,8 +81,8 @@ def _in_the_product(row, form):
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
         return {
-            "product-reversed": form(screws[::-1], M, q[::-1]),
-            "M-twice": M @ space(screws, M, q),
+            "product-reversed": lambda: form(screws[::-1], M, q[::-1]),
+            "M-twice": lambda: M @ space(screws, M, q),
             "M-in-the-loop": reduce(np.matmul, beside_M),
             "multiplied-by-entries": with_M(form, np.prod(factors, axis=0), M),
         }
