@@ -67,10 +67,8 @@ row.inputs(on(PANDA))
 
 # The chain is right, but ends somewhere else.
 
-for slug, says, end, redone in ends.FRAMES:
-    row.wrong(slug, says, redone)(
-        lambda model, q, path=PATH, end=end: fk(model, q, path) @ end
-    )
+row.wrongs(ends.elsewhere)
+row.wrong(ends.fingertip_for_the_end)
 
 
 def stops_early(row, k, end):

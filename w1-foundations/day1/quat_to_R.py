@@ -83,8 +83,6 @@ def _(quat):
 
 for formula in UNNORMALISED:
     row.wrong("not-normalised", *NOT_NORMALISED)(formula)
-
-for formula in UNNORMALISED:
     row.wrong("xyzw-and-not-normalised", *XYZW_AND_NOT_NORMALISED)(
         lambda quat, formula=formula: formula(np.roll(quat, 1))
     )

@@ -10,6 +10,7 @@ from robo47.screws import skew
 row = Row(Matrix((3, 3)))
 
 FLIPPED = {"x": [-1, 1, 1], "y": [1, -1, 1], "z": [1, 1, -1]}
+SIGNS = (1, "", "the two swapped"), (-1, ", and all signs are reversed", "both")
 SWAPPED = {"x and z": [2, 1, 0], "x and y": [1, 0, 2], "y and z": [0, 2, 1]}
 
 
@@ -59,19 +60,11 @@ row.of_argument(
     *(
         Change(
             "letters-swapped",
-            f"{letters} have changed places",
-            lambda w, order=order: w[order],
-            "the right one with the two swapped",
+            f"{letters} have changed places{more}",
+            lambda w, order=order, sign=sign: sign * w[order],
+            f"the right one with {redone}",
         )
-        for letters, order in SWAPPED.items()
-    ),
-    *(
-        Change(
-            "letters-swapped",
-            f"{letters} have changed places, and all signs are reversed",
-            lambda w, order=order: -w[order],
-            "the right one with both",
-        )
+        for sign, more, redone in SIGNS
         for letters, order in SWAPPED.items()
     ),
 )
