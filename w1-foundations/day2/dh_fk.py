@@ -5,9 +5,8 @@ from functools import reduce
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import Row
-from robo47.screws import dh_link
+from robo47.screws import dh_fk, dh_link
 
 from . import places
 from .arms import FAR, FRANKA
@@ -76,44 +75,32 @@ def flange_typed_in(table, q):
     return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
 
 
-row.of_argument(
-    "table",
-    Change(
-        "table-not-used",
-        "with Franka's table it is right, with another one it is wrong: the argument "
-        "table is not used",
-        lambda table: FRANKA,
-        "the product of Franka's own rows",
-        hidden="the lab has one table",
-    ),
-    *(
-        Change(
-            "alpha-of-the-neighbour",
-            "each row's alpha is its neighbour's: tables for the other convention have "
-            "alpha one row earlier, this one does not",
-            lambda table, by=by: np.column_stack(
-                [np.roll(table[:, 0], by), table[:, 1:]]
-            ),
-            "the product with that column shifted",
-        )
-        for by in (1, -1)
-    ),
-    *(
-        Change(
-            "columns-mixed-up",
-            f"the columns are read as ({names}); they are (alpha, a, d)",
-            lambda table, order=order: table[:, order],
-            "the product with the columns read so",
-        )
-        for names, order in (
-            ("a, alpha, d", [1, 0, 2]),
-            ("d, a, alpha", [2, 1, 0]),
-            ("alpha, d, a", [0, 2, 1]),
-            ("a, d, alpha", [2, 0, 1]),
-            ("d, alpha, a", [1, 2, 0]),
-        )
-    ),
-)
+@row.wrong(hidden="the lab has one table")
+def table_not_used(table, q):
+    """with Franka's table it is right, with another one it is wrong: the argument table
+    is not used => the product of Franka's own rows"""
+    return dh_fk(FRANKA, q)
+
+
+for by in (1, -1):
+    row.wrong(
+        "alpha-of-the-neighbour",
+        "each row's alpha is its neighbour's: tables for the other convention have "
+        "alpha one row earlier, this one does not",
+        "the product with that column shifted",
+    )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
+for names, order in (
+    ("a, alpha, d", [1, 0, 2]),
+    ("d, a, alpha", [2, 1, 0]),
+    ("alpha, d, a", [0, 2, 1]),
+    ("a, d, alpha", [2, 0, 1]),
+    ("d, alpha, a", [1, 2, 0]),
+):
+    row.wrong(
+        "columns-mixed-up",
+        f"the columns are read as ({names}); they are (alpha, a, d)",
+        "the product with the columns read so",
+    )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["a-and-d-swapped", "theta-forgotten"])
 
 

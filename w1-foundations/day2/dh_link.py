@@ -64,14 +64,11 @@ def _(alpha, a, d, theta):
 
 
 for order in ("zxXZ", "XzxZ", "XzZx"):
-
-    @row.wrong(
+    row.wrong(
         "order-of-moves",
         "the turn about z stands before the turn about x; the link's twist comes first",
         "the product in that order",
-    )
-    def _(alpha, a, d, theta, order=order):
-        return in_order(order, alpha, a, d, theta)
+    )(partial(in_order, order))
 
 
 @row.wrongs

@@ -3,7 +3,6 @@
 import numpy as np
 
 from labkit.judge import Matrix, draw
-from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import Row
 from robo47.screws import skew
 
@@ -46,30 +45,19 @@ def _(w):
     }
 
 
-row.of_argument(
-    "w",
-    *(
-        Change(
-            "pair-of-signs",
-            f"the two entries with {letter} have each other's sign",
-            lambda w, signs=signs: w * signs,
-            f"the right one with {letter} negated",
-        )
-        for letter, signs in FLIPPED.items()
-    ),
-    *(
-        Change(
+for letter, signs in FLIPPED.items():
+    row.wrong(
+        "pair-of-signs",
+        f"the two entries with {letter} have each other's sign",
+        f"the right one with {letter} negated",
+    )(lambda w, signs=signs: skew(w * signs))
+for sign, more, redone in SIGNS:
+    for letters, order in SWAPPED.items():
+        row.wrong(
             "letters-swapped",
             f"{letters} have changed places{more}",
-            lambda w, order=order, sign=sign: sign * w[order],
             f"the right one with {redone}",
-        )
-        for sign, more, redone in SIGNS
-        for letters, order in SWAPPED.items()
-    ),
-)
-
-
+        )(lambda w, order=order, sign=sign: skew(sign * w[order]))
 for half, filled, empty in (
     (np.triu, "upper right", "lower left"),
     (np.tril, "lower left", "upper right"),
