@@ -19,24 +19,40 @@ def angles(rng):
     return [(x,) for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *map(float, drawn))]
 
 
-@row.wrong
-def turns_backwards(theta):
-    """it turns the wrong way: a positive angle takes x towards -y => Rz(-theta)"""
-    return se3.Rz(-theta)
-
-
-@row.wrong
-def radians_taken_for_degrees(theta):
-    """the angle is in radians already, and is converted from degrees once more => the
-    turn by pi / 180 times the angle"""
-    return se3.Rz(np.deg2rad(theta))
-
-
-@row.wrong
-def degrees_into_cos(theta):
-    """cos and sin are given degrees; they expect radians, as the angle comes => the
-    turn by 180 / pi times the angle"""
-    return se3.Rz(np.rad2deg(theta))
+@row.wrongs
+def _(theta):
+    """turns-backwards: it turns the wrong way: a positive angle takes x towards -y =>
+      Rz(-theta)
+    radians-taken-for-degrees: the angle is in radians already, and is converted from
+      degrees once more => the turn by pi / 180 times the angle
+    degrees-into-cos: cos and sin are given degrees; they expect radians, as the angle
+      comes => the turn by 180 / pi times the angle
+    half-angle: it turns by half of the angle => the turn by half of it
+    double-angle: it turns by twice the angle => the turn by twice as much
+    sin-and-cos-swapped: sin and cos have changed places: at 0 it already turns => the
+      right one with the two swapped
+    minus-missing: one of the two sines needs a minus: as it is, lengths change (R R^T
+      is not I) => the right one without that minus
+    minus-twice: only one of the two sines has a minus: as it is, lengths change => the
+      right one with both negated
+    reflection: a cosine has a minus that belongs to a sine: this mirrors (det R = -1)
+      => the right one with that sign
+    z-lost: whatever is along z disappears: the last entry is 0, so det R = 0 => the
+      right one with a 0 there
+    """
+    c, s = np.cos(theta), np.sin(theta)
+    return {
+        "turns-backwards": se3.Rz(-theta),
+        "radians-taken-for-degrees": se3.Rz(np.deg2rad(theta)),
+        "degrees-into-cos": se3.Rz(np.rad2deg(theta)),
+        "half-angle": se3.Rz(theta / 2),
+        "double-angle": se3.Rz(2 * theta),
+        "sin-and-cos-swapped": np.array([[s, -c, 0], [c, s, 0], [0, 0, 1]]),
+        "minus-missing": np.array([[c, s, 0], [s, c, 0], [0, 0, 1]]),
+        "minus-twice": np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]]),
+        "reflection": np.array([[c, s, 0], [s, -c, 0], [0, 0, 1]]),
+        "z-lost": np.array([[c, -s, 0], [s, c, 0], [0, 0, 0]]),
+    }
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
@@ -46,58 +62,6 @@ for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
     row.wrong(f"turns-about-{axis}", says, f"that turn about {axis}")(
         lambda theta, about=about: about(-theta)
     )
-
-
-@row.wrong
-def sin_and_cos_swapped(theta):
-    """sin and cos have changed places: at 0 it already turns => the right one with the
-    two swapped"""
-    c, s = np.sin(theta), np.cos(theta)
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-
-
-@row.wrong
-def minus_missing(theta):
-    """one of the two sines needs a minus: as it is, lengths change (R R^T is not I) =>
-    the right one without that minus"""
-    c, s = np.cos(theta), np.sin(theta)
-    return np.array([[c, s, 0], [s, c, 0], [0, 0, 1]])
-
-
-@row.wrong
-def minus_twice(theta):
-    """only one of the two sines has a minus: as it is, lengths change => the right one
-    with both negated"""
-    c, s = np.cos(theta), np.sin(theta)
-    return np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]])
-
-
-@row.wrong
-def reflection(theta):
-    """a cosine has a minus that belongs to a sine: this mirrors (det R = -1) => the
-    right one with that sign"""
-    c, s = np.cos(theta), np.sin(theta)
-    return np.array([[c, s, 0], [s, -c, 0], [0, 0, 1]])
-
-
-@row.wrong
-def z_lost(theta):
-    """whatever is along z disappears: the last entry is 0, so det R = 0 => the right
-    one with a 0 there"""
-    c, s = np.cos(theta), np.sin(theta)
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 0]])
-
-
-@row.wrong
-def half_angle(theta):
-    """it turns by half of the angle => the turn by half of it"""
-    return se3.Rz(theta / 2)
-
-
-@row.wrong
-def double_angle(theta):
-    """it turns by twice the angle => the turn by twice as much"""
-    return se3.Rz(2 * theta)
 
 
 for decimals in range(4):

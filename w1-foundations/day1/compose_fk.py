@@ -3,6 +3,7 @@
 A mistake in one link or one joint alone is not listed here: `places` finds which one.
 """
 
+from functools import partial
 from itertools import combinations
 
 import mujoco
@@ -66,10 +67,8 @@ row.inputs(on(PANDA))
 
 # The chain is right, but ends somewhere else.
 
-for slug, says, end, redone in ends.FRAMES:
-    row.wrong(slug, says, redone)(
-        lambda model, q, path=PATH, end=end: fk(model, q, path) @ end
-    )
+row.wrongs(ends.elsewhere)
+row.wrong(ends.fingertip_for_the_end)
 
 
 def stops_early(row, k, end):
@@ -91,17 +90,26 @@ for k in range(1, 8):
 # The joints' angles.
 
 
-@row.wrong
-def joints_left_out(model, q, path=PATH):
-    """the links are right, but no joint turns: whatever q is, your pose is the one at q
-    = 0 => the pose at q = 0"""
-    return fk(model, np.zeros(7), path)
-
-
-@row.wrong
-def home_whatever_q(model, q, path=PATH):
-    """whatever q is, your pose is the one at home => the pose at home"""
-    return fk(model, READY_Q, path)
+@row.wrongs
+def _(model, q, path=PATH):
+    """joints-left-out: the links are right, but no joint turns: whatever q is, your
+      pose is the one at q = 0 => the pose at q = 0
+    home-whatever-q: whatever q is, your pose is the one at home => the pose at home
+    first-angle-for-all: every joint is given the first angle, q[0]: the index never
+      moves on => the pose with q[0] everywhere
+    ready-subtracted: the ready pose's angles are subtracted; each joint turns by q
+      itself => the pose at q minus those angles
+    joints-in-reverse: q is read backwards: joint1 gets the last angle => the pose with
+      q backwards
+    """
+    angles = {
+        "joints-left-out": np.zeros(7),
+        "home-whatever-q": READY_Q,
+        "first-angle-for-all": np.full(7, q[0]),
+        "ready-subtracted": q - READY_Q,
+        "joints-in-reverse": q[::-1],
+    }
+    return {slug: partial(fk, model, x, path) for slug, x in angles.items()}
 
 
 SHIFTS = (
@@ -118,20 +126,6 @@ for shifted in SHIFTS:
     )(lambda model, q, path=PATH, shifted=shifted: fk(model, shifted(q), path))
 
 
-@row.wrong
-def first_angle_for_all(model, q, path=PATH):
-    """every joint is given the first angle, q[0]: the index never moves on => the pose
-    with q[0] everywhere"""
-    return fk(model, np.full(7, q[0]), path)
-
-
-@row.wrong
-def ready_subtracted(model, q, path=PATH):
-    """the ready pose's angles are subtracted; each joint turns by q itself => the pose
-    at q minus those angles"""
-    return fk(model, q - READY_Q, path)
-
-
 def two_swapped(row, i, k, to=PATH, hidden=""):
     """Take that two joints, counted from 0, are given each other's angle."""
     order = np.arange(7)
@@ -146,14 +140,11 @@ for i, k in combinations(range(7), 2):
     two_swapped(row, i, k)
 
 
-@row.wrong
-def joints_in_reverse(model, q, path=PATH):
-    """q is read backwards: joint1 gets the last angle => the pose with q backwards"""
-    return fk(model, q[::-1], path)
-
-
-for code in products.WRONG:
-    row.wrong(code)
+row.wrongs(products.in_order)
+row.wrong(products.chain_reversed)
+row.wrongs(products.on_each_other)
+row.wrong(products.offset_turned_too_late)
+row.wrong(products.turns_in_reverse)
 
 # The factors themselves, and the finished pose.
 

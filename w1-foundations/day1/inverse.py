@@ -45,86 +45,43 @@ def _(rng):
     return [(move,), *((T,) for T in draw.poses(rng, 5))]
 
 
-@row.wrong
-def unchanged(T):
-    """T comes back as it went in: nothing is undone"""
-    return T.copy()
-
-
-@row.wrong
-def T_transposed(T):
-    """the whole 4x4 is transposed. Only R is undone that way; the translation is now in
-    the bottom row => T transposed"""
-    return T.T.copy()
-
-
-@row.wrong
-def t_only_negated(T):
-    """R is right, but t is only negated: the way back has to be told in the turned
-    frame's own axes => the right one with t only negated"""
+@row.wrongs
+def _(T):
+    """unchanged: T comes back as it went in: nothing is undone
+    T-transposed: the whole 4x4 is transposed. Only R is undone that way; the
+      translation is now in the bottom row => T transposed
+    t-only-negated: R is right, but t is only negated: the way back has to be told in
+      the turned frame's own axes => the right one with t only negated
+    t-not-negated: R is right and t is in the right axes, but it points there, not back
+      => the right one with t reversed
+    t-kept: R is right, but t is still the old one => the right one with t kept
+    t-turned-forwards: R is right, but t is turned by R itself, not by what undoes R =>
+      the right one with t turned by R
+    R-kept: the translation is right, but R is still the old one: the turn is not undone
+      => the right one with R kept
+    R-kept-t-negated: only t is negated: that undoes a plain move, but here the turn
+      stays => the right one with t only negated
+    R-kept-t-turned-forwards: R is not undone, neither as the new rotation nor where it
+      turns t
+    all-signs: every entry is negated; that undoes an addition, not a transform => its
+      negative
+    minus-R: R and t are only negated: -R is a mirror image (det R = -1), and it undoes
+      nothing => the right one made of -R and -t
+    """
     R, t = split(T)
-    return pose(R.T, -t)
-
-
-@row.wrong
-def t_not_negated(T):
-    """R is right and t is in the right axes, but it points there, not back => the right
-    one with t reversed"""
-    R, t = split(T)
-    return pose(R.T, R.T @ t)
-
-
-@row.wrong
-def t_kept(T):
-    """R is right, but t is still the old one => the right one with t kept"""
-    R, t = split(T)
-    return pose(R.T, t)
-
-
-@row.wrong
-def t_turned_forwards(T):
-    """R is right, but t is turned by R itself, not by what undoes R => the right one
-    with t turned by R"""
-    R, t = split(T)
-    return pose(R.T, -R @ t)
-
-
-@row.wrong
-def R_kept(T):
-    """the translation is right, but R is still the old one: the turn is not undone =>
-    the right one with R kept"""
-    R, t = split(T)
-    return pose(R, -R.T @ t)
-
-
-@row.wrong
-def R_kept_t_negated(T):
-    """only t is negated: that undoes a plain move, but here the turn stays => the right
-    one with t only negated"""
-    R, t = split(T)
-    return pose(R, -t)
-
-
-@row.wrong
-def R_kept_t_turned_forwards(T):
-    """R is not undone, neither as the new rotation nor where it turns t"""
-    R, t = split(T)
-    return pose(R, -R @ t)
-
-
-@row.wrong
-def all_signs(T):
-    """every entry is negated; that undoes an addition, not a transform => its
-    negative"""
-    return -T
-
-
-@row.wrong
-def minus_R(T):
-    """R and t are only negated: -R is a mirror image (det R = -1), and it undoes
-    nothing => the right one made of -R and -t"""
-    R, t = split(T)
-    return pose(-R, -t)
+    return {
+        "unchanged": T.copy(),
+        "T-transposed": T.T.copy(),
+        "t-only-negated": pose(R.T, -t),
+        "t-not-negated": pose(R.T, R.T @ t),
+        "t-kept": pose(R.T, t),
+        "t-turned-forwards": pose(R.T, -R @ t),
+        "R-kept": pose(R, -R.T @ t),
+        "R-kept-t-negated": pose(R, -t),
+        "R-kept-t-turned-forwards": pose(R, -R @ t),
+        "all-signs": -T,
+        "minus-R": pose(-R, -t),
+    }
 
 
 @row.wrong

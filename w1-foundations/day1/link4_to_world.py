@@ -37,7 +37,7 @@ for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5
 
 row.reached_by(
     "compose_fk",
-    but={*ends.SLUGS, "stops-early", "two-joints-swapped"},
+    but={*ends.ENDS, "stops-early", "two-joints-swapped"},
     called={"the end effector": "link4", "attachment": "link4"},
     hidden={"home-whatever-q": AT_READY},
 )

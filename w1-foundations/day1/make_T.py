@@ -19,18 +19,14 @@ def _(rng):
     yield from zip(draw.rotations(rng, 5), moves, strict=True)
 
 
-@row.wrong
-def move_then_turn(R, t):
-    """the translation comes out turned by R: you move first and turn after, where a
-    pose turns first"""
-    return pose(R, R @ t)
-
-
-@row.wrong
-def t_turned_back(R, t):
-    """the translation comes out turned by R backwards: t is already in the outer
-    frame"""
-    return pose(R, R.T @ t)
+@row.wrongs
+def _(R, t):
+    """move-then-turn: the translation comes out turned by R: you move first and turn
+      after, where a pose turns first
+    t-turned-back: the translation comes out turned by R backwards: t is already in the
+      outer frame
+    """
+    return {"move-then-turn": pose(R, R @ t), "t-turned-back": pose(R, R.T @ t)}
 
 
 row.of_answer(of_a_pose())

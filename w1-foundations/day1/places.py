@@ -151,14 +151,15 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
 def _two_mistakes(case: Case) -> Finding | None:
     """Return a mistake all along the arm and a wrong end, if together they fit."""
     model, q = case.arguments
-    elsewhere, to_link7 = {*ends.SLUGS, "stops-early"}, PATH[:-1]
-    firsts = [m for m in case.ask.named if m.slug not in elsewhere]
+    elsewhere, to_link7 = {*ends.ENDS, "stops-early"}, PATH[:-1]
+    named = case.ask.named
+    firsts = [m for m in named if m.slug not in elsewhere]
     for first in firsts:
         if _wrong_end(first, case, slice(-1, None)) and (
             end := _wrong_end(first, case, slice(None))
         ):
             return _both(Finding(first.slug, first.says), end, case)
-    stops = next(Finding(*end[:2]) for end in ends.FRAMES if end[0] == "stops-at-link7")
+    stops = next(Finding(m.slug, m.says) for m in named if m.slug == "stops-at-link7")
     for first in firsts:
         if matches(case.S[-1:], first.redo(model, q[-1:], to_link7)) and matches(
             case.S, first.redo(model, q, to_link7)
@@ -176,9 +177,10 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
     if not rigid(again):
         return None
     X = rigid_inverse(again) @ case.S[some]
-    off = [np.abs(X[-1] - T_end).max() for _, _, T_end, _ in ends.FRAMES]
-    slug, says, T_end, _ = ends.FRAMES[int(np.argmin(off))]
-    return Finding(slug, says) if matches(X, np.broadcast_to(T_end, X.shape)) else None
+    slug, T_end = min(ends.ALL, key=lambda end: np.abs(X[-1] - end[1]).max())
+    if not matches(X, np.broadcast_to(T_end, X.shape)):
+        return None
+    return next(Finding(slug, m.says) for m in case.ask.named if m.slug == slug)
 
 
 def _both(first: Finding, second: Finding, case: Case) -> Finding:

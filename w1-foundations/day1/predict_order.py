@@ -60,75 +60,52 @@ row = Row(
 row.inputs(_two_poses)
 
 # What goes wrong in one prediction, or in both.
-HALVES = (
-    (
-        "only-summed",
-        "the two translations are only added; the left factor also turns the right "
-        "one's translation",
-        lambda R_a, t_a, R_b, t_b: t_a + t_b,
-    ),
-    (
-        "left-translation-lost",
-        "the right factor's translation is turned, but the left factor's own is not "
-        "added",
-        lambda R_a, t_a, R_b, t_b: R_a @ t_b,
-    ),
-    (
-        "right-translation-lost",
-        "only the left factor's translation is there; the right one's does not count",
-        lambda R_a, t_a, R_b, t_b: t_a,
-    ),
-    (
-        "turned-backwards",
-        "the right factor's translation is turned the wrong way (by the transpose)",
-        lambda R_a, t_a, R_b, t_b: R_a.T @ t_b + t_a,
-    ),
-    (
-        "wrong-vector-turned",
-        "the left factor's own translation is turned; it is the right factor's that is",
-        lambda R_a, t_a, R_b, t_b: R_a @ t_a + t_b,
-    ),
-    (
-        "wrong-rotation",
-        "the right factor's translation is turned by its own R; it is the left "
-        "factor's that turns it",
-        lambda R_a, t_a, R_b, t_b: R_b @ t_b + t_a,
-    ),
-    (
-        "both-turned",
-        "both translations are turned; the left factor's own stays as it is",
-        lambda R_a, t_a, R_b, t_b: R_a @ (t_a + t_b),
-    ),
-    (
-        "subtracted",
-        "one translation is subtracted where both add up",
-        lambda R_a, t_a, R_b, t_b: R_a @ t_b - t_a,
-    ),
-    (
-        "summed-by-columns",
-        "the right factor's translation is multiplied entry by entry with R (R * t) "
-        "and summed up; R @ t takes rows",
-        lambda R_a, t_a, R_b, t_b: sum(R_a * t_b) + t_a,
-    ),
-    (
-        "summed-by-entries",
-        "R * t multiplies entry by entry; the rotation acts by R @ t",
-        lambda R_a, t_a, R_b, t_b: sum(R_a.T * t_b) + t_a,
-    ),
-    (
-        "diagonal-only",
-        "only the diagonal of R acts on the translation; R @ t takes whole rows",
-        lambda R_a, t_a, R_b, t_b: np.diag(R_a) * t_b + t_a,
-    ),
-    (
-        "entries-of-4x4",
-        "the two 4x4 are multiplied entry by entry (A * B); that is no product of "
-        "matrices",
-        lambda R_a, t_a, R_b, t_b: t_a * t_b,
-    ),
-)
+HALVES = {
+    "only-summed": "the two translations are only added; the left factor also turns "
+    "the right one's translation",
+    "left-translation-lost": "the right factor's translation is turned, but the left "
+    "factor's own is not added",
+    "right-translation-lost": "only the left factor's translation is there; the right "
+    "one's does not count",
+    "turned-backwards": "the right factor's translation is turned the wrong way (by "
+    "the transpose)",
+    "wrong-vector-turned": "the left factor's own translation is turned; it is the "
+    "right factor's that is",
+    "wrong-rotation": "the right factor's translation is turned by its own R; it is "
+    "the left factor's that turns it",
+    "both-turned": "both translations are turned; the left factor's own stays as it is",
+    "subtracted": "one translation is subtracted where both add up",
+    "summed-by-columns": "the right factor's translation is multiplied entry by entry "
+    "with R (R * t) and summed up; R @ t takes rows",
+    "summed-by-entries": "R * t multiplies entry by entry; the rotation acts by R @ t",
+    "diagonal-only": "only the diagonal of R acts on the translation; R @ t takes "
+    "whole rows",
+    "entries-of-4x4": "the two 4x4 are multiplied entry by entry (A * B); that is no "
+    "product of matrices",
+}
+
+
+def halves(R_a, t_a, R_b, t_b):
+    """Return the translation of a @ b with each of these mistakes."""
+    return {
+        "only-summed": t_a + t_b,
+        "left-translation-lost": R_a @ t_b,
+        "right-translation-lost": t_a,
+        "turned-backwards": R_a.T @ t_b + t_a,
+        "wrong-vector-turned": R_a @ t_a + t_b,
+        "wrong-rotation": R_b @ t_b + t_a,
+        "both-turned": R_a @ (t_a + t_b),
+        "subtracted": R_a @ t_b - t_a,
+        "summed-by-columns": sum(R_a * t_b) + t_a,
+        "summed-by-entries": sum(R_a.T * t_b) + t_a,
+        "diagonal-only": np.diag(R_a) * t_b + t_a,
+        "entries-of-4x4": t_a * t_b,
+    }
+
+
 WHEN_READY = "R is symmetric when ready, where the lab asks"
-for slug, says, half in HALVES:
+for slug, says in HALVES.items():
+    half = lambda *four, slug=slug: halves(*four)[slug]  # noqa: E731
     row.wrong(slug, f"in both, {says}")(both(half))
     same = WHEN_READY if slug == "turned-backwards" else ""
     row.wrong(slug, f"the first is wrong: {says}", hidden=same)(both(half, right))
@@ -139,18 +116,14 @@ def _other_order(R_a, t_a, R_b, t_b):
     return right(R_b, t_b, R_a, t_a)
 
 
-OTHER_ORDER = "it repeats the other order's translation"
+for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
+    says = f"the {which} is wrong: it repeats the other order's translation"
+    row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
     "the two are right, but in the wrong order: the first belongs to "
     "T_world_ee @ T_extra",
 )(both(_other_order))
-row.wrong("same-order-twice", f"the first is wrong: {OTHER_ORDER}")(
-    both(_other_order, right)
-)
-row.wrong("same-order-twice", f"the second is wrong: {OTHER_ORDER}")(
-    both(right, _other_order)
-)
 
 
 @row.wrong

@@ -55,56 +55,37 @@ XYZW_AND_NOT_NORMALISED = (
 )
 
 
-@row.wrong
-def wxyz_read_as_xyzw(quat):
-    """the quaternion is read as (x, y, z, w); here, as in MuJoCo, w comes first => the
-    right one read with w last"""
-    x, y, z, w = quat
-    return se3.quat_to_R([w, x, y, z])
-
-
-@row.wrong
-def xyzw_rolled_wrongly(quat):
-    """w is not the only number that moved: the four are rolled the wrong way round =>
-    the right one read as y, z, w, x"""
-    return se3.quat_to_R(quat[[2, 3, 0, 1]])
+@row.wrongs
+def _(quat):
+    """wxyz-read-as-xyzw: the quaternion is read as (x, y, z, w); here, as in MuJoCo, w
+      comes first => the right one read with w last
+    xyzw-rolled-wrongly: w is not the only number that moved: the four are rolled the
+      wrong way round => the right one read as y, z, w, x
+    z-before-x: x, y and z are read in the order z, y, x => the right one read as w, z,
+      y, x
+    half-angle: it turns by half the angle: w is the cosine of half the angle => the
+      turn by half of it
+    factor-two-missing: the products are there, but the factor 2 in front of them is
+      missing => the right formula without the 2
+    divided-by-length-squared: the quaternion is divided by its squared length; the
+      square root is missing => the right formula with that division
+    """
+    unturned = np.array([1.0, 0.0, 0.0, 0.0])
+    return {
+        "wxyz-read-as-xyzw": se3.quat_to_R(quat[[3, 0, 1, 2]]),
+        "xyzw-rolled-wrongly": se3.quat_to_R(quat[[2, 3, 0, 1]]),
+        "z-before-x": se3.quat_to_R(quat[[0, 3, 2, 1]]),
+        "half-angle": se3.quat_to_R(quat / np.linalg.norm(quat) + unturned),
+        "factor-two-missing": (se3.quat_to_R(quat) + np.eye(3)) / 2,
+        "divided-by-length-squared": by_ones(quat / (quat @ quat)),
+    }
 
 
 for formula in UNNORMALISED:
     row.wrong("not-normalised", *NOT_NORMALISED)(formula)
-
-for formula in UNNORMALISED:
     row.wrong("xyzw-and-not-normalised", *XYZW_AND_NOT_NORMALISED)(
         lambda quat, formula=formula: formula(np.roll(quat, 1))
     )
-
-
-@row.wrong
-def divided_by_length_squared(quat):
-    """the quaternion is divided by its squared length; the square root is missing =>
-    the right formula with that division"""
-    return by_ones(quat / (quat @ quat))
-
-
-@row.wrong
-def half_angle(quat):
-    """it turns by half the angle: w is the cosine of half the angle => the turn by half
-    of it"""
-    unturned = np.array([1.0, 0.0, 0.0, 0.0])
-    return se3.quat_to_R(quat / np.linalg.norm(quat) + unturned)
-
-
-@row.wrong
-def factor_two_missing(quat):
-    """the products are there, but the factor 2 in front of them is missing => the right
-    formula without the 2"""
-    return (se3.quat_to_R(quat) + np.eye(3)) / 2
-
-
-@row.wrong
-def z_before_x(quat):
-    """x, y and z are read in the order z, y, x => the right one read as w, z, y, x"""
-    return se3.quat_to_R(quat[[0, 3, 2, 1]])
 
 
 row.of_answer(OF_A_ROTATION)

@@ -18,54 +18,33 @@ def _(rng):
     return [(S, M), *others(rng, 8)]
 
 
-@row.wrong
-def adjoint_of_M(screws, M):
-    """the adjoint is that of M; M takes hand coordinates to the world, and the screws
-    go the other way => Ad(M) S"""
-    return screws @ adjoint(M).T
-
-
-@row.wrong
-def from_the_right(screws, M):
-    """the right adjoint, but rows are multiplied by it as they stand; it acts on
-    columns => S Ad(M^-1)"""
-    return screws @ adjoint(se3.inverse(M))
-
-
-@row.wrong
-def unchanged(screws, M):
-    """the screws come back as they went in, still seen from the world => the table that
-    went in"""
-    return screws.copy()
-
-
-@row.wrong
-def last_joint_first(screws, M):
-    """the screws are right, but in the reverse order: joint1's comes first => the right
-    answer in reverse"""
-    return body_screws(screws, M)[::-1]
-
-
-@row.wrong
-def transposed_for_inverse(screws, M):
-    """Ad(M) is transposed, but its inverse is not its transpose (the same comes out
-    where [p] R stands top right in the adjoint) => Ad(M)^T S"""
-    return screws @ adjoint(M)
-
-
-@row.wrong
-def no_lever_arm(screws, M):
-    """both halves are only turned: in the adjoint the lower left block is 0 (was M.T
-    taken for the inverse of M?) => the right one without that block"""
-    R = M[:3, :3]
-    return np.hstack([screws[:, :3] @ R, screws[:, 3:] @ R])
-
-
-@row.wrong
-def t_only_negated(screws, M):
-    """in the inverse of M, t is only negated: it has to be told in the hand's axes =>
-    Ad S with t negated"""
-    return screws @ adjoint(se3.make_T(M[:3, :3].T, -M[:3, 3])).T
+@row.wrongs
+def _(screws, M):
+    """adjoint-of-M: the adjoint is that of M; M takes hand coordinates to the world,
+      and the screws go the other way => Ad(M) S
+    from-the-right: the right adjoint, but rows are multiplied by it as they stand; it
+      acts on columns => S Ad(M^-1)
+    unchanged: the screws come back as they went in, still seen from the world => the
+      table that went in
+    last-joint-first: the screws are right, but in the reverse order: joint1's comes
+      first => the right answer in reverse
+    transposed-for-inverse: Ad(M) is transposed, but its inverse is not its transpose
+      (the same comes out where [p] R stands top right in the adjoint) => Ad(M)^T S
+    no-lever-arm: both halves are only turned: in the adjoint the lower left block is 0
+      (was M.T taken for the inverse of M?) => the right one without that block
+    t-only-negated: in the inverse of M, t is only negated: it has to be told in the
+      hand's axes => Ad S with t negated
+    """
+    R, t = M[:3, :3], M[:3, 3]
+    return {
+        "adjoint-of-M": screws @ adjoint(M).T,
+        "from-the-right": screws @ adjoint(se3.inverse(M)),
+        "unchanged": screws.copy(),
+        "last-joint-first": lambda: body_screws(screws, M)[::-1],
+        "transposed-for-inverse": screws @ adjoint(M),
+        "no-lever-arm": np.hstack([screws[:, :3] @ R, screws[:, 3:] @ R]),
+        "t-only-negated": screws @ adjoint(se3.make_T(R.T, -t)).T,
+    }
 
 
 row.reached_by(

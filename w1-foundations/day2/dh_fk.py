@@ -1,11 +1,12 @@
 """2.9 `dh_fk(table, q)`: its questions and its mistakes."""
 
+from functools import reduce
+
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import Row
-from robo47.screws import dh_link
+from robo47.screws import dh_fk, dh_link
 
 from . import places
 from .arms import FAR, FRANKA
@@ -32,24 +33,39 @@ def links(table, theta):
 
 def product(Ts):
     """Return the poses multiplied from left to right."""
-    T = np.eye(4)
-    for step in Ts:
-        T = T @ step
-    return T
+    return reduce(np.matmul, Ts, np.eye(4))
 
 
-@row.wrong
-def flange_missing(table, q):
-    """the eighth row is missing: your pose is that of link7, not the flange's => the
-    product of seven rows"""
-    return product(links(table, q))
-
-
-@row.wrong
-def flange_turned(table, q):
-    """the eighth row is turned by the last joint's angle again; the flange does not
-    turn => the product with q[6] twice"""
-    return product(links(table, [*q, q[-1]]))
+@row.wrongs
+def _(table, q):
+    """flange-missing: the eighth row is missing: your pose is that of link7, not the
+      flange's => the product of seven rows
+    flange-turned: the eighth row is turned by the last joint's angle again; the flange
+      does not turn => the product with q[6] twice
+    theta-one-row-late: theta is one row late: the first row is joint1's, and gets q[0]
+      => the product with 0 first
+    theta-one-row-early: theta is one row early: the first row is joint1's, and gets
+      q[0] => the product with q[1] first
+    product-reversed: the links stand in the reverse order: the one nearest to the base
+      belongs on the left => the product in reverse
+    multiplied-by-entries: the links are multiplied entry by entry, not as matrices =>
+      the product by entries
+    last-link-only: only the last row counts: what the others do is overwritten => the
+      eighth link alone
+    joints-left-out: no joint turns: whatever q is, your pose is the one at q = 0 => the
+      pose at q = 0
+    """
+    theta = [*q, 0.0]
+    return {
+        "flange-missing": lambda: product(links(table, q)),
+        "flange-turned": lambda: product(links(table, [*q, q[-1]])),
+        "theta-one-row-late": lambda: product(links(table, [0.0, *q])),
+        "theta-one-row-early": lambda: product(links(table, [*q[1:], 0.0, q[0]])),
+        "product-reversed": lambda: product(links(table, theta)[::-1]),
+        "multiplied-by-entries": lambda: np.prod(links(table, theta), axis=0),
+        "last-link-only": lambda: dh_link(*table[-1], 0.0),
+        "joints-left-out": lambda: product(links(table, np.zeros(8))),
+    }
 
 
 @row.wrong(hidden="the lab has one table")
@@ -59,88 +75,32 @@ def flange_typed_in(table, q):
     return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
 
 
-@row.wrong
-def theta_one_row_late(table, q):
-    """theta is one row late: the first row is joint1's, and gets q[0] => the product
-    with 0 first"""
-    return product(links(table, [0.0, *q]))
+@row.wrong(hidden="the lab has one table")
+def table_not_used(table, q):
+    """with Franka's table it is right, with another one it is wrong: the argument table
+    is not used => the product of Franka's own rows"""
+    return dh_fk(FRANKA, q)
 
 
-@row.wrong
-def theta_one_row_early(table, q):
-    """theta is one row early: the first row is joint1's, and gets q[0] => the product
-    with q[1] first"""
-    return product(links(table, [*q[1:], 0.0, q[0]]))
-
-
-@row.wrong
-def product_reversed(table, q):
-    """the links stand in the reverse order: the one nearest to the base belongs on the
-    left => the product in reverse"""
-    return product(links(table, [*q, 0.0])[::-1])
-
-
-@row.wrong
-def multiplied_by_entries(table, q):
-    """the links are multiplied entry by entry, not as matrices => the product by
-    entries"""
-    return np.prod(links(table, [*q, 0.0]), axis=0)
-
-
-@row.wrong
-def last_link_only(table, q):
-    """only the last row counts: what the others do is overwritten => the eighth link
-    alone"""
-    return dh_link(*table[-1], 0.0)
-
-
-row.of_argument(
-    "q",
-    Change(
-        "joints-left-out",
-        "no joint turns: whatever q is, your pose is the one at q = 0",
-        np.zeros_like,
-        "the pose at q = 0",
-    ),
-)
-row.of_argument(
-    "table",
-    Change(
-        "table-not-used",
-        "with Franka's table it is right, with another one it is wrong: the argument "
-        "table is not used",
-        lambda table: FRANKA,
-        "the product of Franka's own rows",
-        hidden="the lab has one table",
-    ),
-    *(
-        Change(
-            "alpha-of-the-neighbour",
-            "each row's alpha is its neighbour's: tables for the other convention have "
-            "alpha one row earlier, this one does not",
-            lambda table, by=by: np.column_stack(
-                [np.roll(table[:, 0], by), table[:, 1:]]
-            ),
-            "the product with that column shifted",
-        )
-        for by in (1, -1)
-    ),
-    *(
-        Change(
-            "columns-mixed-up",
-            f"the columns are read as ({names}); they are (alpha, a, d)",
-            lambda table, order=order: table[:, order],
-            "the product with the columns read so",
-        )
-        for names, order in (
-            ("a, alpha, d", [1, 0, 2]),
-            ("d, a, alpha", [2, 1, 0]),
-            ("alpha, d, a", [0, 2, 1]),
-            ("a, d, alpha", [2, 0, 1]),
-            ("d, alpha, a", [1, 2, 0]),
-        )
-    ),
-)
+for by in (1, -1):
+    row.wrong(
+        "alpha-of-the-neighbour",
+        "each row's alpha is its neighbour's: tables for the other convention have "
+        "alpha one row earlier, this one does not",
+        "the product with that column shifted",
+    )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
+for names, order in (
+    ("a, alpha, d", [1, 0, 2]),
+    ("d, a, alpha", [2, 1, 0]),
+    ("alpha, d, a", [0, 2, 1]),
+    ("a, d, alpha", [2, 0, 1]),
+    ("d, alpha, a", [1, 2, 0]),
+):
+    row.wrong(
+        "columns-mixed-up",
+        f"the columns are read as ({names}); they are (alpha, a, d)",
+        "the product with the columns read so",
+    )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["a-and-d-swapped", "theta-forgotten"])
 
 

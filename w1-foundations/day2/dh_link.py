@@ -1,11 +1,10 @@
 """2.9 `dh_link(alpha, a, d, theta)`: its questions and its mistakes."""
 
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import DEGREES, NEGATED, Change
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47 import se3
@@ -42,97 +41,73 @@ def in_order(order, alpha, a, d, theta):
     return T
 
 
-@row.wrong
-def standard_formula(alpha, a, d, theta):
-    """this is the other convention, Rz Tz Tx Rx; Craig's turns about x first, and
-    Franka's table is written for his => the other convention's matrix"""
-    return in_order("zZXx", alpha, a, d, theta)
-
-
-@row.wrong
-def a_after_theta(alpha, a, d, theta):
-    """the rotation is right, but a is moved along the x axis after the turn about z; it
-    comes before it => the right one with that order"""
-    return in_order("xzXZ", alpha, a, d, theta)
-
-
-@row.wrong
-def d_along_the_old_z(alpha, a, d, theta):
-    """the rotation is right, but d is moved along the z axis before the turn about x =>
-    the right one with that order"""
-    return in_order("ZxXz", alpha, a, d, theta)
+@row.wrongs
+def _(alpha, a, d, theta):
+    """standard-formula: this is the other convention, Rz Tz Tx Rx; Craig's turns about
+      x first, and Franka's table is written for his => the other convention's matrix
+    a-after-theta: the rotation is right, but a is moved along the x axis after the turn
+      about z; it comes before it => the right one with that order
+    d-along-the-old-z: the rotation is right, but d is moved along the z axis before the
+      turn about x => the right one with that order
+    order-of-moves: the four moves are right, but not their order => the product in that
+      order
+    """
+    orders = {
+        "standard-formula": "zZXx",
+        "a-after-theta": "xzXZ",
+        "d-along-the-old-z": "ZxXz",
+        "order-of-moves": "ZxzX",
+    }
+    return {
+        slug: partial(in_order, o, alpha, a, d, theta) for slug, o in orders.items()
+    }
 
 
 for order in ("zxXZ", "XzxZ", "XzZx"):
-
-    @row.wrong(
+    row.wrong(
         "order-of-moves",
         "the turn about z stands before the turn about x; the link's twist comes first",
         "the product in that order",
-    )
-    def _(alpha, a, d, theta, order=order):
-        return in_order(order, alpha, a, d, theta)
+    )(partial(in_order, order))
 
 
-@row.wrong
-def order_of_moves(alpha, a, d, theta):
-    """the four moves are right, but not their order => the product in that order"""
-    return in_order("ZxzX", alpha, a, d, theta)
+@row.wrongs
+def _(alpha, a, d, theta):
+    """a-and-d-swapped: the two lengths a and d have changed places: a is along x, d
+      along z => the right one with the two swapped
+    alpha-and-theta-swapped: alpha and theta have changed places: alpha turns about x,
+      theta about z => the right one with the two swapped
+    both-turns-backwards: both turns go the wrong way => the right one with -alpha and
+      -theta
+    radians-taken-for-degrees: the angles are in radians already, and are converted from
+      degrees once more => the right one with smaller angles
+    alpha-sign: alpha turns the wrong way => the right one with -alpha
+    theta-sign: theta turns the wrong way => the right one with -theta
+    a-sign: the length a is taken the wrong way along x => the right one with -a
+    d-sign: the length d is taken the wrong way along z => the right one with -d
+    alpha-forgotten: alpha has no effect => the right one with alpha = 0
+    theta-forgotten: theta has no effect => the right one with theta = 0
+    """
+    instead = {
+        "a-and-d-swapped": (alpha, d, a, theta),
+        "alpha-and-theta-swapped": (theta, a, d, alpha),
+        "both-turns-backwards": (-alpha, a, d, -theta),
+        "radians-taken-for-degrees": (np.deg2rad(alpha), a, d, np.deg2rad(theta)),
+        "alpha-sign": (-alpha, a, d, theta),
+        "theta-sign": (alpha, a, d, -theta),
+        "a-sign": (alpha, -a, d, theta),
+        "d-sign": (alpha, a, -d, theta),
+        "alpha-forgotten": (0.0, a, d, theta),
+        "theta-forgotten": (alpha, a, d, 0.0),
+    }
+    return {slug: partial(dh_link, *four) for slug, four in instead.items()}
 
 
-@row.wrong
-def a_and_d_swapped(alpha, a, d, theta):
-    """the two lengths a and d have changed places: a is along x, d along z => the right
-    one with the two swapped"""
-    return dh_link(alpha, d, a, theta)
-
-
-@row.wrong
-def alpha_and_theta_swapped(alpha, a, d, theta):
-    """alpha and theta have changed places: alpha turns about x, theta about z => the
-    right one with the two swapped"""
-    return dh_link(theta, a, d, alpha)
-
-
-@row.wrong
-def both_turns_backwards(alpha, a, d, theta):
-    """both turns go the wrong way => the right one with -alpha and -theta"""
-    return dh_link(-alpha, a, d, -theta)
-
-
-@row.wrong
-def radians_taken_for_degrees(alpha, a, d, theta):
-    """the angles are in radians already, and are converted from degrees once more =>
-    the right one with smaller angles"""
-    return dh_link(np.deg2rad(alpha), a, d, np.deg2rad(theta))
-
-
-for name, says in (
-    ("alpha", "alpha turns the wrong way"),
-    ("theta", "theta turns the wrong way"),
-    ("a", "the length a is taken the wrong way along x"),
-    ("d", "the length d is taken the wrong way along z"),
-):
-    row.of_argument(name, replace(NEGATED, slug=f"{name}-sign", says=says))
-for name in ("alpha", "theta"):
-    row.of_argument(
-        name,
-        Change(
-            f"{name}-forgotten",
-            f"{name} has no effect",
-            np.zeros_like,
-            f"the right one with {name} = 0",
-        ),
-    )
-row.of_argument(
-    "alpha",
-    replace(
-        DEGREES,
-        slug="radians-taken-for-degrees",
-        says="alpha is in radians already, and is converted from degrees once more",
-        redone="the right one with a smaller alpha",
-    ),
-)
+row.wrong(
+    "radians-taken-for-degrees",
+    "alpha is in radians already, and is converted from degrees once more",
+    "the right one with a smaller alpha",
+)(lambda alpha, a, d, theta: dh_link(np.deg2rad(alpha), a, d, theta))
 row.of_answer(of_a_pose("maps the link before to this one"))
 
 

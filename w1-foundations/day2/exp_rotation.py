@@ -1,5 +1,7 @@
 """2.2 `exp_rotation(axis, theta)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Rotation, draw
@@ -37,166 +39,93 @@ def rodrigues(axis, theta):
     return formula(axis, 1, np.sin(theta), 1 - np.cos(theta))
 
 
-@row.wrong
-def turns_backwards(axis, theta):
-    """it turns the other way: the sine's term has the wrong sign => the rotation by
-    -theta"""
-    return formula(axis, 1, -np.sin(theta), 1 - np.cos(theta))
+@row.wrongs
+def _(axis, theta):
+    """turns-backwards: it turns the other way: the sine's term has the wrong sign =>
+      the rotation by -theta
+    minus-square: the last term is subtracted: lengths grow (det R is far from 1) => the
+      formula with that minus
+    square-missing: the term with K K is missing: I + sin K holds for tiny angles only
+      => the formula without it
+    sine-term-missing: the term with K itself is missing, so turning by theta and -theta
+      is the same => the formula without it
+    identity-missing: the identity is missing: at theta = 0 a rotation leaves everything
+      as it is => the formula without it
+    cosine-for-one-minus-cosine: before K K stands the cosine; at theta = 0 that factor
+      has to vanish => the formula with cos
+    one-minus-sine: before K K stands 1 minus the sine; at theta = 0 that factor has to
+      vanish => the formula with 1 - sin
+    sin-and-cos-swapped: sine and cosine have changed places: at theta = 0 it already
+      turns => the formula with the two swapped
+    coefficients-swapped: the two factors have changed places: the sine belongs to K, 1
+      - cos to K K => the formula with the two swapped
+    first-order-only: this is I + theta K, the first two terms of the series: right for
+      tiny angles => I + theta K
+    second-order-only: the series stops after the term with theta squared; it goes on
+      for ever => the series cut there
+    cosine-before-identity: before the identity stands the cosine; that goes with axis
+      axis^T, and I itself with K K => the formula with cos I
+    theta-for-sine: before K stands theta; it has to be its sine => the formula with
+      theta K
+    """
+    c, s = np.cos(theta), np.sin(theta)
+    factors = {
+        "turns-backwards": (1, -s, 1 - c),
+        "minus-square": (1, s, c - 1),
+        "square-missing": (1, s, 0),
+        "sine-term-missing": (1, 0, 1 - c),
+        "identity-missing": (0, s, 1 - c),
+        "cosine-for-one-minus-cosine": (1, s, c),
+        "one-minus-sine": (1, s, 1 - s),
+        "sin-and-cos-swapped": (1, c, 1 - s),
+        "coefficients-swapped": (1, 1 - c, s),
+        "first-order-only": (1, theta, 0),
+        "second-order-only": (1, theta, theta**2 / 2),
+        "cosine-before-identity": (c, s, 1 - c),
+        "theta-for-sine": (1, theta, 1 - c),
+    }
+    return {slug: partial(formula, axis, *f) for slug, f in factors.items()}
 
 
-@row.wrong
-def minus_square(axis, theta):
-    """the last term is subtracted: lengths grow (det R is far from 1) => the formula
-    with that minus"""
-    return formula(axis, 1, np.sin(theta), np.cos(theta) - 1)
-
-
-@row.wrong
-def square_missing(axis, theta):
-    """the term with K K is missing: I + sin K holds for tiny angles only => the formula
-    without it"""
-    return I + np.sin(theta) * skew(axis)
-
-
-@row.wrong
-def sine_term_missing(axis, theta):
-    """the term with K itself is missing, so turning by theta and -theta is the same =>
-    the formula without it"""
-    return formula(axis, 1, 0, 1 - np.cos(theta))
-
-
-@row.wrong
-def identity_missing(axis, theta):
-    """the identity is missing: at theta = 0 a rotation leaves everything as it is =>
-    the formula without it"""
-    return formula(axis, 0, np.sin(theta), 1 - np.cos(theta))
-
-
-@row.wrong
-def cosine_for_one_minus_cosine(axis, theta):
-    """before K K stands the cosine; at theta = 0 that factor has to vanish => the
-    formula with cos"""
-    return formula(axis, 1, np.sin(theta), np.cos(theta))
-
-
-@row.wrong
-def one_minus_sine(axis, theta):
-    """before K K stands 1 minus the sine; at theta = 0 that factor has to vanish => the
-    formula with 1 - sin"""
-    return formula(axis, 1, np.sin(theta), 1 - np.sin(theta))
-
-
-@row.wrong
-def sin_and_cos_swapped(axis, theta):
-    """sine and cosine have changed places: at theta = 0 it already turns => the formula
-    with the two swapped"""
-    return formula(axis, 1, np.cos(theta), 1 - np.sin(theta))
-
-
-@row.wrong
-def coefficients_swapped(axis, theta):
-    """the two factors have changed places: the sine belongs to K, 1 - cos to K K => the
-    formula with the two swapped"""
-    return formula(axis, 1, 1 - np.cos(theta), np.sin(theta))
-
-
-@row.wrong
-def squared_by_entries(axis, theta):
-    """K * K squares each entry; K K is a product of matrices => the formula with K *
-    K"""
-    K = skew(axis)
-    return I + np.sin(theta) * K + (1 - np.cos(theta)) * K**2
-
-
-@row.wrong
-def exp_by_entries(axis, theta):
-    """np.exp works on each entry; the exponential of a matrix is a series of products
-    => np.exp of [axis] theta"""
-    return np.exp(skew(axis) * theta)
-
-
-@row.wrong
-def first_order_only(axis, theta):
-    """this is I + theta K, the first two terms of the series: right for tiny angles =>
-    I + theta K"""
-    return I + theta * skew(axis)
-
-
-@row.wrong
-def second_order_only(axis, theta):
-    """the series stops after the term with theta squared; it goes on for ever => the
-    series cut there"""
-    return formula(axis, 1, theta, theta**2 / 2)
-
-
-@row.wrong
-def bracket_of_a_dyad(axis, theta):
-    """the last term is (1 - cos) times axis axis^T; that goes with cos I, not with I =>
-    the formula with that term"""
-    dyad = np.outer(axis, axis)
-    return I + np.sin(theta) * skew(axis) + (1 - np.cos(theta)) * dyad
-
-
-@row.wrong
-def dyad_without_factor(axis, theta):
-    """before axis axis^T the factor 1 - cos is missing: at theta = 0 it turns already
-    => cos I + sin K + axis axis^T"""
-    dyad = np.outer(axis, axis)
-    return np.cos(theta) * I + np.sin(theta) * skew(axis) + dyad
-
-
-@row.wrong
-def cosine_before_identity(axis, theta):
-    """before the identity stands the cosine; that goes with axis axis^T, and I itself
-    with K K => the formula with cos I"""
-    return formula(axis, np.cos(theta), np.sin(theta), 1 - np.cos(theta))
-
-
-@row.wrong
-def theta_for_sine(axis, theta):
-    """before K stands theta; it has to be its sine => the formula with theta K"""
-    return formula(axis, 1, theta, 1 - np.cos(theta))
-
-
-@row.wrong
-def always_about_z(axis, theta):
-    """it turns about z, whatever the axis is => Rz(theta)"""
-    return se3.Rz(theta)
-
-
-@row.wrong
-def radians_taken_for_degrees(axis, theta):
-    """the angle is in radians already, and is converted from degrees once more => the
-    rotation by pi / 180 times the angle"""
-    return rodrigues(axis, np.deg2rad(theta))
-
-
-@row.wrong
-def degrees_into_cos(axis, theta):
-    """sine and cosine are given degrees; they expect radians, as the angle comes => the
-    rotation by 180 / pi times the angle"""
-    return rodrigues(axis, np.rad2deg(theta))
-
-
-@row.wrong
-def half_angle(axis, theta):
-    """it turns by half of the angle: that belongs to quaternions => the rotation by
-    half of it"""
-    return rodrigues(axis, theta / 2)
-
-
-@row.wrong
-def double_angle(axis, theta):
-    """it turns by twice the angle; in a quaternion stand sine and cosine of half of it
-    => the rotation by twice the angle"""
-    return rodrigues(axis, 2 * theta)
-
-
-@row.wrong
-def sign_of_theta_lost(axis, theta):
-    """theta and -theta turn the same way: the sign of theta is lost => the rotation by
-    |theta|"""
-    return rodrigues(axis, np.abs(theta))
+@row.wrongs
+def _(axis, theta):
+    """squared-by-entries: K * K squares each entry; K K is a product of matrices => the
+      formula with K * K
+    exp-by-entries: np.exp works on each entry; the exponential of a matrix is a series
+      of products => np.exp of [axis] theta
+    bracket-of-a-dyad: the last term is (1 - cos) times axis axis^T; that goes with cos
+      I, not with I => the formula with that term
+    dyad-without-factor: before axis axis^T the factor 1 - cos is missing: at theta = 0
+      it turns already => cos I + sin K + axis axis^T
+    always-about-z: it turns about z, whatever the axis is => Rz(theta)
+    radians-taken-for-degrees: the angle is in radians already, and is converted from
+      degrees once more => the rotation by pi / 180 times the angle
+    degrees-into-cos: sine and cosine are given degrees; they expect radians, as the
+      angle comes => the rotation by 180 / pi times the angle
+    half-angle: it turns by half of the angle: that belongs to quaternions => the
+      rotation by half of it
+    double-angle: it turns by twice the angle; in a quaternion stand sine and cosine of
+      half of it => the rotation by twice the angle
+    sign-of-theta-lost: theta and -theta turn the same way: the sign of theta is lost =>
+      the rotation by |theta|
+    """
+    K, dyad = skew(axis), np.outer(axis, axis)
+    c, s = np.cos(theta), np.sin(theta)
+    angles = {
+        "radians-taken-for-degrees": np.deg2rad(theta),
+        "degrees-into-cos": np.rad2deg(theta),
+        "half-angle": theta / 2,
+        "double-angle": 2 * theta,
+        "sign-of-theta-lost": np.abs(theta),
+    }
+    return {
+        "squared-by-entries": I + s * K + (1 - c) * K**2,
+        "exp-by-entries": np.exp(K * theta),
+        "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
+        "dyad-without-factor": c * I + s * K + dyad,
+        "always-about-z": lambda: se3.Rz(theta),
+        **{slug: partial(rodrigues, axis, x) for slug, x in angles.items()},
+    }
 
 
 for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it

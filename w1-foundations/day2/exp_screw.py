@@ -1,11 +1,10 @@
 """2.4 `exp_screw(S, theta)`: its questions and its mistakes."""
 
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import DEGREES, NEGATED, RADIANS_TWICE
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47.screws import skew
@@ -68,163 +67,111 @@ def travelled(S, theta, one, first, second):
     return moved(S, theta, formula(S[:3], one, first, second) @ S[3:])
 
 
-@row.wrong
-def twist_order(S, theta):
-    """the halves are read as (v; omega); omega comes first => the motion with the
-    halves swapped"""
-    return motion(np.roll(S, 3), theta)
+@row.wrongs
+def _(S, theta):
+    """twist-order: the halves are read as (v; omega); omega comes first => the motion
+      with the halves swapped
+    hinge-at-the-origin-forgotten: right unless v is 0; with v = 0 it does not move at
+      all, but such a screw turns about a line through the origin => the right one with
+      I where v is 0
+    turns-backwards: it moves the other way, by -theta => the motion by -theta
+    radians-taken-for-degrees: the angle is in radians already, and is converted from
+      degrees once more => the motion by pi / 180 times the angle
+    degrees-into-cos: the angle comes in radians, and is used as degrees => the motion
+      by 180 / pi times the angle
+    """
+    motions = {
+        "twist-order": (np.roll(S, 3), theta),
+        "hinge-at-the-origin-forgotten": (S, theta if S[3:].any() else 0.0),
+        "turns-backwards": (S, -theta),
+        "radians-taken-for-degrees": (S, np.deg2rad(theta)),
+        "degrees-into-cos": (S, np.rad2deg(theta)),
+    }
+    return {slug: partial(motion, *one) for slug, one in motions.items()}
 
 
-@row.wrong
-def identity_for_theta(S, theta):
-    """R is right, but the translation starts with I v, not with theta: at theta = 0 it
-    moves already => the right one with I instead of theta I"""
-    return travelled(S, theta, 1, 1 - np.cos(theta), theta - np.sin(theta))
+@row.wrongs
+def _(S, theta):
+    """identity-for-theta: R is right, but the translation starts with I v, not with
+      theta: at theta = 0 it moves already => the right one with I instead of theta I
+    exp-coefficients-swapped: R is right, but in the translation the two factors have
+      changed places => the right one with the two swapped
+    as-in-the-rotation: R is right, but the translation uses R's own factors, sin and 1
+      - cos; it needs their integrals => the right one with those factors
+    travel-sign-of-K: R is right, but in the translation the term with K has the wrong
+      sign => the right one with that sign
+    travel-sign-of-KK: R is right, but in the translation the term with K K has the
+      wrong sign => the right one with that sign
+    travel-without-K: R is right, but in the translation the term with K is missing =>
+      the right one without it
+    travel-without-KK: R is right, but in the translation the term with K K is missing
+      => the right one without it
+    travel-K-for-KK: R is right, but in the last term of the translation stands K, not K
+      K => the right one with K there
+    """
+    c, s = np.cos(theta), np.sin(theta)
+    factors = {
+        "identity-for-theta": (1, 1 - c, theta - s),
+        "exp-coefficients-swapped": (theta, theta - s, 1 - c),
+        "as-in-the-rotation": (theta, s, 1 - c),
+        "travel-sign-of-K": (theta, c - 1, theta - s),
+        "travel-sign-of-KK": (theta, 1 - c, s - theta),
+        "travel-without-K": (theta, 0, theta - s),
+        "travel-without-KK": (theta, 1 - c, 0),
+        "travel-K-for-KK": (theta, 1 - c + theta - s, 0),
+    }
+    return {
+        slug: partial(travelled, S, theta, *three) for slug, three in factors.items()
+    }
 
 
-@row.wrong
-def exp_coefficients_swapped(S, theta):
-    """R is right, but in the translation the two factors have changed places => the
-    right one with the two swapped"""
-    return travelled(S, theta, theta, theta - np.sin(theta), 1 - np.cos(theta))
-
-
-@row.wrong
-def as_in_the_rotation(S, theta):
-    """R is right, but the translation uses R's own factors, sin and 1 - cos; it needs
-    their integrals => the right one with those factors"""
-    return travelled(S, theta, theta, np.sin(theta), 1 - np.cos(theta))
-
-
-@row.wrong
-def R_times_v(S, theta):
-    """R is right, but the translation is R v: a velocity has to be summed up on the way
-    => the right one with R v"""
-    return moved(S, theta, rodrigues(S[:3], theta) @ S[3:])
-
-
-@row.wrong
-def R_times_theta_v(S, theta):
-    """R is right, but the translation is theta R v: the direction of v turns on the
-    way, it is not turned all the way from the start => the right one with theta R v"""
-    return moved(S, theta, rodrigues(S[:3], theta) @ S[3:] * theta)
-
-
-@row.wrong
-def travel_sign_of_K(S, theta):
-    """R is right, but in the translation the term with K has the wrong sign => the
-    right one with that sign"""
-    return travelled(S, theta, theta, np.cos(theta) - 1, theta - np.sin(theta))
-
-
-@row.wrong
-def travel_sign_of_KK(S, theta):
-    """R is right, but in the translation the term with K K has the wrong sign => the
-    right one with that sign"""
-    return travelled(S, theta, theta, 1 - np.cos(theta), np.sin(theta) - theta)
-
-
-@row.wrong
-def travel_without_K(S, theta):
-    """R is right, but in the translation the term with K is missing => the right one
-    without it"""
-    return travelled(S, theta, theta, 0, theta - np.sin(theta))
-
-
-@row.wrong
-def travel_without_KK(S, theta):
-    """R is right, but in the translation the term with K K is missing => the right one
-    without it"""
-    return travelled(S, theta, theta, 1 - np.cos(theta), 0)
-
-
-@row.wrong
-def travel_on_a_line(S, theta):
-    """R is right, but the translation is theta v, a straight line; a screw's path bends
-    => the right one with theta v"""
-    return moved(S, theta, theta * S[3:])
-
-
-@row.wrong
-def travel_is_v(S, theta):
-    """R is right, but the translation is v itself, whatever theta is => the right one
-    with v"""
-    return moved(S, theta, S[3:])
-
-
-@row.wrong
-def travel_turned(S, theta):
-    """R is right, but the translation is turned by R once more => the right one with R
-    t"""
-    T = motion(S, theta)
-    return moved(S, theta, T[:3, :3] @ T[:3, 3])
-
-
-@row.wrong
-def pitch_forgotten(S, theta):
-    """right for plain hinges and slides; a screw that turns and moves along its axis
-    loses the part along it => the right one without that part"""
-    if not S[:3].any():
-        return motion(S, theta)
-    R = rodrigues(S[:3], theta)
-    return moved(S, theta, (I - R) @ np.cross(S[:3], S[3:]))
-
-
-@row.wrong
-def pitch_without_theta(S, theta):
-    """right for plain hinges and slides; what moves along the axis has to grow with
-    theta => the right one with that part constant"""
+@row.wrongs
+def _(S, theta):
+    """R-times-v: R is right, but the translation is R v: a velocity has to be summed up
+      on the way => the right one with R v
+    R-times-theta-v: R is right, but the translation is theta R v: the direction of v
+      turns on the way, it is not turned all the way from the start => the right one
+      with theta R v
+    travel-on-a-line: R is right, but the translation is theta v, a straight line; a
+      screw's path bends => the right one with theta v
+    travel-is-v: R is right, but the translation is v itself, whatever theta is => the
+      right one with v
+    travel-turned: R is right, but the translation is turned by R once more => the right
+      one with R t
+    travel-over-theta: R is right, but in the translation theta is missing: the whole of
+      it is divided by theta => the right one with t / theta
+    moment-used-as-point: v is taken for a point on the axis; it is the velocity of the
+      origin => the turn about the line through v
+    pitch-forgotten: right for plain hinges and slides; a screw that turns and moves
+      along its axis loses the part along it => the right one without that part
+    pitch-without-theta: right for plain hinges and slides; what moves along the axis
+      has to grow with theta => the right one with that part constant
+    sign-of-the-point: R is right, but the point on the axis has the wrong sign: it is
+      omega x v, and (I - R) stands before it => the right one with that sign
+    slide-forgotten: right where it turns; with omega = 0 it does not move at all, but
+      it slides => the right one with I for slides
+    slide-without-theta: right where it turns; with omega = 0 it slides by v, not by
+      theta v => the right one with v for slides
+    """
     omega, v = S[:3], S[3:]
-    if not omega.any():
-        return motion(S, theta)
-    R = rodrigues(omega, theta)
-    return moved(S, theta, (I - R) @ np.cross(omega, v) + omega @ v * omega)
-
-
-@row.wrong
-def slide_forgotten(S, theta):
-    """right where it turns; with omega = 0 it does not move at all, but it slides =>
-    the right one with I for slides"""
-    return motion(S, theta) if S[:3].any() else np.eye(4)
-
-
-@row.wrong
-def slide_without_theta(S, theta):
-    """right where it turns; with omega = 0 it slides by v, not by theta v => the right
-    one with v for slides"""
-    return motion(S, theta) if S[:3].any() else moved(S, theta, S[3:])
-
-
-@row.wrong
-def travel_over_theta(S, theta):
-    """R is right, but in the translation theta is missing: the whole of it is divided
-    by theta => the right one with t / theta"""
-    return moved(S, theta, motion(S, theta)[:3, 3] / (theta or 1.0))
-
-
-@row.wrong
-def travel_K_for_KK(S, theta):
-    """R is right, but in the last term of the translation stands K, not K K => the
-    right one with K there"""
-    return travelled(S, theta, theta, 1 - np.cos(theta) + theta - np.sin(theta), 0)
-
-
-@row.wrong
-def sign_of_the_point(S, theta):
-    """R is right, but the point on the axis has the wrong sign: it is omega x v, and (I
-    - R) stands before it => the right one with that sign"""
-    omega, v = S[:3], S[3:]
-    if not omega.any():
-        return motion(S, theta)
-    R = rodrigues(omega, theta)
-    return moved(S, theta, (R - I) @ np.cross(omega, v) + theta * omega @ v * omega)
-
-
-@row.wrong
-def hinge_at_the_origin_forgotten(S, theta):
-    """right unless v is 0; with v = 0 it does not move at all, but such a screw turns
-    about a line through the origin => the right one with I where v is 0"""
-    return motion(S, theta) if S[3:].any() else np.eye(4)
+    R, t, turns = rodrigues(omega, theta), motion(S, theta)[:3, 3], omega.any()
+    round_it = (I - R) @ np.cross(omega, v)
+    along = omega @ v * omega
+    travel = {
+        "R-times-v": R @ v,
+        "R-times-theta-v": R @ v * theta,
+        "travel-on-a-line": theta * v,
+        "travel-is-v": v,
+        "travel-turned": R @ t,
+        "travel-over-theta": t / (theta or 1.0),
+        "moment-used-as-point": v - R @ v,
+        "pitch-forgotten": round_it if turns else t,
+        "pitch-without-theta": round_it + along if turns else t,
+        "sign-of-the-point": theta * along - round_it if turns else t,
+        "slide-forgotten": t if turns else np.zeros(3),
+        "slide-without-theta": t if turns else v,
+    }
+    return {slug: partial(moved, S, theta, t) for slug, t in travel.items()}
 
 
 @row.wrong(hidden="the lab's angles are between -pi and pi")
@@ -248,13 +195,6 @@ for small in (1e-3, 1e-2):  # any bound between two angles that are asked does i
 
 
 @row.wrong
-def moment_used_as_point(S, theta):
-    """v is taken for a point on the axis; it is the velocity of the origin => the turn
-    about the line through v"""
-    return moved(S, theta, S[3:] - rodrigues(S[:3], theta) @ S[3:])
-
-
-@row.wrong
 def exp_by_entries(S, theta):
     """np.exp works on each entry; the exponential of a matrix is a series of products
     => np.exp of [S] theta"""
@@ -263,27 +203,6 @@ def exp_by_entries(S, theta):
     return np.exp(bracket * theta)
 
 
-row.of_argument(
-    "theta",
-    replace(
-        NEGATED,
-        slug="turns-backwards",
-        says="it moves the other way, by -theta",
-        redone="the motion by -theta",
-    ),
-    replace(
-        DEGREES,
-        slug="radians-taken-for-degrees",
-        says="the angle is in radians already, and is converted from degrees once more",
-        redone="the motion by pi / 180 times the angle",
-    ),
-    replace(
-        RADIANS_TWICE,
-        slug="degrees-into-cos",
-        says="the angle comes in radians, and is used as degrees",
-        redone="the motion by 180 / pi times the angle",
-    ),
-)
 row.reached_by("skew", "in [omega], ", but=["made-unit"])  # its length is 1
 row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign

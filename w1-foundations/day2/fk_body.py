@@ -15,16 +15,16 @@ row = product_row(screws.fk_body, seen_by_the_hand)
 either_form(row, body)
 
 
-@row.wrong
-def M_last(body_screws, M, q):
-    """M stands on the right of the exponentials (or the screws are converted, and they
-    are the hand's already); motions told in the hand's frame follow M => the product
-    with M last"""
-    return space(body_screws, M, q)
-
-
-@row.wrong
-def motions_on_the_left(body_screws, M, q):
-    """each new exponential is put on the left of what is there; these screws are told
-    in the hand's frame, so it goes on the right => the product so put together"""
-    return space(body_screws[::-1], M, q[::-1])
+@row.wrongs
+def _(body_screws, M, q):
+    """M-last: M stands on the right of the exponentials (or the screws are converted,
+      and they are the hand's already); motions told in the hand's frame follow M =>
+      the product with M last
+    motions-on-the-left: each new exponential is put on the left of what is there; these
+      screws are told in the hand's frame, so it goes on the right => the product so put
+      together
+    """
+    return {
+        "M-last": lambda: space(body_screws, M, q),
+        "motions-on-the-left": lambda: space(body_screws[::-1], M, q[::-1]),
+    }

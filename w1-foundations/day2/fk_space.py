@@ -14,20 +14,23 @@ row = product_row(library.fk_space, arms)
 either_form(row, space)
 
 
-@row.wrong
-def M_first(screws, M, q):
-    """M stands on the left of the exponentials; the screws are told in the world, so
-    their motions act on M from the left => the product with M first"""
-    return body(screws, M, q)
-
-
-@row.wrong
-def M_only_added(screws, M, q):
-    """M's translation is added and its rotation is missing; the pose has to be
-    multiplied by all of M => the product with t of M added"""
-    T = space(screws, np.eye(4), q)
-    T[:3, 3] += M[:3, 3]
-    return T
+@row.wrongs
+def _(screws, M, q):
+    """M-first: M stands on the left of the exponentials; the screws are told in the
+      world, so their motions act on M from the left => the product with M first
+    M-only-added: M's translation is added and its rotation is missing; the pose has to
+      be multiplied by all of M => the product with t of M added
+    space-screws-in-body-form: the screws are taken to the hand's frame, but the product
+      is still that of the world's => that product
+    """
+    added = np.zeros((4, 4))
+    added[:3, 3] = M[:3, 3]
+    by_the_hand = screws @ adjoint(se3.inverse(M)).T
+    return {
+        "M-first": lambda: body(screws, M, q),
+        "M-only-added": lambda: space(screws, np.eye(4), q) + added,
+        "space-screws-in-body-form": lambda: space(by_the_hand, M, q),
+    }
 
 
 @row.wrong
@@ -38,13 +41,6 @@ def screws_moved_along(screws, M, q):
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)
     return T @ M
-
-
-@row.wrong
-def space_screws_in_body_form(screws, M, q):
-    """the screws are taken to the hand's frame, but the product is still that of the
-    world's => that product"""
-    return space(screws @ adjoint(se3.inverse(M)).T, M, q)
 
 
 # One slip: what `places` names.

@@ -1,5 +1,6 @@
 """2.5 `joint_screws(T_zero)`: its questions and its mistakes."""
 
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from labkit.judge import draw
 from labkit.judge.row import Row
 from robo47 import se3
-from robo47.screws import joint_screws, screw_axis
+from robo47.screws import screw_axis
 
 from .arms import SCREWS, the_panda
 from .halves import which_half
@@ -22,77 +23,50 @@ def _(rng):
         yield (draw.poses(rng, 7),)
 
 
-def through(points, T_zero):
-    """Return the screws with other points."""
-    return screw_axis(T_zero[:, :3, 2], points)
-
-
-def local(T_zero):
-    """Return each link's pose on the one before; the first one's on the world."""
-    return se3.inverse(np.array([np.eye(4), *T_zero[:-1]])) @ T_zero
-
-
-@row.wrong
-def axis_row_not_column(T_zero):
-    """the axis is taken from a row of R; what the link's z looks like from the world
-    stands in a column => the answer with the third row"""
-    return screw_axis(T_zero[:, 2, :3], T_zero[:, :3, 3])
-
-
-@row.wrong
-def axis_local_z(T_zero):
-    """the axis is (0, 0, 1) for every joint: that is z in the link's own frame; the
-    screw needs it seen from the world => the answer with (0, 0, 1)"""
-    return screw_axis([0.0, 0.0, 1.0], T_zero[:, :3, 3])
-
-
-@row.wrong
-def axis_x_column(T_zero):
-    """the axis is the links' x; the Panda's joints turn about their z => the answer
-    with x"""
-    return screw_axis(T_zero[:, :3, 0], T_zero[:, :3, 3])
-
-
-@row.wrong
-def axis_y_column(T_zero):
-    """the axis is the links' y; the Panda's joints turn about their z => the answer
-    with y"""
-    return screw_axis(T_zero[:, :3, 1], T_zero[:, :3, 3])
-
-
-@row.wrong
-def point_is_local_pos(T_zero):
-    """the point is each link's place on the one before, in that one's axes, as the file
-    has it; the screw needs it seen from the world => the answer with those points"""
-    return through(local(T_zero)[:, :3, 3], T_zero)
-
-
-@row.wrong
-def all_local(T_zero):
-    """axis and point are each link's on the one before; the screw needs both seen from
-    the world => the answer from those poses"""
-    return joint_screws(local(T_zero))
-
-
-@row.wrong
-def poses_multiplied(T_zero):
-    """the poses are multiplied along the arm; they are in the world already => the
-    answer from those products"""
-    return joint_screws(list(accumulate(T_zero, np.matmul)))
-
-
-@row.wrong
-def point_turned_back(T_zero):
-    """the point is turned back into the link's axes; it is in the world already => the
-    answer with R^T p"""
-    return through([T[:3, :3].T @ T[:3, 3] for T in T_zero], T_zero)
-
-
-@row.wrong
-def next_links_point(T_zero):
-    """each joint's point is the next link's origin, which need not be on its axis =>
-    the answer with those points"""
-    return through(np.roll(T_zero[:, :3, 3], -1, axis=0), T_zero)
+@row.wrongs
+def _(T_zero):
+    """axis-row-not-column: the axis is taken from a row of R; what the link's z looks
+      like from the world stands in a column => the answer with the third row
+    axis-local-z: the axis is (0, 0, 1) for every joint: that is z in the link's own
+      frame; the screw needs it seen from the world => the answer with (0, 0, 1)
+    axis-x-column: the axis is the links' x; the Panda's joints turn about their z =>
+      the answer with x
+    axis-y-column: the axis is the links' y; the Panda's joints turn about their z =>
+      the answer with y
+    point-is-local-pos: the point is each link's place on the one before, in that one's
+      axes, as the file has it; the screw needs it seen from the world => the answer
+      with those points
+    all-local: axis and point are each link's on the one before; the screw needs both
+      seen from the world => the answer from those poses
+    poses-multiplied: the poses are multiplied along the arm; they are in the world
+      already => the answer from those products
+    point-turned-back: the point is turned back into the link's axes; it is in the world
+      already => the answer with R^T p
+    next-links-point: each joint's point is the next link's origin, which need not be on
+      its axis => the answer with those points
+    first-link-for-all: every screw is the first joint's: the index never moves on =>
+      the first screw, seven times
+    last-joint-first: the screws are right, but in the reverse order: joint1's comes
+      first => the right answer in reverse
+    """
+    R, p = T_zero[:, :3, :3], T_zero[:, :3, 3]
+    x, y, z = np.moveaxis(R, -1, 0)
+    local = se3.inverse(np.array([np.eye(4), *T_zero[:-1]])) @ T_zero
+    carried = np.array(list(accumulate(T_zero, np.matmul)))
+    lines = {
+        "axis-row-not-column": (R[:, 2], p),
+        "axis-local-z": ([0.0, 0.0, 1.0], p),
+        "axis-x-column": (x, p),
+        "axis-y-column": (y, p),
+        "point-is-local-pos": (z, local[:, :3, 3]),
+        "all-local": (local[:, :3, 2], local[:, :3, 3]),
+        "poses-multiplied": (carried[:, :3, 2], carried[:, :3, 3]),
+        "point-turned-back": (z, np.einsum("nij,ni->nj", R, p)),
+        "next-links-point": (z, np.roll(p, -1, axis=0)),
+        "first-link-for-all": (np.tile(z[0], (7, 1)), p[0]),
+        "last-joint-first": (z[::-1], p[::-1]),
+    }
+    return {slug: partial(screw_axis, *line) for slug, line in lines.items()}
 
 
 for before in (
@@ -105,21 +79,11 @@ for before in (
         "each joint's point is the origin of the link before, which need not be on its "
         "axis",
         "the answer with those points",
-    )(lambda T_zero, before=before: through(before(T_zero[:, :3, 3]), T_zero))
-
-
-@row.wrong
-def first_link_for_all(T_zero):
-    """every screw is the first joint's: the index never moves on => the first screw,
-    seven times"""
-    return np.array([joint_screws(T_zero)[0] for _ in T_zero])
-
-
-@row.wrong
-def last_joint_first(T_zero):
-    """the screws are right, but in the reverse order: joint1's comes first => the right
-    answer in reverse"""
-    return joint_screws(T_zero)[::-1]
+    )(
+        lambda T_zero, before=before: screw_axis(
+            T_zero[:, :3, 2], before(T_zero[:, :3, 3])
+        )
+    )
 
 
 row.reached_by("screw_axis", "in every screw, ")
@@ -127,4 +91,4 @@ row.reached_by("screw_axis", "in every screw, ")
 
 @row.wrong("v-off")  # The points are measured from link1.
 def _(T_zero):
-    return through(T_zero[:, :3, 3] - T_zero[0, :3, 3], T_zero)
+    return screw_axis(T_zero[:, :3, 2], T_zero[:, :3, 3] - T_zero[0, :3, 3])

@@ -1,12 +1,13 @@
-"""Mistakes in a product of exponentials, 2.6 and 2.8, made in q or in M before it.
+"""Mistakes in a product of exponentials, 2.6 and 2.8: in the product, in q or in M.
 
 A mistake in one joint only is not listed here: `places` finds which one.
 """
 
+from functools import partial, reduce
+
 import numpy as np
 
 from labkit.judge import Pose
-from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import Row
 from robo47 import se3
 
@@ -26,144 +27,6 @@ def body(screws, M, q):
     """Return M e^[B1] q1 ... e^[B7] q7, whatever the screws are."""
     return M @ space(screws, np.eye(4), q)
 
-
-def _with_joints(q, which):
-    """Return q with 0 for all other joints: their exponentials are I then."""
-    out = np.zeros_like(q)
-    out[which] = q[which]
-    return out
-
-
-NEIGHBOUR = "each joint is given its neighbour's angle: q is indexed one off"
-
-IN_Q = (
-    Change(
-        "joints-left-out",
-        "nothing moves: whatever q is, your pose is M, the one at q = 0",
-        np.zeros_like,
-        "the pose at q = 0",
-    ),
-    Change(
-        "all-backwards",
-        "every joint turns the other way, by -q",
-        np.negative,
-        "the pose at -q",
-    ),
-    Change(
-        "sign-of-q-lost",
-        "the sign of q is lost: a negative angle turns the positive way",
-        np.abs,
-        "the pose at |q|",
-    ),
-    Change(
-        "negative-angles-left-out",
-        "joints with a negative angle do not move",
-        lambda q: np.maximum(q, 0.0),
-        "the pose with 0 for each of them",
-    ),
-    Change(
-        "angles-added-up",
-        "each joint is given the sum of all angles up to its own; its exponential "
-        "needs its own alone, since the product carries the others",
-        np.cumsum,
-        "the pose with those sums",
-    ),
-    Change(
-        "radians-taken-for-degrees",
-        "q is in radians already, and is converted from degrees once more",
-        np.deg2rad,
-        "the pose at pi / 180 times q",
-    ),
-    Change(
-        "degrees",
-        "q comes in radians, and is used as degrees",
-        np.rad2deg,
-        "the pose at 180 / pi times q",
-    ),
-    Change(
-        "off-by-one-joint",
-        NEIGHBOUR,
-        lambda q: np.roll(q, 1),
-        "the pose with q shifted by one",
-    ),
-    Change(
-        "off-by-one-joint",
-        NEIGHBOUR,
-        lambda q: np.roll(q, -1),
-        "the pose with q shifted by one",
-    ),
-    Change(
-        "first-angle-for-all",
-        "every joint is given the first angle, q[0]: the index never moves on",
-        lambda q: np.full(7, q[0]),
-        "the pose with q[0] everywhere",
-    ),
-    Change(
-        "q-backwards",
-        "q is read backwards: joint1 gets the last angle",
-        lambda q: q[::-1],
-        "the pose with q backwards",
-    ),
-    Change(
-        "last-joint-missing",
-        "the last joint does not count: the loop ends one too early",
-        lambda q: _with_joints(q, slice(6)),
-        "the product without it",
-    ),
-    Change(
-        "first-joint-missing",
-        "the first joint does not count: the loop starts one too late",
-        lambda q: _with_joints(q, slice(1, 7)),
-        "the product without it",
-    ),
-    Change(
-        "first-joint-only",
-        "only the first joint counts (does return stand inside the loop?)",
-        lambda q: _with_joints(q, 0),
-        "the product with joint1 alone",
-    ),
-    Change(
-        "last-joint-only",
-        "only the last joint counts: what the others do is overwritten",
-        lambda q: _with_joints(q, 6),
-        "the product with joint7 alone",
-    ),
-)
-
-IN_M = (
-    Change(
-        "M-forgotten",
-        "M is missing: the motions are right, but they have to act on where the hand "
-        "is at q = 0",
-        lambda M: np.eye(4),
-        "the product without M",
-    ),
-    Change(
-        "M-inverted",
-        "M is inverted; it maps hand coordinates to the world as it is",
-        se3.inverse,
-        "the product with the inverse of M",
-    ),
-    Change(
-        "M-turned-back",
-        "M's rotation is transposed",
-        lambda M: se3.make_T(M[:3, :3].T, M[:3, 3]),
-        "the product with that M",
-        hidden="the Panda's M is symmetric",
-    ),
-    Change(
-        "M-twice",
-        "M is there twice, side by side",
-        lambda M: M @ M,
-        "the product with M M for M",
-    ),
-    Change(
-        "M-rotation-missing",
-        "M's rotation is missing; only its translation is there",
-        lambda M: se3.make_T(np.eye(3), M[:3, 3]),
-        "the product without it",
-    ),
-)
 
 # A joint's exponential by a wrong angle is the product at a wrong q.
 ALIKE = ({"turns-backwards", "all-backwards"}, {"degrees-into-cos", "degrees"})
@@ -189,90 +52,133 @@ def product_row(fk, inputs):
     return row
 
 
-EITHER = []  # mistakes that are made in `space` and in `body`, the form, alike
-
-
-def either(code):
-    """Take one of them; its words are as below `Row.wrong`."""
-    EITHER.append(code)
-    return code
-
-
 def with_M(form, T, M):
-    """Return T M or M T, as the form has it."""
+    """Return T M or M T, as the form, `space` or `body`, has it."""
     return T @ M if form is space else M @ T
-
-
-def by_entries(form, screws, M, q, T):
-    """Return the product with the exponentials multiplied entry by entry, T first."""
-    for S, theta in zip(screws, q, strict=True):
-        T = T * motion(S, theta)
-    return with_M(form, T, M)
-
-
-@either
-def product_reversed(form, screws, M, q):
-    """the exponentials stand in the reverse order: the joint nearest to the base
-    belongs on the left => the product in reverse"""
-    return form(screws[::-1], M, q[::-1])
-
-
-@either
-def M_twice(form, screws, M, q):
-    """M stands on both sides of the exponentials => the product with M twice"""
-    return M @ space(screws, M, q)
-
-
-@either
-def M_in_the_loop(form, screws, M, q):
-    """M is in the loop, beside every exponential: at q = 0 your pose is M seven times,
-    not M => that product"""
-    T = np.eye(4)
-    for S, theta in zip(screws, q, strict=True):
-        T = T @ with_M(form, motion(S, theta), M)
-    return T
-
-
-@either
-def exponentials_summed(form, screws, M, q):
-    """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
-    where the order does not matter => the exponential of the sum"""
-    V = q @ screws
-    size = np.linalg.norm(V[:3]) or 1.0
-    return with_M(form, motion(V / size, size), M)
-
-
-@either
-def multiplied_by_entries(form, screws, M, q):
-    """the exponentials are multiplied entry by entry, not as matrices => the product by
-    entries"""
-    return by_entries(form, screws, M, q, np.ones((4, 4)))
-
-
-@either
-def multiplied_by_entries(form, screws, M, q):
-    """the exponentials are multiplied entry by entry, not as matrices => the product by
-    entries, from the identity on"""
-    return by_entries(form, screws, M, q, np.eye(4))
 
 
 def either_form(row, form):
     """Take the mistakes that both forms have: in the product, in q, M or one factor."""
-    for code in EITHER:
-
-        def way(screws, M, q, code=code):
-            return code(form, screws, M, q)
-
-        way.__name__, way.__doc__ = code.__name__, code.__doc__
-        row.wrong(way)
-    for one in IN_Q:
-        row.wrong(one.slug, one.says, one.redone)(
-            lambda screws, M, q, change=one.change: form(screws, M, change(q))
-        )
-    for one in IN_M:
-        row.wrong(one.slug, one.says, one.redone, one.hidden)(
-            lambda screws, M, q, change=one.change: form(screws, change(M), q)
-        )
+    _in_the_product(row, form)
+    _in_q(row, form)
+    _in_M(row, form)
     row.reached_by(
         "exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN
     )
+
+
+def _in_the_product(row, form):
+    @row.wrongs
+    def _(screws, M, q):
+        """product-reversed: the exponentials stand in the reverse order: the joint
+          nearest to the base belongs on the left => the product in reverse
+        M-twice: M stands on both sides of the exponentials => the product with M twice
+        M-in-the-loop: M is in the loop, beside every exponential: at q = 0 your pose is
+          M seven times, not M => that product
+        multiplied-by-entries: the exponentials are multiplied entry by entry, not as
+          matrices => the product by entries
+        """
+        factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
+        beside_M = [with_M(form, T, M) for T in factors]
+        return {
+            "product-reversed": lambda: form(screws[::-1], M, q[::-1]),
+            "M-twice": lambda: M @ space(screws, M, q),
+            "M-in-the-loop": reduce(np.matmul, beside_M),
+            "multiplied-by-entries": with_M(form, np.prod(factors, axis=0), M),
+        }
+
+    @row.wrong
+    def multiplied_by_entries(screws, M, q):
+        """the exponentials are multiplied entry by entry, not as matrices => the
+        product by entries, from the identity on"""
+        factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
+        return with_M(form, np.eye(4) * np.prod(factors, axis=0), M)
+
+    @row.wrong
+    def exponentials_summed(screws, M, q):
+        """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
+        where the order does not matter => the exponential of the sum"""
+        V = q @ screws
+        size = np.linalg.norm(V[:3]) or 1.0
+        return with_M(form, motion(V / size, size), M)
+
+
+def _in_q(row, form):
+    @row.wrongs
+    def _(screws, M, q):
+        """joints-left-out: nothing moves: whatever q is, your pose is M, the one at q =
+          0 => the pose at q = 0
+        all-backwards: every joint turns the other way, by -q => the pose at -q
+        sign-of-q-lost: the sign of q is lost: a negative angle turns the positive way
+          => the pose at |q|
+        negative-angles-left-out: joints with a negative angle do not move => the pose
+          with 0 for each of them
+        angles-added-up: each joint is given the sum of all angles up to its own; its
+          exponential needs its own alone, since the product carries the others => the
+          pose with those sums
+        radians-taken-for-degrees: q is in radians already, and is converted from
+          degrees once more => the pose at pi / 180 times q
+        degrees: q comes in radians, and is used as degrees => the pose at 180 / pi
+          times q
+        first-angle-for-all: every joint is given the first angle, q[0]: the index never
+          moves on => the pose with q[0] everywhere
+        q-backwards: q is read backwards: joint1 gets the last angle => the pose with q
+          backwards
+        last-joint-missing: the last joint does not count: the loop ends one too early
+          => the product without it
+        first-joint-missing: the first joint does not count: the loop starts one too
+          late => the product without it
+        first-joint-only: only the first joint counts (does return stand inside the
+          loop?) => the product with joint1 alone
+        last-joint-only: only the last joint counts: what the others do is overwritten
+          => the product with joint7 alone
+        """
+        joint = np.arange(1, 8)
+        used = {
+            "joints-left-out": 0.0 * q,
+            "all-backwards": -q,
+            "sign-of-q-lost": np.abs(q),
+            "negative-angles-left-out": np.maximum(q, 0.0),
+            "angles-added-up": np.cumsum(q),
+            "radians-taken-for-degrees": np.deg2rad(q),
+            "degrees": np.rad2deg(q),
+            "first-angle-for-all": np.full(7, q[0]),
+            "q-backwards": q[::-1],
+            "last-joint-missing": q * (joint < 7),
+            "first-joint-missing": q * (joint > 1),
+            "first-joint-only": q * (joint == 1),
+            "last-joint-only": q * (joint == 7),
+        }
+        return {slug: partial(form, screws, M, x) for slug, x in used.items()}
+
+    for by in (1, -1):
+        row.wrong(
+            "off-by-one-joint",
+            "each joint is given its neighbour's angle: q is indexed one off",
+            "the pose with q shifted by one",
+        )(lambda screws, M, q, by=by: form(screws, M, np.roll(q, by)))
+
+
+def _in_M(row, form):
+    @row.wrongs
+    def _(screws, M, q):
+        """M-forgotten: M is missing: the motions are right, but they have to act on
+          where the hand is at q = 0 => the product without M
+        M-inverted: M is inverted; it maps hand coordinates to the world as it is => the
+          product with the inverse of M
+        M-twice: M is there twice, side by side => the product with M M for M
+        M-rotation-missing: M's rotation is missing; only its translation is there =>
+          the product without it
+        """
+        used = {
+            "M-forgotten": np.eye(4),
+            "M-inverted": se3.inverse(M),
+            "M-twice": M @ M,
+            "M-rotation-missing": se3.make_T(np.eye(3), M[:3, 3]),
+        }
+        return {slug: partial(form, screws, x, q) for slug, x in used.items()}
+
+    @row.wrong(hidden="the Panda's M is symmetric")
+    def M_turned_back(screws, M, q):
+        """M's rotation is transposed => the product with that M"""
+        return form(screws, se3.make_T(M[:3, :3].T, M[:3, 3]), q)
