@@ -47,6 +47,11 @@ def _(screws, M, T_goal, q_start, limits):
 # The loop with a wrong part.
 
 
+def in_the_hands_axes(T, T_goal):
+    """Return the error as the hand sees it."""
+    return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
+
+
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
     """space-jacobian: the steps are made with J_space: its v is that of another point
@@ -79,11 +84,6 @@ def _(screws, M, T_goal, q_start, limits):
         slug: partial(walk, screws, M, T_goal, **{**given, **one})
         for slug, one in parts.items()
     }
-
-
-def in_the_hands_axes(T, T_goal):
-    """Return the error as the hand sees it."""
-    return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
 
 
 @row.wrong(hidden="it arrives all the same: success is no proof")

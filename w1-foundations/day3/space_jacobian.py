@@ -1,12 +1,10 @@
 """3.1 `space_jacobian(screws, q)`: its questions and its mistakes."""
 
-from dataclasses import replace
 from itertools import accumulate
 
 import numpy as np
 
 from labkit.judge import Jacobian, draw
-from labkit.judge.argument_mistakes import DEGREES, NEGATED, RADIANS_TWICE
 from labkit.judge.row import Row
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
@@ -73,6 +71,11 @@ def _(screws, q):
       carry it => the Jacobian with the product of the joints after each
     adjoint-of-the-inverse: the screws are carried the other way: this is Ad of the
       inverse => the Jacobian with the inverse
+    all-backwards: every joint turns the other way, by -q => the Jacobian at -q
+    degrees: q comes in radians, and is used as degrees => the Jacobian at 180 / pi
+      times q
+    radians-taken-for-degrees: q is in radians already, and is converted from degrees
+      once more => the Jacobian at pi / 180 times q
     columns-reversed: the columns are in the reverse order: joint 1's comes first => the
       right one with its columns reversed
     """
@@ -89,7 +92,13 @@ def _(screws, q):
         "adjoint-of-the-inverse": np.linalg.inv(moved),
     }
     found = {slug: carried(screws, some) for slug, some in motions.items()}
-    return {**found, "columns-reversed": space_jacobian(screws, q)[:, ::-1]}
+    return {
+        **found,
+        "all-backwards": lambda: space_jacobian(screws, -q),
+        "degrees": lambda: space_jacobian(screws, np.rad2deg(q)),
+        "radians-taken-for-degrees": lambda: space_jacobian(screws, np.deg2rad(q)),
+        "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1],
+    }
 
 
 @row.wrongs
@@ -111,29 +120,6 @@ def _(screws, q):
     }
     moved = products(screws, q)
     return {slug: carried(screws, moved, own(one)) for slug, one in adjoints.items()}
-
-
-row.of_argument(
-    "q",
-    replace(
-        NEGATED,
-        slug="all-backwards",
-        says="every joint turns the other way, by -q",
-        redone="the Jacobian at -q",
-    ),
-    replace(
-        RADIANS_TWICE,
-        slug="degrees",
-        says="q comes in radians, and is used as degrees",
-        redone="the Jacobian at 180 / pi times q",
-    ),
-    replace(
-        DEGREES,
-        slug="radians-taken-for-degrees",
-        says="q is in radians already, and is converted from degrees once more",
-        redone="the Jacobian at pi / 180 times q",
-    ),
-)
 
 
 @row.wrong("columns-off")  # The loop ends one joint early.
