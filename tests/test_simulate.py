@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import control, jacobian, panda, scenes, simulate, task_space
+from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
 
@@ -192,26 +192,20 @@ def test_a_push_moves_the_soft_hand_by_force_over_stiffness(motors, wrench):
 
 @pytest.mark.parametrize("k", [400.0, 1000.0])
 def test_a_soft_hand_presses_with_the_force_that_was_asked_for(k):
-    model = scenes.press_table()
-    arm = panda.arm(model)
-    T = arm.at(READY_Q).T_world_ee.copy()
-    T[:3, 3] = [0.5, 0.0, scenes.TOUCH + 0.01]
-    ranges, _ = simulate.limits(model)
-    q0 = jacobian.solve_ik(arm.screws, arm.M_home, T, READY_Q, ranges)
     deep = task_space.set_point_for_force(0.05 * k, k, scenes.TOUCH)
 
-    def target(t):
-        goal = T.copy()
-        goal[2, 3] = max(deep, T[2, 3] - 0.1 * t)
-        return goal
+    def law(arm, q0):
+        T = arm.at(q0).T_world_ee
 
-    law = impedance(arm, target, np.array([30.0, 30, 30, k, k, k]), q0)
-    force = lambda model, data: scenes.contact_force(model, data, "tip", "table_top")  # noqa: E731
-    run = simulate.run(
-        model, simulate.start(model, q0), law, 3.0, rate=100, watch=force
-    )
-    # measured 19.993 and 49.955 N on 4.0.0, 49.971 on 3.3.0: 0.09 % off at most
-    assert run.seen[-1] == pytest.approx(0.05 * k, rel=2e-3)
+        def target(t):
+            goal = T.copy()
+            goal[2, 3] = max(deep, T[2, 3] - 0.1 * t)
+            return goal
+
+        return impedance(arm, target, np.array([30.0, 30, 30, k, k, k]), q0)
+
+    felt = contact.press(law, seconds=3.0, rate=100)
+    assert felt[-1] == pytest.approx(0.05 * k, rel=2e-3)
 
 
 def test_a_push_acts_at_the_site_where_it_is_now(motors):

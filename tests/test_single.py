@@ -68,9 +68,3 @@ def test_the_shape_is_the_callers_and_nothing_is_shared(twin):
     assert_same(kinematics.fk(chain, panda.READY_Q[None, None]), one[None, None], 0.0)
     kinematics.fk(chain, panda.READY_Q)[:] = 0.0
     assert_same(kinematics.fk(chain, panda.READY_Q), one, 0.0)
-
-
-def test_a_number_that_is_not_finite_is_refused_for_one_as_for_many(twin):
-    chain = kinematics.chain_to(panda.load(), "attachment_site")
-    with pytest.raises(ValueError, match="configuration 0 holds NaN"):
-        kinematics.fk(chain, [0.0] * 6 + [np.inf])
