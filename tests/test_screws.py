@@ -243,14 +243,3 @@ def test_what_is_no_arm_is_named(call, words):
     with pytest.raises(ValueError, match=words) as caught:
         call()
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("read", [panda.screws, panda.home_pose])
-def test_a_model_that_is_no_panda_is_refused_in_one_line(read):
-    import mujoco
-
-    from robo47.errors import Robo47Error
-
-    other = mujoco.MjModel.from_xml_string("<mujoco/>")
-    with pytest.raises(Robo47Error, match="load the Panda"):
-        read(other)

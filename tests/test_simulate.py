@@ -1,12 +1,10 @@
 """The loop that runs controllers, and the predictions of Days 5 and 6 come true."""
 
-import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
 
 from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
-from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
 
 SITE = "attachment_site"
@@ -243,9 +241,3 @@ def test_what_is_no_torque_is_refused(motors, answer):
     model, _ = motors
     with pytest.raises(ValueError, match="expected 7 torques"):
         simulate.run(model, simulate.start(model, READY_Q), lambda *_: answer, 0.1)
-
-
-def test_a_model_without_the_arm_is_named():
-    model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
-    with pytest.raises(Robo47Error, match="no joint1 to joint7"):
-        simulate.start(model, READY_Q)
