@@ -143,8 +143,8 @@ def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Arra
     """
     q = checks.array(q, "q", (7,))
     qd = np.broadcast_to(checks.per_joint(qd, "qd", q), 7)
-    J = mujoco_site_jacobian(model, q + STEP * np.outer([-2, -1, 1, 2], qd))
-    return np.tensordot([1.0, -8.0, 8.0, -1.0], J, 1) @ qd / (12.0 * STEP)
+    J = mujoco_site_jacobian(model, q + np.outer(STEP * np.array([-2, -1, 1, 2]), qd))
+    return (J[0] - 8.0 * J[1] + 8.0 * J[2] - J[3]) @ qd / (12.0 * STEP)
 
 
 def mujoco_push(
