@@ -4,8 +4,19 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
+from robo47 import (
+    contact,
+    control,
+    jacobian,
+    panda,
+    references,
+    scenes,
+    secret,
+    simulate,
+    task_space,
+)  # fmt: skip
 from robo47.panda import READY_Q
+from robo47.verify.loops import tracking
 
 SITE = "attachment_site"
 
@@ -29,23 +40,10 @@ def computed_torque(arm, q_ref, omega, zeta):
     return law
 
 
-def raised_cosine(t):
-    reach, w = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6]), np.pi
-    return (
-        READY_Q + reach * (1 - np.cos(w * t)) / 2,
-        reach * np.sin(w * t) * w / 2,
-        reach * np.cos(w * t) * w**2 / 2,
-    )
-
-
-def standing(q):
-    return lambda t: (q, np.zeros(7), np.zeros(7))
-
-
 def test_the_log_begins_at_the_measured_state_and_the_data_is_left_at_its_end(motors):
     model, arm = motors
     data = simulate.start(model, READY_Q, 0.1)
-    hold = computed_torque(arm, standing(READY_Q), 20, 1)
+    hold = computed_torque(arm, references.hold(READY_Q), 20, 1)
     run = simulate.run(model, data, hold, 0.2, rate=250)
     assert run.t.shape == (51,)
     assert run.q.shape == run.qd.shape == (51, 7)
@@ -76,7 +74,7 @@ def test_the_controller_is_called_once_a_period_and_its_torque_held(motors):
 
 def test_two_halves_are_the_whole(motors):
     model, arm = motors
-    law = computed_torque(arm, standing(READY_Q + 0.1), 10, 1)
+    law = computed_torque(arm, references.hold(READY_Q + 0.1), 10, 1)
     whole, halves = (simulate.start(model, READY_Q) for _ in range(2))
     simulate.run(model, whole, law, 0.2)
     for _ in range(2):
@@ -123,7 +121,7 @@ def test_the_error_decays_as_predicted_in_all_joints_alike(motors, omega, zeta):
     model, arm = motors
     e0 = 0.1 * np.array([1, -1, 1, -1, 1, -1, 1])
     data = simulate.start(model, READY_Q - e0)
-    law = computed_torque(arm, standing(READY_Q), omega, zeta)
+    law = computed_torque(arm, references.hold(READY_Q), omega, zeta)
     run = simulate.run(model, data, law, 10.0 / omega, rate=500)
     e = (READY_Q - run.q) / e0
     predicted = control.error_response(run.t, omega, zeta)[:, None]
@@ -149,10 +147,10 @@ def test_with_the_gains_outside_of_m_it_does_not(motors):
 
 def test_computed_torque_tracks_within_a_milliradian(motors):
     model, arm = motors
-    law = computed_torque(arm, raised_cosine, 20, 1)
+    swing = references.raised_cosine(READY_Q, secret.REACH)
+    law = computed_torque(arm, swing, 20, 1)
     run = simulate.run(model, simulate.start(model, READY_Q), law, 2.0)
-    error = np.array([raised_cosine(t)[0] for t in run.t]) - run.q
-    assert np.abs(error).max() < 1e-3  # measured 0.23e-3
+    assert tracking(run, swing).max() < 1.0  # mrad; measured 0.23
     assert (np.abs(run.tau) / simulate.limits(model)[1]).max() < 0.3  # measured .23
 
 
@@ -213,14 +211,8 @@ def test_a_push_acts_at_the_site_where_it_is_now(motors):
     wrench = np.array([0.5, -0.2, 0.3, 4.0, -2.0, 3.0])
     data.qpos[:] = READY_Q + 0.2  # site_xpos is that of the old place
     now = arm.at(data.qpos)
-    simulate.run(
-        model,
-        data,
-        lambda t, q, qd: now.gravity_torque,
-        0.002,
-        rate=500,
-        push=simulate.push_at(SITE, wrench),
-    )
+    push = simulate.push_at(SITE, wrench)
+    simulate.run(model, data, lambda *_: now.gravity_torque, 0.002, rate=500, push=push)
     h = model.opt.timestep
     M = now.M + h * np.diag(arm.damping)  # implicitfast
     assert_same(data.qvel, h * np.linalg.solve(M, now.J_site.T @ wrench), 1e-12)
