@@ -422,8 +422,9 @@ class TestMistakesOfTheTeacher:
         done = grade(clones, out / "grades.csv")
         assert done.returncode == 2
         assert "cannot be" in done.stderr
-        for words in (["--deadline", "soon"], ["--processes", "0"], ["--day", "9"]):
-            assert grade(*small, *words).returncode == 2
+        for words in ("deadline soon", "deadline 9999-12-31", "processes 0", "day 9"):
+            name, value = words.split()
+            assert grade(*small, f"--{name}", value).returncode == 2
 
     def test_help_fits_80_columns(self, run):
         said = run(SCRIPT, "--help", COLUMNS="80").stdout

@@ -95,9 +95,12 @@ def parse() -> argparse.Namespace:
 def moment(text: str) -> int:
     """Return a local time in seconds since 1970; a day alone means its end."""
     when = datetime.datetime.fromisoformat(text)
-    if len(text) <= len("2026-09-04"):
-        when += datetime.timedelta(days=1)
-    return int(when.timestamp())
+    try:
+        if len(text) <= len("2026-09-04"):
+            when += datetime.timedelta(days=1)
+        return int(when.timestamp())
+    except OverflowError:  # the end of the last year there is
+        raise ValueError(text) from None
 
 
 def positive(text: str) -> int:
