@@ -21,12 +21,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
-from robo47.fast.arm_state import (
-    ArmState,
-    Constants,
-    from_pseudo_inertia,
-    pseudo_inertias,
-)
+from robo47.fast.arm_state import ArmState, Constants, as_one
 
 GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 
@@ -75,16 +70,7 @@ class Arm:
     @cached_property
     def constants(self) -> Constants:
         """What does not depend on q, worked out once."""
-        return Constants(
-            self.screws,
-            self.M_home,
-            self.T_zero,
-            self.masses,
-            self.coms,
-            self.inertias,
-            self.armature,
-            self.gravity,
-        )
+        return Constants(self)
 
     def at(self, q: ArrayLike) -> ArmState:
         """Return the arm at a configuration; its quantities are computed when asked.
@@ -127,9 +113,10 @@ class Arm:
                 (self.inertias, inertia, "inertia"),
             )
         )
-        both = from_pseudo_inertia(pseudo_inertias(*pairs).sum(axis=0))
         heavier = {
             name: np.concatenate([getattr(self, name)[:-1], [value]])
-            for name, value in zip(("masses", "coms", "inertias"), both, strict=True)
+            for name, value in zip(
+                ("masses", "coms", "inertias"), as_one(*pairs), strict=True
+            )
         }
         return dataclasses.replace(self, **heavier)

@@ -16,6 +16,7 @@ from robo47 import checks, jacobian, panda, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
+from robo47.verify.motion import mujoco_site_jacobian
 
 SITE = "attachment_site"
 SPEED_UP = 1.0  # s, in which the hand gathers speed on its circle
@@ -140,7 +141,10 @@ def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Arra
     Returns:
         The hand's acceleration at qdd = 0 in rad/s2 and m/s2, (6,), to about 1e-11.
     """
-    return _site_bias(model, simulate.start(model, q, qd))
+    q = checks.array(q, "q", (7,))
+    qd = np.broadcast_to(checks.per_joint(qd, "qd", q), 7)
+    J = mujoco_site_jacobian(model, q + np.outer(STEP * np.array([-2, -1, 1, 2]), qd))
+    return (J[0] - 8.0 * J[1] + 8.0 * J[2] - J[3]) @ qd / (12.0 * STEP)
 
 
 def mujoco_push(
@@ -166,24 +170,5 @@ def mujoco_push(
     data.qfrc_applied[:] = checks.array(tau, "tau", (7,))
     simulate.push_at(SITE, wrench)(model, data)
     mujoco.mj_forward(model, data)  # fills qacc
-    joints, J = data.qacc.copy(), _site_jacobian(model, data)
-    return joints, J @ joints + _site_bias(model, data)
-
-
-def _site_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-    J = np.zeros((2, 3, model.nv))
-    mujoco.mj_jacSite(model, data, J[1], J[0], model.site(SITE).id)  # v comes first
-    return J.reshape(6, model.nv)
-
-
-def _site_bias(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-    """Return the rate of J times qd; leaves the data at another configuration."""
-    q, rate = data.qpos.copy(), np.zeros((6, model.nv))
-    if not data.qvel.any():
-        return rate[:, 0]
-    for times, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
-        data.qpos[:] = q + times * STEP * data.qvel
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)  # mj_jacSite reads what these two fill
-        rate += weight * _site_jacobian(model, data)
-    return rate @ data.qvel / (12.0 * STEP)
+    J = mujoco_site_jacobian(model, data.qpos)
+    return data.qacc, J @ data.qacc + mujoco_site_bias(model, data.qpos, data.qvel)

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
+from robo47.fast.vectors import times
 from robo47.screws import ad, skew
 
 
@@ -70,7 +71,7 @@ def link_inertias(
     inertias = checks.array(inertias, "inertias", (3, 3))
     R, p = T[..., :3, :3], T[..., :3, 3]
     turned = R @ inertias @ np.swapaxes(R, -1, -2)
-    return spatial_inertia(masses, _times(R, coms) + p, turned)
+    return spatial_inertia(masses, times(R, coms) + p, turned)
 
 
 def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
@@ -92,7 +93,7 @@ def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     armature = np.broadcast_to(checks.array(armature, "armature", ()), n)
     # Joint i carries link i and all after it (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
-    momenta = _times(carried, np.swapaxes(J, -1, -2))
+    momenta = times(carried, np.swapaxes(J, -1, -2))
     lower = np.tril(momenta @ J)  # what speed 1 of joint i makes joint j <= i feel
     return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
 
@@ -119,7 +120,7 @@ def gravity_torque(
     J = checks.array(J, "J", (6, n))
     coms = checks.array(coms_world, "coms_world", (n, 3))
     weights = checks.array(masses, "masses", (n,))[..., None] * _gravity(g)
-    moments = _times(skew(coms), weights)
+    moments = times(skew(coms), weights)
     forces = np.broadcast_to(weights, moments.shape)
     return -_felt(J, np.concatenate([moments, forces], axis=-1))
 
@@ -155,9 +156,9 @@ def inverse_dynamics(
     S = np.swapaxes(J, -1, -2)
     V = np.cumsum(S * qd, axis=-2)
     ad_V = ad(V)
-    A = np.cumsum(S * qdd + _times(ad_V, S * qd), axis=-2)
+    A = np.cumsum(S * qdd + times(ad_V, S * qd), axis=-2)
     A = A + np.concatenate([np.zeros(3), -_gravity(g)])
-    F = _times(G, A) - _times(np.swapaxes(ad_V, -1, -2), _times(G, V))
+    F = times(G, A) - times(np.swapaxes(ad_V, -1, -2), times(G, V))
     return _felt(J, F)
 
 
@@ -224,7 +225,7 @@ def energy(
     M, qd = checks.array(M, "M", (n, n)), checks.array(qd, "qd", (n,))
     masses = checks.array(masses, "masses", (n,))
     coms = checks.array(coms_world, "coms_world", (n, 3))
-    kinetic = 0.5 * (qd * _times(M, qd)).sum(axis=-1)
+    kinetic = 0.5 * (qd * times(M, qd)).sum(axis=-1)
     potential = -(masses * (coms @ _gravity(g))).sum(axis=-1)
     return np.stack(np.broadcast_arrays(kinetic, potential), axis=-1)
 
@@ -233,10 +234,6 @@ def _felt(J: Array, wrenches: Array) -> Array:
     """Return what each joint feels of the wrenches on its link and all after it."""
     carried = np.cumsum(wrenches[..., ::-1, :], axis=-2)[..., ::-1, :]
     return (np.swapaxes(J, -1, -2) * carried).sum(axis=-1)
-
-
-def _times(A: Array, x: Array) -> Array:
-    return (A @ x[..., None])[..., 0]
 
 
 def _gravity(g: ArrayLike) -> Array:

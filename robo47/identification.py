@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.fast.vectors import times
 from robo47.screws import ad, adjoint, skew
 
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
@@ -106,10 +107,10 @@ def arm_regressor(
     S = np.swapaxes(J, -1, -2)
     own = S * qd[..., None]
     V = np.cumsum(own, axis=-2)
-    A = np.cumsum(S * qdd[..., None] + _times(ad(V), own), axis=-2)
+    A = np.cumsum(S * qdd[..., None] + times(ad(V), own), axis=-2)
     A = A - np.append(np.zeros(3), checks.array(g, "g", (3,)))
     X = adjoint(se3.inverse(checks.array(T_links, "T_links", (n, 4, 4))))
-    wrenches = link_regressor(_times(X, V), _times(X, A))  # (..., n, 6, 10)
+    wrenches = link_regressor(times(X, V), times(X, A))  # (..., n, 6, 10)
     seen = np.swapaxes(X @ J[..., None, :, :], -1, -2)  # the joints from each link
     felt = np.swapaxes(seen @ wrenches, -3, -2)  # (..., joint, link, 10)
     felt = np.tri(n).T[..., None] * felt  # a joint carries its own link and those after
@@ -248,7 +249,3 @@ def _kept(Y: ArrayLike, rtol: float) -> tuple[Array, Array, Array]:
     if not rank:
         raise ValueError("Y is zero, or rtol is 1 or more: nothing counts")
     return U[:, :rank], s[:rank], Vt[:rank]
-
-
-def _times(A: Array, x: Array) -> Array:
-    return (A @ x[..., None])[..., 0]

@@ -111,8 +111,8 @@ def limits(model: mujoco.MjModel) -> tuple[Array, Array]:
     Returns:
         Ranges in radians, (7, 2), and torques in N m, (7,): 87 and 12.
     """
-    adr, _, motors = addresses(model)
-    joints = [int(np.flatnonzero(model.jnt_qposadr == a)[0]) for a in adr]
+    motors = addresses(model)[2]
+    joints = [model.joint(name).id for name in ARM_JOINTS]
     return model.jnt_range[joints], model.actuator_forcerange[motors, 1]
 
 

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
-from robo47.fast.vectors import cross_of
+from robo47.fast.vectors import cross_of, times
 
 
 def task_inertia(J: ArrayLike, M: ArrayLike) -> Array:
@@ -96,7 +96,7 @@ def osc_torque(
     m, n = J.shape[-2:]
     Lambda = checks.array(Lambda, "Lambda", (m, m))
     left = checks.array(acc, "acc", (m,)) - checks.array(site_bias, "site_bias", (m,))
-    return _times(_T(J), _times(Lambda, left)) + checks.array(bias, "bias", (n,))
+    return times(_T(J), times(Lambda, left)) + checks.array(bias, "bias", (n,))
 
 
 def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -> Array:
@@ -136,7 +136,7 @@ def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) ->
     e, V_err = checks.same_size(e=e, V_err=V_err)
     square = (e.shape[-1], e.shape[-1])
     K, D = checks.array(K, "K", square), checks.array(D, "D", square)
-    return _times(K, e) + _times(D, V_err)
+    return times(K, e) + times(D, V_err)
 
 
 def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
@@ -192,7 +192,7 @@ def impedance_torque(
     bias, qd = checks.array(bias, "bias", (n,)), checks.array(qd, "qd", (n,))
     tau_null = checks.array(tau_null, "tau_null", (n,))
     friction = checks.per_joint(damping, "damping", qd) * qd
-    return _times(_T(J), wrench) + bias + friction + tau_null
+    return times(_T(J), wrench) + bias + friction + tau_null
 
 
 def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> Array:
@@ -226,7 +226,7 @@ def hybrid_wrench(
     """
     V_err, D = checks.array(V_err, "V_err", (6,)), checks.array(D, "D", (6, 6))
     wrench = spring_wrench(checks.array(e, "e", (6,)), V_err, K, D)
-    down = _times(D, V_err)[..., 5] - checks.array(force, "force", ())
+    down = times(D, V_err)[..., 5] - checks.array(force, "force", ())
     sideways = np.broadcast_to(wrench[..., :5], (*down.shape, 5))
     return np.concatenate([sideways, down[..., None]], axis=-1)
 
@@ -238,7 +238,3 @@ def _model(J: ArrayLike, M: ArrayLike) -> tuple[Array, Array]:
 
 def _T(A: Array) -> Array:
     return np.swapaxes(A, -1, -2)
-
-
-def _times(A: Array, x: Array) -> Array:
-    return (A @ x[..., None])[..., 0]

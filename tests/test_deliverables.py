@@ -6,6 +6,7 @@ import re
 import shutil
 import struct
 import subprocess
+import time
 import zlib
 from dataclasses import replace
 
@@ -527,6 +528,14 @@ def test_without_git_on_the_machine_that_is_said(items, monkeypatch):
     item = items()["commit"]
     assert (item.status, item.passed) == ("todo", False)
     assert "install git" in item.message
+
+
+def test_a_picture_of_many_pieces_after_its_end_is_read_at_once():
+    data, pieces = png(PICTURE), chunk(b"IDAT", b"x" * 20) * 250_000
+    began = time.process_time()
+    with pytest.raises(FlawError, match="cut off or damaged"):
+        read_png(data[:-12] + pieces + data[-12:])
+    assert time.process_time() - began < 5  # it took 40 s, more with every piece
 
 
 def test_a_picture_that_inflates_without_end_is_refused(items, day):

@@ -24,24 +24,15 @@ def motions(either_panda):
     return either_panda, panda.arm(either_panda), q, qd, qdd
 
 
-def test_the_mass_matrices_are_mujocos(motions):
-    model, arm, q, _, _ = motions
-    M = dynamics.mass_matrix(arm, q)
-    assert_same(M, verify.mujoco_mass_matrix(model, q), 1e-13)
-
-
-def test_the_torques_with_armature_and_damping_are_mj_inverses(motions):
+def test_mass_matrices_jacobians_and_torques_are_mujocos(motions):
     model, arm, q, qd, qdd = motions
+    M, J = dynamics.mass_matrix(arm, q), dynamics.site_jacobian(arm, q)
+    assert_same(M, verify.mujoco_mass_matrix(model, q), 1e-13)
+    assert_same(J, verify.mujoco_site_jacobian(model, q), 1e-14)
     tau = dynamics.inverse_dynamics(arm, q, qd, qdd)
     tau += arm.armature * qdd + arm.damping * qd
     truth = verify.mujoco_inverse_dynamics(model, q, qd, qdd)
     assert_same(tau, truth, 1e-12)
-
-
-def test_the_jacobians_are_mujocos(motions):
-    model, arm, q, _, _ = motions
-    J = dynamics.site_jacobian(arm, q)
-    assert_same(J, verify.mujoco_site_jacobian(model, q), 1e-14)
 
 
 def test_the_pandas_links_need_no_fixed_rotation(either_panda):

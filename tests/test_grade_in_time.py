@@ -12,7 +12,7 @@ from make_class import DAY, DEADLINE, WEEK, commit, put
 from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
-from labkit.grade import sheet
+from labkit.grade import in_time, sheet
 from labkit.grade.in_time import read_in_time
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect
@@ -102,6 +102,35 @@ def test_a_file_too_large_to_look_at_is_said_so_as_in_the_folder(clone):
     assert "2.4 MB" in handin.unread[SCRIPT]
 
 
+def test_one_blob_under_many_names_fills_no_disk(clone, monkeypatch):
+    save(clone, "import m0", DEADLINE - HOUR)
+    (clone / "blob").write_bytes(b"#" * 3_000_000)
+    blob = git(clone, "hash-object", "-w", "blob")
+    (clone / "blob").unlink()
+    names = [f"{WEEK}/work/{name}.py" for name in ("x" * 300, *map(str, range(900)))]
+    entries = "".join(f"100644 {blob}\t{name}\n" for name in names)
+    command = ["git", "update-index", "--index-info"]
+    subprocess.run(command, cwd=clone, input=entries.encode(), check=True)
+    who = ("-c", "user.name=A", "-c", "user.email=a@b")
+    for when in (DEADLINE, DEADLINE + 60):
+        for role in ("AUTHOR", "COMMITTER"):
+            monkeypatch.setenv(f"GIT_{role}_DATE", f"{when} +0000")
+        git(clone, *who, "commit", "-q", "--allow-empty", "-m", "x")
+    taken: list[int] = []
+    asked = in_time.read_handin
+
+    def seen(day, folder):
+        files = [path.stat() for path in folder.rglob("*.py")]
+        taken.extend((len(files), sum(512 * file.st_blocks for file in files)))
+        return asked(day, folder)
+
+    monkeypatch.setattr(in_time, "read_handin", seen)
+    handin, _, late = read_in_time(DAY, clone, DEADLINE)
+    assert (late, handin.files[SCRIPT]) == (1, b"import m0")
+    assert taken[-2] <= in_time.MOST + 1
+    assert taken[-1] < 100_000
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows makes no links for us")
 def test_links_of_a_commit_are_not_followed(clone):
     (clone / SCRIPT).parent.mkdir(parents=True)
@@ -134,6 +163,43 @@ def amend(origin: Path, text: str, when: int) -> None:
     """Rewrite the last commit, as a forced push would show it."""
     git(origin, "update-ref", "-d", "HEAD")
     save(origin, text, when)
+
+
+def test_a_repository_that_was_empty_is_taken_when_something_is_pushed(pulled):
+    origin, pull = pulled
+    git(origin, "update-ref", "-d", "HEAD")
+    pull()
+    pull()
+    save(origin, "first = 1", DEADLINE)
+    assert (pull() / SCRIPT).read_text() == "first = 1"
+
+
+@pytest.mark.parametrize(
+    "attributes", ["ident", "text eol=crlf", "working-tree-encoding=UTF-32"]
+)
+def test_files_are_checked_out_as_large_as_they_are(pulled, attributes):
+    origin, pull = pulled
+    (origin / ".gitattributes").write_text(f"large.txt {attributes}\n")
+    text = b"$Id$\n" * 1000
+    (origin / "large.txt").write_bytes(
+        text.decode().encode("utf-32") if "32" in attributes else text
+    )
+    save(origin, "x = 1", DEADLINE)
+    (origin / "large.txt").unlink()
+    size = int(git(origin, "cat-file", "-s", "HEAD:large.txt"))
+    assert size == 5000
+    assert (pull() / "large.txt").stat().st_size == size
+
+
+@pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything"
+)
+def test_a_folder_that_may_not_be_read_is_no_fault_of_this_machine(clone):
+    save(clone, "x = 1", DEADLINE)
+    (clone / SCRIPT).parent.chmod(0)
+    package, _ = collected(clone)
+    (clone / SCRIPT).parent.chmod(0o700)
+    assert "cannot be read" in package.handin.unread[SCRIPT]
 
 
 def test_an_amended_and_forced_push_is_taken(pulled):

@@ -41,6 +41,7 @@ class Noisy(Tab):
         self.tick = page.tick("t", self.set)
         self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
+        self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")
         draw = page.draw
         draw.arrows([[[0, 0, 0], [0, 0, 1]]])
@@ -402,3 +403,11 @@ def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
         settle(page)
         assert page.kind.title == title
         assert "stopped with" not in contents(page)
+
+
+def test_an_image_of_depths_goes_from_black_to_white():
+    from labkit.inspector.instruments import as_bytes
+
+    shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+    assert shown.shape == (2, 2, 3)
+    assert shown[..., 0].tolist() == [[64, 128], [0, 255]]

@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 
 import hypothesis.extra.numpy as hnp
-import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
@@ -12,18 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.linalg import null_space
 from scipy.spatial.transform import Rotation
-from test_screws import (
-    BOOK_BODY,
-    BOOK_M,
-    BOOK_Q,
-    BOOK_SPACE,
-    PANDA,
-    any_screws,
-    arm,
-    directions,
-    poses,
-    vectors,
-)
+from test_screws import BOOK_M, PANDA, any_screws, arm, directions, poses
 
 from robo47 import jacobian, panda, screws, se3, verify
 
@@ -36,46 +24,15 @@ matrices = hnp.arrays(np.float64, (6, 7), elements=numbers)
 steps = hnp.arrays(np.float64, 7, elements=numbers)
 
 
-def mujoco_jacobian(model, q, frame):
-    """Return the frame's Jacobian as MuJoCo says it, angular rows first."""
-    data = mujoco.MjData(model)
-    angular, linear = np.zeros((2, 3, model.nv))
-    data.qpos[:] = q
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)  # mj_jac reads cdof, which this fills
-    kind, _, name = frame.partition(":")
-    if kind == "site":
-        mujoco.mj_jacSite(model, data, linear, angular, model.site(name).id)
-    else:
-        mujoco.mj_jacBody(model, data, linear, angular, model.body(name).id)
-    return np.vstack([angular, linear])
-
-
 # --- the three Jacobians ---
 
 
-@pytest.mark.parametrize("entry", ["panda_nohand", "panda"])
-def test_the_site_jacobian_is_mujocos(entry):
-    model = panda.load(entry)
-    S, M = arm(model)
-    q = verify.random_q(model, 300, seed=47)
-    p = screws.fk_space(S, M, q[:, :7])[:, :3, 3]
-    ours = jacobian.site_jacobian(jacobian.space_jacobian(S, q[:, :7]), p)
-    for row, J in zip(q, ours, strict=True):
-        truth = mujoco_jacobian(model, row, panda.END_FRAME[entry])
-        assert_same(J, truth[:, :7], 1e-14)
-
-
-def test_the_site_jacobian_is_how_the_pose_starts_to_change(either_panda):
+def test_the_site_jacobian_is_mujocos(either_panda):
     S, M = arm(either_panda)
-    q, h = verify.random_q(either_panda, 20, seed=1), 1e-6
-    T = screws.fk_space(S, M, q)
-    J = jacobian.site_jacobian(jacobian.space_jacobian(S, q), T[:, :3, 3])
-    for i in range(7):
-        change = h * np.eye(7)[i]
-        before, after = (screws.fk_space(S, M, q + way * change) for way in (-1, 1))
-        rate = jacobian.pose_error(before, after) / (2 * h)
-        assert_same(J[:, :, i], rate, 1e-8)
+    q = verify.random_q(either_panda, 300, seed=47)
+    p = screws.fk_space(S, M, q)[:, :3, 3]
+    ours = jacobian.site_jacobian(jacobian.space_jacobian(S, q), p)
+    assert_same(ours, verify.mujoco_site_jacobian(either_panda, q), 1e-14)
 
 
 @settings(max_examples=50)
@@ -103,37 +60,6 @@ def test_a_slide_of_any_length_is_a_slide(length):
     J = jacobian.space_jacobian(S, [1.0, 0.5])
     assert_same(J[:, 0] / length, S[0] / length, 1e-15)
     assert_same(J[3:, 1] - S[1, 3:], [length, 0, 0], 1e-15 * max(1.0, length))
-
-
-@given(vectors, vectors)
-def test_moving_the_point_twice_is_moving_it_by_the_sum(a, b):
-    J = jacobian.space_jacobian(PANDA, READY)
-    once = jacobian.site_jacobian(J, a + b)
-    assert_same(jacobian.site_jacobian(jacobian.site_jacobian(J, a), b), once, 1e-13)
-
-
-def test_the_textbooks_examples_of_both_jacobians():
-    # Modern Robotics' code library, the examples of JacobianSpace and JacobianBody.
-    space = [
-        [0, 0, 1, 0, 0.2, 0.2],
-        [1, 0, 0, 2, 0, 3],
-        [0, 1, 0, 0, 2, 1],
-        [1, 0, 0, 0.2, 0.3, 0.4],
-    ]
-    q = [0.2, 1.1, 0.1, 1.2]
-    book = [
-        [0, 0.98006658, -0.09011564, 0.95749426],
-        [0, 0.19866933, 0.4445544, 0.28487557],
-        [1, 0, 0.89120736, -0.04528405],
-        [0, 1.95218638, -2.21635216, -0.51161537],
-        [0.2, 0.43654132, -2.43712573, 2.77535713],
-        [0.2, 2.96026613, 3.23573065, 2.22512443],
-    ]
-    assert_same(jacobian.space_jacobian(space, q), book, 1e-8)
-    # The body Jacobian of the three-joint arm: its last column is the last screw.
-    T = screws.fk_body(BOOK_BODY, BOOK_M, BOOK_Q)
-    J = jacobian.body_jacobian(jacobian.space_jacobian(BOOK_SPACE, BOOK_Q), T)
-    assert_same(J[:, -1], BOOK_BODY[-1], 1e-14)
 
 
 def test_the_worked_cases_of_the_lesson():
@@ -204,26 +130,11 @@ all_angles = st.one_of(
 @example(np.array([0.0, 0.0, 1.0]), np.pi)
 @example(np.array([0.6, 0.0, -0.8]), np.pi - 1e-12)
 def test_the_log_gives_back_axis_and_angle_from_0_to_pi(axis, theta):
-    found = jacobian.log_rotation(se3.axis_angle(axis, theta))
-    if np.pi - theta < 1e-15:  # both signs are the same rotation
-        found = found * np.sign(found @ axis)
-    assert_same(found, axis * theta, 4e-15)
-
-
-@given(directions, all_angles)
-def test_the_log_agrees_with_scipy(axis, theta):
     R = se3.axis_angle(axis, theta)
-    ours, truth = jacobian.log_rotation(R), Rotation.from_matrix(R).as_rotvec()
-    if np.pi - theta < 1e-15:
-        truth = truth * np.sign(ours @ truth)
-    assert_same(ours, truth, 4e-15)
-
-
-@given(hnp.arrays(np.float64, 3, elements=st.floats(-1.8, 1.8)))
-def test_the_exponential_of_the_log_is_the_rotation(w):
-    R = Rotation.from_rotvec(w).as_matrix()
-    back = jacobian.log_rotation(R)
-    assert_same(Rotation.from_rotvec(back).as_matrix(), R, 4e-15)
+    found = jacobian.log_rotation(R)
+    for truth in (axis * theta, Rotation.from_matrix(R).as_rotvec()):  # SciPy's
+        same = np.pi - theta >= 1e-15 or found @ truth > 0  # at pi both signs are right
+        assert_same(found, truth if same else -truth, 4e-15)
 
 
 @pytest.mark.parametrize("axis", [[1, 0, 0], [0, -1, 0], [0, 0, -1], [-0.8, 0, 0.6]])
@@ -279,13 +190,6 @@ def test_at_the_zero_pose_the_three_equal_screws_leave_two_more_ways():
     ways = np.array([jacobian.null_step(J, dq) for dq in np.eye(7)])
     assert_same(J @ ways.T, np.zeros((6, 7)), 1e-14)
     assert np.linalg.matrix_rank(ways) == 7 - np.linalg.matrix_rank(J) > 1
-
-
-def test_the_elbow_moves_at_ready_and_the_hand_stays():
-    J = jacobian.space_jacobian(PANDA, READY)
-    part = jacobian.null_step(J, np.eye(7)[2])
-    assert_same(np.abs(part / np.linalg.norm(part))[[1, 3, 5]], [0, 0, 0], 1e-12)
-    assert np.linalg.norm(part) > 0.3
 
 
 @given(matrices)
@@ -348,9 +252,6 @@ def test_what_a_push_costs_is_what_mujoco_puts_in_its_place():
     p = verify.mujoco_poses(model, q)["site:attachment_site"][:, :3, 3]
     tau = jacobian.joint_torques(J, p, F)
     assert_same(tau, verify.mujoco_push(model, q, F), 1e-12)
-    # Power in is power out, and about the origin the same wrench has another moment.
-    q_dot = np.random.default_rng(7).normal(size=(20, 7))
-    V = (jacobian.site_jacobian(J, p) @ q_dot[..., None])[..., 0]
-    assert_same(np.sum(tau * q_dot, axis=1), np.sum(F * V, axis=1), 1e-12)
+    # About the origin the same wrench has another moment.
     about_0 = np.hstack([F[:, :3] + np.cross(p, F[:, 3:]), F[:, 3:]])
     assert_same(tau, jacobian.joint_torques(J, np.zeros(3), about_0), 1e-12)

@@ -75,8 +75,7 @@ def off_mujoco(model, q):
 @pytest.mark.meshes
 @pytest.mark.parametrize("entry", ["panda", "panda_nohand", "scene"])
 def test_every_frame_of_the_real_panda_agrees_with_mujoco(real_panda, entry):
-    worst = verify.verify_fk(panda.load(entry), 2000, seed=47)
-    assert worst.error < 1e-14, worst
+    assert verify.verify_fk(panda.load(entry), 2000, seed=47).error < 1e-14
 
 
 @pytest.mark.parametrize("entry", ["panda", "panda_nohand", "scene"])
@@ -116,23 +115,6 @@ def test_an_axis_that_is_nearly_one_of_the_frames_own_is_not_taken_for_it():
     q = [[1.0]]
     T = kinematics.fk(kinematics.chain_to(model, "link"), q)
     assert_same(T, verify.mujoco_poses(model, q)["body:link"], 1e-14)
-
-
-def test_textbook_example_of_forward_kinematics():
-    # Modern Robotics' code library, the example of FKinSpace: a hinge about z through
-    # (0, 4, 0), a slide along y, a screw of pitch 0.1 about -z through (0, 6, 0).
-    model = mujoco.MjModel.from_xml_string("""
-      <mujoco><compiler angle="radian"/><worldbody><body>
-        <joint axis="0 0 1" pos="0 4 0"/>
-        <joint type="slide" axis="0 1 0"/>
-        <joint axis="0 0 -1" pos="0 6 0"/>
-        <joint type="slide" axis="0 0 -1"/>
-        <geom size="1"/>
-        <site name="ee" pos="0 6 2" xyaxes="-1 0 0 0 1 0"/>
-      </body></worldbody></mujoco>""")
-    q = [np.pi / 2, 3.0, np.pi, 0.1 * np.pi]
-    book = [[0, 1, 0, -5], [1, 0, 0, 4], [0, 0, -1, 1.68584073], [0, 0, 0, 1]]
-    assert_same(kinematics.fk(kinematics.chain_to(model, "ee"), q), book, 1e-8)
 
 
 @given(st.lists(st.floats(-1, 1), min_size=3, max_size=3), st.floats(-7, 7))
@@ -214,6 +196,7 @@ def test_a_frame_that_is_not_there_is_refused_with_the_names_that_are(
             [[0.0] * 7, [0.0, np.inf] + [0.0] * 5],
             "configuration 1 holds NaN or infinity",
         ),
+        ([0.0] * 6 + [np.inf], "configuration 0 holds NaN"),  # alone: in plain floats
     ],
 )
 def test_a_configuration_that_does_not_fit_is_refused(twin, q, words):

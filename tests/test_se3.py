@@ -32,26 +32,6 @@ def poses(draw):
     return se3.make_T(draw(rotations()), draw(metres))
 
 
-def scipy_quat(R):
-    return Rotation.from_matrix(R).as_quat(canonical=True, scalar_first=True)
-
-
-@given(poses(), poses(), poses())
-def test_composition_is_associative(A, B, C):
-    assert_same((A @ B) @ C, A @ (B @ C), 1e-12)
-
-
-@given(poses())
-def test_a_pose_times_its_inverse_is_the_identity_on_both_sides(T):
-    assert_same(T @ se3.inverse(T), np.eye(4), 1e-13)
-    assert_same(se3.inverse(T) @ T, np.eye(4), 1e-13)
-
-
-@given(poses(), poses())
-def test_the_inverse_of_a_product_is_the_product_of_inverses_reversed(A, B):
-    assert_same(se3.inverse(A @ B), se3.inverse(B) @ se3.inverse(A), 1e-12)
-
-
 @given(poses())
 def test_the_inverse_agrees_with_a_general_matrix_inverse(T):
     assert_same(se3.inverse(T), np.linalg.inv(T), 1e-12)
@@ -96,12 +76,6 @@ def test_a_rotation_survives_the_round_trip_through_a_quaternion(R):
     assert_same(se3.quat_to_R(q), R, 2e-15)
 
 
-@given(rotations())
-def test_quaternions_of_rotations_agree_with_scipy_up_to_the_sign(R):
-    ours, truth = se3.R_to_quat(R), scipy_quat(R)
-    assert_same(ours * np.sign(ours @ truth), truth, 1e-14)
-
-
 @given(poses(), metres, directions, angles)
 def test_pose_distance_gives_back_the_distance_and_the_angle(T, d, axis, theta):
     moved = T @ se3.make_T(se3.axis_angle(axis, theta), d)
@@ -117,20 +91,6 @@ def test_pose_distance_is_exact_where_the_arccosine_loses_half_its_digits():
         assert_same(se3.pose_distance(np.eye(4), turned)[1], theta, 1e-15)
     eps = np.eye(4) + np.diag([4e-16, 4e-16, 4e-16, 0.0])  # trace > 3: arccos is NaN
     assert se3.pose_distance(eps, np.eye(4))[1] == 0.0
-
-
-def test_textbook_example_of_a_rotation_about_a_skew_axis():
-    # Modern Robotics, example 3.12: 30 degrees about (0, 0.866, 0.5).
-    R = se3.axis_angle([0.0, 0.866, 0.5], np.deg2rad(30.0))
-    book = [[0.866, -0.250, 0.433], [0.250, 0.967, 0.058], [-0.433, 0.058, 0.899]]
-    assert_same(R, book, 6e-4)
-
-
-def test_textbook_example_of_an_inverse_pose():
-    # Modern Robotics' code library, the example of TransInv.
-    T = [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 3], [0, 0, 0, 1]]
-    book = [[1, 0, 0, 0], [0, 0, 1, -3], [0, -1, 0, 0], [0, 0, 0, 1]]
-    assert_same(se3.inverse(T), book, 0.0)
 
 
 def test_leading_dimensions_broadcast():
@@ -191,8 +151,6 @@ def test_is_rotation_and_is_pose_tell_right_from_wrong():
     assert not any(se3.is_rotation(R) for R in wrong)
     assert not any(se3.is_pose(T) for T in [LAST_ROW, 2 * np.eye(4), np.eye(3)])
 
-
-def test_the_tolerance_decides_what_still_counts_as_rigid():
     nearly = se3.Rz(0.3).astype(np.float32)
     assert se3.is_rotation(nearly, 1e-6)
     assert not se3.is_rotation(nearly, 1e-12)

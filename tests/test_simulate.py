@@ -1,13 +1,22 @@
 """The loop that runs controllers, and the predictions of Days 5 and 6 come true."""
 
-import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
 
-from robo47 import control, jacobian, panda, scenes, simulate, task_space
-from robo47.errors import Robo47Error
+from robo47 import (
+    contact,
+    control,
+    jacobian,
+    panda,
+    references,
+    scenes,
+    secret,
+    simulate,
+    task_space,
+)  # fmt: skip
 from robo47.panda import READY_Q
+from robo47.verify.loops import tracking
 
 SITE = "attachment_site"
 
@@ -31,23 +40,10 @@ def computed_torque(arm, q_ref, omega, zeta):
     return law
 
 
-def raised_cosine(t):
-    reach, w = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6]), np.pi
-    return (
-        READY_Q + reach * (1 - np.cos(w * t)) / 2,
-        reach * np.sin(w * t) * w / 2,
-        reach * np.cos(w * t) * w**2 / 2,
-    )
-
-
-def standing(q):
-    return lambda t: (q, np.zeros(7), np.zeros(7))
-
-
 def test_the_log_begins_at_the_measured_state_and_the_data_is_left_at_its_end(motors):
     model, arm = motors
     data = simulate.start(model, READY_Q, 0.1)
-    hold = computed_torque(arm, standing(READY_Q), 20, 1)
+    hold = computed_torque(arm, references.hold(READY_Q), 20, 1)
     run = simulate.run(model, data, hold, 0.2, rate=250)
     assert run.t.shape == (51,)
     assert run.q.shape == run.qd.shape == (51, 7)
@@ -78,7 +74,7 @@ def test_the_controller_is_called_once_a_period_and_its_torque_held(motors):
 
 def test_two_halves_are_the_whole(motors):
     model, arm = motors
-    law = computed_torque(arm, standing(READY_Q + 0.1), 10, 1)
+    law = computed_torque(arm, references.hold(READY_Q + 0.1), 10, 1)
     whole, halves = (simulate.start(model, READY_Q) for _ in range(2))
     simulate.run(model, whole, law, 0.2)
     for _ in range(2):
@@ -125,7 +121,7 @@ def test_the_error_decays_as_predicted_in_all_joints_alike(motors, omega, zeta):
     model, arm = motors
     e0 = 0.1 * np.array([1, -1, 1, -1, 1, -1, 1])
     data = simulate.start(model, READY_Q - e0)
-    law = computed_torque(arm, standing(READY_Q), omega, zeta)
+    law = computed_torque(arm, references.hold(READY_Q), omega, zeta)
     run = simulate.run(model, data, law, 10.0 / omega, rate=500)
     e = (READY_Q - run.q) / e0
     predicted = control.error_response(run.t, omega, zeta)[:, None]
@@ -151,10 +147,10 @@ def test_with_the_gains_outside_of_m_it_does_not(motors):
 
 def test_computed_torque_tracks_within_a_milliradian(motors):
     model, arm = motors
-    law = computed_torque(arm, raised_cosine, 20, 1)
+    swing = references.raised_cosine(READY_Q, secret.REACH)
+    law = computed_torque(arm, swing, 20, 1)
     run = simulate.run(model, simulate.start(model, READY_Q), law, 2.0)
-    error = np.array([raised_cosine(t)[0] for t in run.t]) - run.q
-    assert np.abs(error).max() < 1e-3  # measured 0.23e-3
+    assert tracking(run, swing).max() < 1.0  # mrad; measured 0.23
     assert (np.abs(run.tau) / simulate.limits(model)[1]).max() < 0.3  # measured .23
 
 
@@ -192,26 +188,20 @@ def test_a_push_moves_the_soft_hand_by_force_over_stiffness(motors, wrench):
 
 @pytest.mark.parametrize("k", [400.0, 1000.0])
 def test_a_soft_hand_presses_with_the_force_that_was_asked_for(k):
-    model = scenes.press_table()
-    arm = panda.arm(model)
-    T = arm.at(READY_Q).T_world_ee.copy()
-    T[:3, 3] = [0.5, 0.0, scenes.TOUCH + 0.01]
-    ranges, _ = simulate.limits(model)
-    q0 = jacobian.solve_ik(arm.screws, arm.M_home, T, READY_Q, ranges)
     deep = task_space.set_point_for_force(0.05 * k, k, scenes.TOUCH)
 
-    def target(t):
-        goal = T.copy()
-        goal[2, 3] = max(deep, T[2, 3] - 0.1 * t)
-        return goal
+    def law(arm, q0):
+        T = arm.at(q0).T_world_ee
 
-    law = impedance(arm, target, np.array([30.0, 30, 30, k, k, k]), q0)
-    force = lambda model, data: scenes.contact_force(model, data, "tip", "table_top")  # noqa: E731
-    run = simulate.run(
-        model, simulate.start(model, q0), law, 3.0, rate=100, watch=force
-    )
-    # measured 19.993 and 49.955 N on 4.0.0, 49.971 on 3.3.0: 0.09 % off at most
-    assert run.seen[-1] == pytest.approx(0.05 * k, rel=2e-3)
+        def target(t):
+            goal = T.copy()
+            goal[2, 3] = max(deep, T[2, 3] - 0.1 * t)
+            return goal
+
+        return impedance(arm, target, np.array([30.0, 30, 30, k, k, k]), q0)
+
+    felt = contact.press(law, seconds=3.0, rate=100)
+    assert felt[-1] == pytest.approx(0.05 * k, rel=2e-3)
 
 
 def test_a_push_acts_at_the_site_where_it_is_now(motors):
@@ -221,14 +211,8 @@ def test_a_push_acts_at_the_site_where_it_is_now(motors):
     wrench = np.array([0.5, -0.2, 0.3, 4.0, -2.0, 3.0])
     data.qpos[:] = READY_Q + 0.2  # site_xpos is that of the old place
     now = arm.at(data.qpos)
-    simulate.run(
-        model,
-        data,
-        lambda t, q, qd: now.gravity_torque,
-        0.002,
-        rate=500,
-        push=simulate.push_at(SITE, wrench),
-    )
+    push = simulate.push_at(SITE, wrench)
+    simulate.run(model, data, lambda *_: now.gravity_torque, 0.002, rate=500, push=push)
     h = model.opt.timestep
     M = now.M + h * np.diag(arm.damping)  # implicitfast
     assert_same(data.qvel, h * np.linalg.solve(M, now.J_site.T @ wrench), 1e-12)
@@ -249,9 +233,3 @@ def test_what_is_no_torque_is_refused(motors, answer):
     model, _ = motors
     with pytest.raises(ValueError, match="expected 7 torques"):
         simulate.run(model, simulate.start(model, READY_Q), lambda *_: answer, 0.1)
-
-
-def test_a_model_without_the_arm_is_named():
-    model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
-    with pytest.raises(Robo47Error, match="no joint1 to joint7"):
-        simulate.start(model, READY_Q)

@@ -1,7 +1,6 @@
 """The hand's mass, springs and pushes against MuJoCo and by physics."""
 
 import hypothesis.extra.numpy as hnp
-import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
@@ -9,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import sqrtm
 
-from robo47 import panda, task_space, verify
+from robo47 import contact, panda, task_space, verify
 
 N = 100
-SITE = "attachment_site"
 wrenches = hnp.arrays(np.float64, 6, elements=st.floats(-20, 20))
 
 
@@ -33,19 +31,6 @@ def states():
     return model, [(arm.at(x), xd) for x, xd in zip(q, qd, strict=True)]
 
 
-def mujoco_at(model, q, qd):
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:] = q, qd
-    mujoco.mj_forward(model, data)
-    return data
-
-
-def site_jacobian(model, data):
-    Jp, Jr = np.zeros((2, 3, model.nv))
-    mujoco.mj_jacSite(model, data, Jp, Jr, model.site(SITE).id)
-    return np.concatenate([Jr, Jp])  # MuJoCo has the two halves apart
-
-
 def test_the_tutorial_cases_of_day_6():
     assert_same(task_space.task_inertia(np.eye(6), 2 * np.eye(6)), 2 * np.eye(6))
     spin = np.array([[0, 0, 1, 0, 0, 0.0]]).T
@@ -64,50 +49,20 @@ def test_the_tutorial_cases_of_day_6():
 
 def test_the_task_inertia_is_mujocos(states):
     model, arms = states
-    for now, qd in arms:
-        data = mujoco_at(model, now.q, qd)
-        J = site_jacobian(model, data)
-        MinvJT = np.zeros((6, model.nv))
-        mujoco.mj_solveM(model, data, MinvJT, J)  # row by row: M^-1 of each row of J
-        truth = np.linalg.inv(J @ MinvJT.T)
+    for now, _ in arms:
+        J = verify.mujoco_site_jacobian(model, now.q)
+        truth = np.linalg.inv(
+            J @ np.linalg.solve(verify.mujoco_mass_matrix(model, now.q), J.T)
+        )
         ours = task_space.task_inertia(now.J_site, now.M)
         assert_same(ours, truth, 1e-10 * np.abs(truth).max())
-
-
-def test_a_push_at_the_hand_accelerates_it_by_lambda_inverse(states):
-    model, arms = states
-    rng = np.random.default_rng(7)
-    for now, _ in arms:
-        data = mujoco_at(model, now.q, np.zeros(7))
-        wrench = rng.uniform(-10, 10, 6)
-        site = data.site(SITE)
-        body = int(model.site(SITE).bodyid[0])
-        data.ctrl[:] = data.qfrc_bias  # motors that hold the arm against gravity
-        mujoco.mj_applyFT(
-            model, data, wrench[3:], wrench[:3], site.xpos, body, data.qfrc_applied
-        )
-        mujoco.mj_forward(model, data)
-        acc = site_jacobian(model, data) @ data.qacc
-        Lambda = task_space.task_inertia(now.J_site, now.M)
-        assert_same(acc, np.linalg.solve(Lambda, wrench), 1e-9)
 
 
 def test_the_site_bias_is_the_rate_of_mujocos_jacobian(states):
     model, arms = states
     for now, qd in arms:
         ours = task_space.site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
-        assert_same(ours, jacobian_rate(model, now.q, qd) @ qd, 1e-8)
-
-
-def jacobian_rate(model, q, qd):
-    """Central differences: mj_jacDot of 3.3.0 leaves out that the point moves.
-
-    On 4.0.0 it agrees with site_bias to 5e-15.
-    """
-    h, rest = 1e-5, np.zeros(7)
-    after = site_jacobian(model, mujoco_at(model, q + h * qd, rest))
-    before = site_jacobian(model, mujoco_at(model, q - h * qd, rest))
-    return (after - before) / (2 * h)
+        assert_same(ours, contact.mujoco_site_bias(model, now.q, qd), 1e-9)
 
 
 def test_osc_torque_gives_the_simulated_hand_the_wanted_acceleration(states):
@@ -119,11 +74,8 @@ def test_osc_torque_gives_the_simulated_hand_the_wanted_acceleration(states):
         drift = task_space.site_bias(now.J_space, qd, p)
         Lambda = task_space.task_inertia(now.J_site, now.M)
         tau = task_space.osc_torque(now.J_site, Lambda, now.bias(qd), drift, acc)
-        data = mujoco_at(model, now.q, qd)
-        data.qfrc_applied[:] = tau + 1.0 * qd  # and what the joints' damping takes
-        mujoco.mj_forward(model, data)
-        ours = site_jacobian(model, data) @ data.qacc
-        ours += jacobian_rate(model, now.q, qd) @ qd
+        tau += 1.0 * qd  # what the joints' damping takes
+        _, ours = contact.mujoco_push(model, now.q, qd, tau, np.zeros(6))
         assert_same(ours, acc, 1e-8)
 
 
@@ -166,12 +118,6 @@ def test_critical_damping_is_scipys_square_roots(K, Lambda):
     ours = task_space.critical_damping(K, Lambda)
     assert_same(ours, root @ k + k @ root, 1e-8)
     assert_same(ours, ours.T, 1e-12)
-
-
-@given(st.floats(1, 1000), st.floats(0.1, 10))
-def test_equal_springs_are_critically_damped(k, mass):
-    ours = task_space.critical_damping([k] * 6, mass * np.eye(6))
-    assert_same(ours, 2.0 * np.sqrt(k * mass) * np.eye(6), 1e-9)
 
 
 @given(wrenches, wrenches, st.floats(0, 50))

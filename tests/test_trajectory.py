@@ -88,16 +88,6 @@ def test_a_joint_move_is_the_textbooks_trajectory():
     assert_same(ours[5, 0], end)
 
 
-@given(joints, joints, durations)
-def test_speed_and_acceleration_are_the_derivatives_of_position(q0, q1, T):
-    t, h = np.linspace(0.05, 0.95, 9) * T, 1e-5 * T
-    before, now, after = (
-        trajectory.joint_move(q0, q1, t + k * h, T) for k in (-1, 0, 1)
-    )
-    assert_same((after[:, 0] - before[:, 0]) / (2 * h), now[:, 1], 1e-6 / T)
-    assert_same((after[:, 1] - before[:, 1]) / (2 * h), now[:, 2], 1e-6 / T**2)
-
-
 @given(joints.filter(lambda dq: np.abs(dq).max() > 1e-3))
 def test_the_duration_uses_a_limit_up_and_breaks_none(dq):
     T = trajectory.quintic_duration(dq, SPEED_LIMITS, ACC_LIMITS)
@@ -152,27 +142,6 @@ def test_a_straight_pose_is_scipys_slerp_on_a_straight_line(T0, T1, s):
     both = Rotation.from_matrix([T0[:3, :3], T1[:3, :3]])
     assert_same(ours[:3, :3], Slerp([0, 1], both)(s).as_matrix(), 1e-8)
     assert_same(ours[:3, 3], (1 - s) * T0[:3, 3] + s * T1[:3, 3], 1e-12)
-
-
-def test_a_straight_pose_is_the_textbooks_cartesian_trajectory():
-    # The example in the docstring of modern_robotics.CartesianTrajectory, which
-    # prints three digits; the second of four points in 5 s, with a quintic.
-    T0 = se3.make_T(np.eye(3), [1, 0, 1])
-    T1 = se3.make_T([[0, 0, 1], [1, 0, 0], [0, 1, 0]], [0.1, 0, 4.1])
-    s = trajectory.quintic_scaling(5 / 3, 5)[0]
-    truth = [
-        [0.937, -0.214, 0.277, 0.811],
-        [0.277, 0.937, -0.214, 0],
-        [-0.214, 0.277, 0.937, 1.651],
-        [0, 0, 0, 1],
-    ]
-    assert_same(trajectory.straight_pose(T0, T1, s), truth, 5.1e-4)
-
-
-@given(poses(), poses())
-def test_a_straight_pose_begins_and_ends_where_it_should(T0, T1):
-    assert_same(trajectory.straight_pose(T0, T1, 0.0), T0, 1e-12)
-    assert_same(trajectory.straight_pose(T0, T1, 1.0), T1, 1e-7)
 
 
 @given(st.floats(-np.pi, np.pi), metres, st.floats(0, 0.5))

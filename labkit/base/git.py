@@ -28,6 +28,7 @@ LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can cla
 MOST_ENTRIES, LARGEST_GIT = 50_000, 1_000_000_000  # of a git folder: files, bytes
 MOST_FILES, LARGEST_TREE = 10_000, 200_000_000  # of a commit; the kit: 1,400, 6 MB
 LARGEST_OUTPUT = 20_000_000  # bytes that git may say
+LARGEST_CONFIG = 100_000  # bytes of a repository's configuration
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
 YEAR_2100 = 4_102_444_800
 SEEN = "refs/robo47/"  # where heads are kept that a later push took back
@@ -83,12 +84,15 @@ def read_history(
         return History(readable=False)
     named = _git(git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say=at)
     commit, _, size = (named or "").strip().partition(" ")
+    if named is None:  # what took all its time is not asked again
+        return History(readable=False)
     if not size.isdecimal():
         return History(readable=_git(git, "rev-list", "-1", "--all") == "")
     if int(size) > LARGEST_COMMIT:
         return History(readable=False)
     text = _git(git, "cat-file", "commit", commit)
-    tree = _git(git, "ls-tree", "-z", "--full-tree", commit, "--", *wanted)
+    listing = ("ls-tree", "-z", "--full-tree", commit, "--", *wanted)
+    tree = None if text is None else _git(git, *listing)
     if text is None or tree is None:
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
@@ -278,7 +282,13 @@ def _is_plain(git: Path) -> bool:
     if any(os.path.lexists(git / name) for name in _ELSEWHERE):
         return False
     configs = (git / name for name in ("config", "config.worktree"))
-    return not any(b"[include" in c.read_bytes().lower() for c in configs if c.exists())
+    return all(map(_stands_alone, filter(Path.exists, configs)))
+
+
+def _stands_alone(config: Path) -> bool:
+    """Return whether a configuration is of a sane size and includes no other file."""
+    small = config.stat().st_size <= LARGEST_CONFIG
+    return small and b"[include" not in config.read_bytes().lower()
 
 
 def _environment(**more: str) -> dict[str, str]:

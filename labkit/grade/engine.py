@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
+    CancelledError,
     Executor,
     Future,
     ThreadPoolExecutor,
@@ -17,6 +18,7 @@ from concurrent.futures import (
 from dataclasses import dataclass
 
 from labkit.base.processes import sweep
+from labkit.base.text import visible
 from labkit.grade.grader import (
     FOLDER,
     LEFT_BEHIND,
@@ -156,23 +158,40 @@ def _finished(
             future.cancel()
             yield key, package, FaultError(f"no answer for {SILENCE:.0f} s")
             continue
-        try:
-            yield key, package, _believed(future.result(), package)
-        except FaultError as error:
-            yield key, package, error
-        except engine.lost:
-            yield key, package, FaultError("the workers that graded it were lost")
-        except (ImportError, AttributeError) as error:  # an older commit's
-            raise Robo47Error(f"a worker cannot run this kit: {error}") from None
+        yield key, package, _answer(future, package, engine)
 
 
-def _believed(answer: object, package: Package) -> Result:
-    """Return a worker's answer as a result of the day: it can be anything.
+def _answer(
+    future: Future[Result], package: Package, engine: Engine
+) -> Result | FaultError:
+    """Return what came of a package; a worker may raise and return anything.
 
     Raises:
-        FaultError: it is none.
+        Robo47Error: no worker like that one can grade.
     """
     try:
-        return from_json(answer.to_json(), find_day(package.day))  # type: ignore
+        error = future.exception()
+    except CancelledError as cancelled:
+        error = cancelled
+    if error is None:
+        return _believed(future.result(), package)
+    if isinstance(error, FaultError):
+        return error
+    if isinstance(error, engine.lost):
+        return FaultError("the workers that graded it were lost")
+    if isinstance(error, ImportError | AttributeError):  # an older commit's
+        raise Robo47Error(f"a worker cannot run this kit: {visible(error)}")
+    if isinstance(error, Robo47Error):
+        raise Robo47Error(visible(error))
+    return FaultError(f"a worker ended with {type(error).__name__}: {error}")
+
+
+def _believed(answer: object, package: Package) -> Result | FaultError:
+    """Return a worker's answer, which can be anything, if it is one to this package."""
+    try:
+        result = from_json(answer.to_json(), find_day(package.day))  # type: ignore
     except Exception:
-        raise FaultError("a worker's answer is no result of the day") from None
+        return FaultError("a worker's answer is no result of the day")
+    if (result.kit, result.seed) != (package.version, package.seed):
+        return FaultError("a worker's answer is of another kit or seed")
+    return result

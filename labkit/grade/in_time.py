@@ -1,5 +1,6 @@
 """The work that counts: the folder as it is, or its last commit before the deadline."""
 
+import errno
 import os
 import tempfile
 from pathlib import Path
@@ -7,8 +8,9 @@ from pathlib import Path
 from labkit.base.git import History, before, blob, files_of, read_history
 from labkit.handin.commit import wanted_names
 from labkit.handin.handin import (
+    HELPERS,
     LIMITS,
-    LISTED,
+    NO_NAME,
     PICTURES,
     Handin,
     image_names,
@@ -18,6 +20,7 @@ from labkit.handin.handin import (
 from labkit.lesson.day import Day
 
 LARGEST = max(LIMITS.values())  # bytes of a file that is looked at
+MOST = 4 * HELPERS  # files beside the script: one blob may have any number of names
 
 
 def read_in_time(
@@ -51,13 +54,16 @@ def read_in_time(
 
 
 def _as_there(day: Day, root: Path) -> Day:
-    return day.named_as(lambda name: (root / name).is_file())
+    return day.named_as(lambda name: os.path.isfile(root / name))
 
 
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
     """Write what a day may hand in of a commit, without running anything of git's."""
     work = f"{Path(day.files['script']).parent.as_posix()}/"
-    _write(clone, files_of(clone, commit, work, *day.files.values()), folder)
+    _write(clone, files_of(clone, commit, *day.files.values()), folder)
+    beside = files_of(clone, commit, work).items()
+    helpers = {name: facts for name, facts in beside if name.endswith(".py")}
+    _write(clone, helpers, folder, LIMITS["script"])
     sheet = day.files.get("worksheet", "")
     there = sheet and (folder / sheet).is_file()
     text = (folder / sheet).read_text("utf-8", "replace") if there else ""
@@ -65,12 +71,22 @@ def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
     _write(clone, files_of(clone, commit, *filter(None, names)), folder)
 
 
-def _write(clone: Path, files: dict[str, tuple[str, int]], folder: Path) -> None:
-    for name, (hash_, size) in list(files.items())[:LISTED]:
+def _write(
+    clone: Path,
+    files: dict[str, tuple[str, int]],
+    folder: Path,
+    largest: int = LARGEST,
+) -> None:
+    for name, (hash_, size) in list(files.items())[:MOST]:
         path = folder / name
-        if path.exists() or ".." in path.parts:
-            continue
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(b"" if size > LARGEST else blob(clone, hash_))
-        if size > LARGEST:  # its size is all that is looked at
+        try:
+            if path.exists() or ".." in path.parts:
+                continue
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(b"" if size > largest else blob(clone, hash_))
+        except OSError as error:
+            if error.errno in (*NO_NAME, errno.EEXIST, errno.ENOTDIR):
+                continue  # git knows names that no folder has
+            raise
+        if size > largest:  # its size is all that is looked at
             os.truncate(path, size)

@@ -38,6 +38,8 @@ _SAFE = {
     "http.lowSpeedLimit": "1000",
     "http.lowSpeedTime": "30",
 }
+# Git may write a file many times as large as it is where the commit asks for it.
+_AS_IT_IS = b"* -text -ident !filter !working-tree-encoding\n"
 _NOT_OURS = (
     "make grade did not clone it, or its git configuration was changed since. Move the "
     "folder away to have it cloned anew"
@@ -114,16 +116,28 @@ def _update(clone: Path) -> str:
     """
     problem = _git(clone, "fetch", "-q", "--force", "--no-recurse-submodules")
     (clone / ".git" / "index.lock").unlink(missing_ok=True)  # of a run that was killed
-    if not problem and _git(clone, "merge-base", "--is-ancestor", "HEAD", "FETCH_HEAD"):
+    had, has = (_commit(clone, name) for name in ("HEAD", "FETCH_HEAD"))
+    if not problem and not had and not has:
+        return ""  # nothing was pushed yet
+    kept = ("merge-base", "--is-ancestor", "HEAD", "FETCH_HEAD")
+    if not problem and had and _git(clone, *kept):
         problem = _git(clone, "update-ref", f"{SEEN}{time.time_ns()}", "HEAD")
     return problem or _take(clone, "FETCH_HEAD", "reset", "-q", "--hard", "FETCH_HEAD")
 
 
+def _commit(clone: Path, name: str) -> bool:
+    """Return whether a name stands for a commit."""
+    return not _git(clone, "rev-parse", "-q", "--verify", name)
+
+
 def _take(clone: Path, commit: str, *how: str) -> str:
-    """Check out a commit of a sane size; return what went wrong, or ""."""
+    """Check out a commit of a sane size, as it is; return what went wrong, or ""."""
+    info = clone / ".git" / "info"
     try:
+        info.mkdir(exist_ok=True)
+        replace(info / "attributes", _AS_IT_IS)
         return too_much(clone, commit) or _git(clone, *how)
-    except GitError as error:
+    except (GitError, OSError) as error:
         return str(error)
 
 

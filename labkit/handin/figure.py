@@ -117,7 +117,7 @@ def _inflates(data: bytes, width: int, height: int) -> bool:
         while at + 8 <= len(data):
             size, kind = struct.unpack(">I4s", data[at : at + 8])
             piece = data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""
-            while piece:
+            while piece and not unpack.eof:  # what follows it costs ever more
                 most -= len(unpack.decompress(piece, 1_000_000))
                 piece = unpack.unconsumed_tail
                 if most < 0:

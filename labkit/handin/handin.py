@@ -30,7 +30,7 @@ _IMAGE = re.compile(
 )
 
 
-_NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
+NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
 
 
 class UnreadError(Exception):
@@ -138,7 +138,7 @@ def _size(root: Path, name: str) -> int | None:
     except (FileNotFoundError, NotADirectoryError, ValueError):  # ValueError: a NUL
         return None
     except OSError as error:
-        if error.errno in _NO_NAME:
+        if error.errno in NO_NAME:
             return None
         raise
     if not stat.S_ISREG(status.st_mode):

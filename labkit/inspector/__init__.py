@@ -45,6 +45,7 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
     slider, buttons, choice, tick    viser's own, each with a callback
     html, say, matrix, legend   text, a line, a pose, what the colours mean
     bars, plot                  numbers per joint against limits; curves over time
+    image                       what a camera sees, in colours or in depths
     light(chosen, shown)        which frames are drawn, and which one stands out
     hide_arm()                  no arm but the tab's own
     gui, scene                  viser's own, for what is missing here

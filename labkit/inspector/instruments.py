@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 import viser
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from viser import uplot
 
 from robo47.checks import Array
@@ -74,6 +74,7 @@ class Plot:
         self,
         gui: viser.GuiApi,
         curves: Sequence[str],
+        x: str,
         y: str,
         height: int,
         least: float,
@@ -81,7 +82,7 @@ class Plot:
         """Start empty; see `Page.plot`."""
         self.count, self.least = len(curves), least
         self.points: list[list[float]] = []
-        series = [uplot.Series(label="t (s)")] + [
+        series = [uplot.Series(label=x)] + [
             uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)
             for i, name in enumerate(curves)
         ]
@@ -111,3 +112,13 @@ class Plot:
         """Forget the points that were added."""
         self.points = []
         self.show(np.zeros(1), np.full((self.count, 1), self.least))
+
+
+def as_bytes(picture: Array) -> NDArray[np.uint8]:
+    """Return an image of bytes, (rows, columns, 3), of one that may be of numbers."""
+    if picture.ndim == 3:
+        return np.asarray(picture, dtype=np.uint8)
+    finite = np.nan_to_num(np.asarray(picture, dtype=float))  # no ray: black
+    span = max(float(np.ptp(finite)), 1e-12)
+    grey = np.round(255.0 * (finite - finite.min()) / span).astype(np.uint8)
+    return np.repeat(grey[..., None], 3, axis=2)

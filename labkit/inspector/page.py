@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from labkit.inspector import words
 from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
-from labkit.inspector.instruments import Bars, Plot
+from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
 from robo47 import kinematics
 from robo47.checks import Array
@@ -248,17 +248,34 @@ class Page:
         return Bars(self.html(), labels, full, unit, title, kind)
 
     def plot(
-        self, curves: Sequence[str], *, y: str = "", height: int = 150, least: float = 0
+        self,
+        curves: Sequence[str],
+        *,
+        x: str = "t (s)",
+        y: str = "",
+        height: int = 150,
+        least: float = 0,
     ) -> Plot:
-        """Add a plot over t in seconds; `show(x, ys)` or `add(x, values)` fills it.
+        """Add a plot; `show(x, ys)` or `add(x, values)` fills it.
 
         Args:
             curves: one name per curve.
+            x: the horizontal axis.
             y: the title: what is drawn, with its unit.
             height: pixels.
             least: the lowest value of a logarithmic axis; 0 for a plain one.
         """
-        return Plot(self.gui, curves, y, height, least)
+        return Plot(self.gui, curves, x, y, height, least)
+
+    def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
+        """Add an image; setting `image` to what `as_bytes` makes of one changes it.
+
+        Args:
+            picture: (rows, columns, 3) of bytes, or (rows, columns) of any numbers,
+                drawn from black (the smallest) to white.
+            title: above.
+        """
+        return self.gui.add_image(as_bytes(picture), label=title or None, format="png")
 
     def close(self) -> None:
         """Stop the loops, remove the drawings."""

@@ -46,10 +46,11 @@ def pseudo_inertias(masses: Array, coms: Array, inertias: Array) -> Array:
     return P
 
 
-def from_pseudo_inertia(P: Array) -> tuple[float, Array, Array]:
-    """Return (mass, centre of mass (3,), inertia about it (3, 3)) of one body."""
+def as_one(masses: Array, coms: Array, inertias: Array) -> tuple[float, Array, Array]:
+    """Return (mass, centre (3,), inertia about it (3, 3)) of bodies, given as above."""
+    P = pseudo_inertias(masses, coms, inertias).sum(axis=0)
     mass = float(P[3, 3])
-    com = P[:3, 3] / mass
+    com = P[:3, 3] / (mass or 1.0)  # nothing weighs nothing
     spread = P[:3, :3] - mass * np.outer(com, com)
     return mass, com, np.trace(spread) * np.eye(3) - spread
 
@@ -85,33 +86,23 @@ class Constants:
         M_home, T_zero, coms: as `robo47.arm.Arm` has them.
     """
 
-    def __init__(
-        self,
-        S_home: Array,
-        M_home: Array,
-        T_zero: Array,
-        masses: Array,
-        coms: Array,
-        inertias: Array,
-        armature: Array,
-        gravity: Array,
-    ) -> None:
-        """Work them out, once for each arm; the arguments are as those of `Arm`."""
-        n = len(masses)
+    def __init__(self, arm: Any) -> None:
+        """Work them out, once for each `robo47.arm.Arm`."""
+        n = len(arm.masses)
         S = np.zeros((n, 4, 4))
-        S[:, :3, :3], S[:, :3, 3] = screws.skew(S_home[:, :3]), S_home[:, 3:]
+        S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
         S2, S3 = S @ S, S @ S @ S
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
         self.powers = powers.reshape(n, 4, 16)
-        self.pairs = S_home.reshape(n, 2, 3).copy()
-        P = pseudo_inertias(masses, coms, inertias)
-        self.pseudo = T_zero @ P @ np.swapaxes(T_zero, -1, -2)
+        self.pairs = arm.screws.reshape(n, 2, 3).copy()
+        P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
+        self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
         self.before = np.tri(n)
         self.after = self.before.T.copy()
         self.lower = self.before.astype(bool)
-        self.armature = np.diag(armature)
-        self.A_base = np.concatenate([np.zeros(3), -gravity])
-        self.M_home, self.T_zero, self.coms = M_home, T_zero, coms
+        self.armature = np.diag(arm.armature)
+        self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
+        self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms
 
 
 class lazy:  # noqa: N801 (a decorator, as property is)

@@ -98,9 +98,7 @@ def _plan(screws: bytes, M: bytes) -> Plan:
 @functools.lru_cache(maxsize=64)
 def _arm(screws: bytes, M: bytes) -> Arm:
     lines = _lines(screws)
-    frames = np.tile(
-        np.eye(4), (len(lines) + 2, 1, 1)
-    )  # the world, the joints, the end
+    frames = np.tile(np.eye(4), (len(lines) + 2, 1, 1))  # world, joints, end
     for T, line in zip(frames[1:-1], lines, strict=True):
         T[:3, :3], T[:3, 3] = frame_with_z(line.direction), line.point
     frames[-1] = np.frombuffer(M).reshape(4, 4)

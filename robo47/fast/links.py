@@ -66,6 +66,7 @@ class Links:
     signs: Array
 
 
+@functools.lru_cache(maxsize=32)
 def links_of(arm: Arm) -> Links:
     """Return an arm's links, worked out once for each arm.
 
@@ -75,11 +76,6 @@ def links_of(arm: Arm) -> Links:
     Raises:
         ValueError: a joint is no hinge.
     """
-    return _links_of(arm)
-
-
-@functools.lru_cache(maxsize=32)
-def _links_of(arm: Arm) -> Links:
     links = []
     axes, origin = np.eye(3), np.zeros(3)  # of the link before, in the world
     pseudo = arm.constants.pseudo  # of each link about the world's origin, at q = 0

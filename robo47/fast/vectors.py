@@ -43,6 +43,11 @@ def cross_of(a: Array, b: Array) -> Array:
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 
 
+def times(A: Array, x: Array) -> Array:
+    """Return A x, (..., m), of matrices, (..., m, n), and vectors, (..., n)."""
+    return (A @ x[..., None])[..., 0]
+
+
 def dot(weights: Numbers, v: Numbers) -> Number:
     """Return the sum of the products, without those that are zero for sure."""
     total: Number = 0.0

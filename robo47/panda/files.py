@@ -59,11 +59,7 @@ def read_provenance() -> dict[str, Any]:
 
 
 def is_recorded(root: Path) -> bool:
-    """Return whether a folder holds a PROVENANCE.json that can be used.
-
-    Args:
-        root: the folder that holds the robots.
-    """
+    """Return whether a folder of robots holds a PROVENANCE.json that can be used."""
     return bool(_read_record(root))
 
 
@@ -81,11 +77,7 @@ def _read_record(root: Path) -> dict[str, Any]:
 
 
 def describe_copy(root: Path) -> dict[str, Any]:
-    """Return the provenance of a copy that somebody else put there.
-
-    Args:
-        root: the folder that holds the robots.
-    """
+    """Return the provenance of a folder of robots that somebody else put there."""
     git = ["git", "-C", str(root), "rev-parse", "--show-toplevel", "HEAD"]
     try:
         said = subprocess.run(git, capture_output=True, text=True, check=True).stdout
@@ -99,20 +91,12 @@ def describe_copy(root: Path) -> dict[str, Any]:
 
 
 def hash_file(path: Path) -> str:
-    """Return the sha256 of a file, in hexadecimal.
-
-    Args:
-        path: the file.
-    """
+    """Return the sha256 of a file, in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def hash_files(folder: Path) -> dict[str, str]:
-    """Return {path relative to the folder: sha256} of every file below it.
-
-    Args:
-        folder: the robot's folder.
-    """
+    """Return {path relative to the folder: sha256} of every file below it."""
     return {
         path.relative_to(folder).as_posix(): hash_file(path)
         for path in sorted(folder.rglob("*"))
@@ -121,12 +105,7 @@ def hash_files(folder: Path) -> dict[str, str]:
 
 
 def changed_files(folder: Path, recorded: dict[str, str]) -> list[str]:
-    """Return which recorded files are missing or differ, one line each.
-
-    Args:
-        folder: the robot's folder.
-        recorded: {relative path: sha256}, as `hash_files` returned it.
-    """
+    """Return which recorded files are missing or differ, one line each."""
     now = hash_files(folder)
     return [
         f"{name}: {'changed' if name in now else 'missing'}"
@@ -136,11 +115,7 @@ def changed_files(folder: Path, recorded: dict[str, str]) -> list[str]:
 
 
 def missing_files(folder: Path) -> list[str]:
-    """Return the files that the kit's entries need and the folder lacks.
-
-    Args:
-        folder: the robot's folder.
-    """
+    """Return the files that the kit's entries need and the robot's folder lacks."""
     missing = []
     for entry in ENTRIES:
         xml = folder / f"{entry}.xml"

@@ -12,7 +12,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import frame_names
 from robo47.panda import files as menagerie
-from robo47.paths import TWIN_XML, menagerie_root, shown
+from robo47.paths import TWIN_XML, shown
 
 ARM_JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 
@@ -111,16 +111,10 @@ def provenance() -> dict[str, Any]:
         not as it was fetched) and "folder" (as people read it).
     """
     folder = menagerie.panda_folder()
-    if folder is None:
-        return {
-            "robot": "Franka Panda",
-            "source": "the kit's embedded twin",
-            "commit": None,
-            "content": _content(TWIN_XML),
-            "edited": False,
-            "folder": shown(TWIN_XML.parent),
-        }
-    record, content = menagerie.read_provenance(), _content(folder / "panda_nohand.xml")
+    record: dict[str, Any] = {"source": "the kit's embedded twin"}
+    if folder is not None:
+        record = menagerie.read_provenance()
+    content = _content(folder / "panda_nohand.xml" if folder else TWIN_XML)
     fetched = record.get("files", {}).get("panda_nohand.xml", content)
     return {
         "robot": "Franka Panda",
@@ -128,7 +122,7 @@ def provenance() -> dict[str, Any]:
         "commit": record.get("commit"),
         "content": content,
         "edited": not fetched.startswith(content),
-        "folder": shown(menagerie_root() / menagerie.PANDA),
+        "folder": shown(folder or TWIN_XML.parent),
     }
 
 

@@ -14,8 +14,10 @@ from robo47 import kinematics, se3
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.fast.arm_state import as_one
+from robo47.fast.vectors import times
 from robo47.panda import ARM_JOINTS
-from robo47.screws import screw_axis, skew
+from robo47.screws import screw_axis
 
 # Where the arm ends, by entry: the same point, turned by 180 degrees about z.
 ENDS = ("site:attachment_site", "body:hand")
@@ -122,13 +124,12 @@ def hand_inertia(
     q[[model.jnt_qposadr[j] for b in bodies for j in _joints_of(model, b)]] = opening
     poses = kinematics.fk_all(model, q)
     T_link7_world = se3.inverse(poses[f"body:{model.body(link7).name}"])
-    parts = []
-    for b, about_com in zip(bodies, _about_coms(model, bodies), strict=True):
-        T = T_link7_world @ poses[f"body:{model.body(b).name}"]
-        R, p = T[:3, :3], T[:3, 3]
-        com = p + R @ model.body_ipos[b]
-        parts.append((float(model.body_mass[b]), com, R @ about_com @ R.T))
-    return _lumped([part for part in parts if part[0] > 0.0])
+    T = T_link7_world @ [poses[f"body:{model.body(b).name}"] for b in bodies]
+    R, p = T[:, :3, :3], T[:, :3, 3]
+    turned = R @ _about_coms(model, bodies) @ np.swapaxes(R, -1, -2)
+    return as_one(
+        model.body_mass[bodies], times(R, model.body_ipos[bodies]) + p, turned
+    )
 
 
 def arm(model: mujoco.MjModel) -> Arm:
@@ -166,19 +167,6 @@ def _drawn(model: mujoco.MjModel) -> Array:
         if model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
             q[model.jnt_qposadr[joint]] = 0.0
     return q
-
-
-def _lumped(parts: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array]:
-    """Return bodies (mass, com, inertia) as one: Modern Robotics, section 8.2.1."""
-    mass = sum(m for m, _, _ in parts)
-    if mass == 0.0:
-        return 0.0, np.zeros(3), np.zeros((3, 3))
-    com = np.sum([m * c for m, c, _ in parts], axis=0) / mass
-    inertia = np.zeros((3, 3))
-    for m, c, about_com in parts:
-        away = skew(c - com)
-        inertia += about_com + m * away @ away.T
-    return mass, com, inertia
 
 
 def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:

@@ -13,6 +13,7 @@ import numpy as np
 from robo47 import control, panda, se3, simulate, trajectory
 from robo47.checks import Array
 from robo47.verify.answers import each
+from robo47.verify.motion import mujoco_bias
 from robo47.verify.poses import random_q
 
 Function = Callable[..., Array]  # one of the lab's own
@@ -50,13 +51,9 @@ def compare(
     rng, n = np.random.default_rng(seed), len(at.T)
     L, v, a = _ramps(n, seed)
     R = se3.quat_to_R(rng.normal(size=(2, n, 4)))
-    T0, T1 = (
-        se3.make_T(one, p)
-        for one, p in zip(R, rng.uniform(-1, 1, (2, n, 3)), strict=True)
-    )
-    cubes = se3.make_T(
-        se3.Rz(rng.uniform(-np.pi, np.pi, n)), rng.uniform(-1, 1, (n, 3))
-    )
+    T0, T1 = se3.make_T(R, rng.uniform(-1, 1, (2, n, 3)))
+    turned = se3.Rz(rng.uniform(-np.pi, np.pi, n))
+    cubes = se3.make_T(turned, rng.uniform(-1, 1, (n, 3)))
     columns = {
         "quintic_scaling": (at.t, at.T),
         "joint_move": (at.q0, at.q1, at.t, at.T),
@@ -124,15 +121,9 @@ def carried(model: mujoco.MjModel, carry: Function, q: Array, seed: int) -> Arra
     inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
     arm = replace(panda.arm(model), masses=masses, coms=coms, inertias=inertias)
     qd = np.random.default_rng(seed).uniform(-2, 2, q.shape)
-    return each(lambda x, xd: arm.at(x).bias(xd) - _mujoco_bias(model, x, xd), q, qd)
-
-
-def _mujoco_bias(model: mujoco.MjModel, q: Array, qd: Array) -> Array:
-    """Return MuJoCo's Coriolis and gravity torques of the arm, fingers closed."""
-    data = mujoco.MjData(model)
-    data.qpos[:7], data.qvel[:7] = q, qd
-    mujoco.mj_forward(model, data)  # fills qfrc_bias
-    return data.qfrc_bias[:7].copy()
+    closed, still = np.zeros((len(q), model.nq - 7)), np.zeros((len(q), model.nv - 7))
+    truth = mujoco_bias(model, np.hstack([q, closed]), np.hstack([qd, still]))
+    return each(lambda x, xd: arm.at(x).bias(xd), q, qd) - truth[:, :7]
 
 
 def cubic(t: float, T: float) -> Array:

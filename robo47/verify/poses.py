@@ -77,14 +77,10 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
         mujoco.mj_kinematics(model, data)
         for kept, array in zip(ours, theirs, strict=True):
             kept[i] = array
-    bodies, sites = _poses(ours[0], ours[1]), _poses(ours[2], ours[3])
-    poses = {}
+    found, poses = {"body": _poses(*ours[:2]), "site": _poses(*ours[2:])}, {}
     for full in frame_names(model):
         kind, _, name = full.partition(":")
-        if kind == "body":
-            poses[full] = bodies[:, model.body(name).id]
-        else:
-            poses[full] = sites[:, model.site(name).id]
+        poses[full] = found[kind][:, getattr(model, kind)(name).id]
     return poses
 
 

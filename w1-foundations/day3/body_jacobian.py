@@ -21,47 +21,26 @@ def _(rng):
     return [(J[0], np.eye(4)), *zip(J, fk_space(S, M, q), strict=True)]
 
 
-def turned(J, R):
-    """Return both halves of a Jacobian turned by R."""
-    return np.vstack([R @ J[:3], R @ J[3:]])
-
-
-@row.wrong
-def adjoint_of_T(J_space, T):
-    """T leads from the hand to the world; here the twists are to be taken back => the
-    Jacobian with Ad(T)"""
-    return adjoint(T) @ J_space
-
-
-@row.wrong
-def space_for_body(J_space, T):
-    """this is J_space still, as the world sees it => J_space itself"""
-    return J_space.copy()
-
-
-@row.wrong
-def site_for_body(J_space, T):
-    """this is J_site: the velocity of the right point, but in the world's axes =>
-    J_site"""
-    return site_jacobian(J_space, T[:3, 3])
-
-
-@row.wrong
-def rotation_only(J_space, T):
-    """J_space is turned into the hand's axes, but v is still that of the point at the
-    world's origin => J_space in the hand's axes"""
-    return turned(J_space, T[:3, :3].T)
-
-
-@row.wrong
-def transposed_adjoint(J_space, T):
-    """this is Ad(T) transposed; the inverse of an adjoint is not its transpose => the
-    Jacobian with that transpose"""
-    return adjoint(T).T @ J_space
-
-
-@row.wrong
-def turned_by_R(J_space, T):
-    """J_site is turned by R, which leads from the hand's axes to the world's; the way
-    back is R^T => J_site turned by R"""
-    return turned(site_jacobian(J_space, T[:3, 3]), T[:3, :3])
+@row.wrongs
+def _(J_space, T):
+    """adjoint-of-T: T leads from the hand to the world; here the twists are to be taken
+      back => the Jacobian with Ad(T)
+    space-for-body: this is J_space still, as the world sees it => J_space itself
+    site-for-body: this is J_site: the velocity of the right point, but in the world's
+      axes => J_site
+    rotation-only: J_space is turned into the hand's axes, but v is still that of the
+      point at the world's origin => J_space in the hand's axes
+    transposed-adjoint: this is Ad(T) transposed; the inverse of an adjoint is not its
+      transpose => the Jacobian with that transpose
+    turned-by-R: J_site is turned by R, which leads from the hand's axes to the world's;
+      the way back is R^T => J_site turned by R
+    """
+    J_site, R = site_jacobian(J_space, T[:3, 3]), np.kron(np.eye(2), T[:3, :3])
+    return {
+        "adjoint-of-T": adjoint(T) @ J_space,
+        "space-for-body": J_space,
+        "site-for-body": J_site,
+        "rotation-only": R.T @ J_space,
+        "transposed-adjoint": adjoint(T).T @ J_space,
+        "turned-by-R": R @ J_site,
+    }

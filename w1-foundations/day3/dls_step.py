@@ -36,97 +36,57 @@ def _(rng):
     return [first, *zip(near_singular(rng), e, damping, strict=True)]
 
 
-@row.wrong
-def relative_damping(J, e, damping):
-    """the damping is multiplied by J's largest singular value; it is a number of its
-    own, in the units of J => the right one with damping ||J||"""
-    return dls_step(J, e, damping * np.linalg.norm(J, 2))
-
-
-def weighted(J, e, weight):
-    """Return the step with a weight for each singular value."""
+@row.wrongs
+def _(J, e, damping):
+    """relative-damping: the damping is multiplied by J's largest singular value; it is
+      a number of its own, in the units of J => the right one with damping ||J||
+    damping-not-squared: the damping is not squared => the step with damping I
+    damping-dropped: there is no damping in it: this is the plain pseudo-inverse, which
+      is huge near a singularity => the step of the pseudo-inverse
+    damping-doubled: the damping is multiplied by 2, not by itself => the step with 2
+      damping I
+    damping-halved: half of the squared damping is added, not all of it => the step with
+      half of it
+    damping-everywhere: damping^2 is added to every entry of J J^T; it belongs on the
+      diagonal only => the step with damping^2 in every entry
+    transpose-only: this is J^T e: the inverse is missing, so the step has the wrong
+      length and direction => J^T e
+    identity-scaled: this is J^T e over damping^2: J J^T is left out => J^T e /
+      damping^2
+    pseudo-inverse-scaled: the plain step is divided by 1 + damping^2; damping changes
+      the directions near a singularity most => the plain step over 1 + damping^2
+    damping-squared-twice: the damping is squared twice: its fourth power is added =>
+      the step with damping^4 I
+    damping-fixed: the damping is 0.05 whatever the argument says => the step with
+      damping 0.05
+    damping-added-to-the-values: the damping is added to each singular value s, 1 / (s +
+      damping); the formula makes s / (s^2 + damping^2) of it => the step with 1 / (s +
+      damping)
+    singular-value-missing: the weights are 1 / (s^2 + damping^2) for the singular
+      values s: J^T in front puts one more s above => the step with 1 / (s^2 +
+      damping^2)
+    """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)
-    return Vt.T @ (weight(s) * (U.T @ e))
+    along = U.T @ e  # the singular directions of the hand
 
+    def with_added(A):
+        return J.T @ solve(J @ J.T + A, e)
 
-@row.wrong
-def damping_not_squared(J, e, damping):
-    """the damping is not squared => the step with damping I"""
-    return J.T @ solve(J @ J.T + damping * I6, e)
-
-
-@row.wrong
-def damping_dropped(J, e, damping):
-    """there is no damping in it: this is the plain pseudo-inverse, which is huge near a
-    singularity => the step of the pseudo-inverse"""
-    return pinv(J) @ e
-
-
-@row.wrong
-def damping_doubled(J, e, damping):
-    """the damping is multiplied by 2, not by itself => the step with 2 damping I"""
-    return J.T @ solve(J @ J.T + damping * 2 * I6, e)
-
-
-@row.wrong
-def damping_halved(J, e, damping):
-    """half of the squared damping is added, not all of it => the step with half of
-    it"""
-    return J.T @ solve(J @ J.T + damping**2 / 2 * I6, e)
-
-
-@row.wrong
-def damping_everywhere(J, e, damping):
-    """damping^2 is added to every entry of J J^T; it belongs on the diagonal only =>
-    the step with damping^2 in every entry"""
-    return J.T @ solve(J @ J.T + damping**2, e)
-
-
-@row.wrong
-def transpose_only(J, e, damping):
-    """this is J^T e: the inverse is missing, so the step has the wrong length and
-    direction => J^T e"""
-    return J.T @ e
-
-
-@row.wrong
-def identity_scaled(J, e, damping):
-    """this is J^T e over damping^2: J J^T is left out => J^T e / damping^2"""
-    return J.T @ e / damping**2
-
-
-@row.wrong
-def pseudo_inverse_scaled(J, e, damping):
-    """the plain step is divided by 1 + damping^2; damping changes the directions near a
-    singularity most => the plain step over 1 + damping^2"""
-    return pinv(J) @ e / (1 + damping**2)
-
-
-@row.wrong
-def damping_squared_twice(J, e, damping):
-    """the damping is squared twice: its fourth power is added => the step with
-    damping^4 I"""
-    return J.T @ solve(J @ J.T + damping**4 * I6, e)
-
-
-@row.wrong
-def damping_fixed(J, e, damping):
-    """the damping is 0.05 whatever the argument says => the step with damping 0.05"""
-    return J.T @ solve(J @ J.T + 0.05**2 * I6, e)
-
-
-@row.wrong
-def damping_added_to_the_values(J, e, damping):
-    """the damping is added to each singular value s, 1 / (s + damping); the formula
-    makes s / (s^2 + damping^2) of it => the step with 1 / (s + damping)"""
-    return weighted(J, e, lambda s: 1 / (s + damping))
-
-
-@row.wrong
-def singular_value_missing(J, e, damping):
-    """the weights are 1 / (s^2 + damping^2) for the singular values s: J^T in front
-    puts one more s above => the step with 1 / (s^2 + damping^2)"""
-    return weighted(J, e, lambda s: 1 / (s**2 + damping**2))
+    return {
+        "relative-damping": dls_step(J, e, damping * s[0]),
+        "damping-not-squared": with_added(damping * I6),
+        "damping-dropped": pinv(J) @ e,
+        "damping-doubled": with_added(2 * damping * I6),
+        "damping-halved": with_added(damping**2 / 2 * I6),
+        "damping-everywhere": with_added(damping**2),
+        "transpose-only": J.T @ e,
+        "identity-scaled": J.T @ e / damping**2,
+        "pseudo-inverse-scaled": pinv(J) @ e / (1 + damping**2),
+        "damping-squared-twice": with_added(damping**4 * I6),
+        "damping-fixed": with_added(0.05**2 * I6),
+        "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
+        "singular-value-missing": Vt.T @ (along / (s**2 + damping**2)),
+    }
 
 
 @row.wrong("zero-without-damping", hidden="step 6 checks nothing")

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Vector, draw
 from labkit.judge.row import Row
-from robo47.jacobian import joint_torques, site_jacobian
+from robo47.jacobian import site_jacobian
 
 from .jacobians import JOINTS
 
@@ -22,58 +22,33 @@ def _(rng):
     return [first, *zip(drawn, points, wrenches, strict=True)]
 
 
-@row.wrong
-def at_the_origin(J_space, p, F):
-    """J_space^T goes with a wrench about the world's origin; this one is about p => the
-    torques with J_space for J_site"""
-    return J_space.T @ F
-
-
-@row.wrong
-def what_balances_it(J_space, p, F):
-    """the sign is that of a world which pushes the hand; here the hand pushes, so the
-    power of the motors is that of F => its negative"""
-    return -joint_torques(J_space, p, F)
-
-
-@row.wrong
-def pseudo_inverse(J_space, p, F):
-    """this is J^+ F, which is good for velocities: the motors' power is then not the
-    hand's. Write both powers down => J^+ F"""
-    return np.linalg.pinv(site_jacobian(J_space, p)) @ F
-
-
-@row.wrong
-def halves_swapped(J_space, p, F):
-    """the force is taken for the moment, and the moment for the force: F is (moment;
-    force), as J is (omega; v) => the torques with F's halves swapped"""
-    return joint_torques(J_space, p, np.roll(F, 3))
-
-
-@row.wrong
-def moment_forgotten(J_space, p, F):
-    """the moment is left out: its power is moment . omega => the torques of the force
-    alone"""
-    return site_jacobian(J_space, p)[3:].T @ F[3:]
-
-
-@row.wrong
-def force_forgotten(J_space, p, F):
-    """the force is left out: its power is force . v => the torques of the moment
-    alone"""
-    return J_space[:3].T @ F[:3]
-
-
-@row.wrong
-def arm_the_wrong_way(J_space, p, F):
-    """the moment of the force about the origin is p x f, not f x p => the torques with
-    -p for p"""
-    return joint_torques(J_space, -p, F)
-
-
-@row.wrong
-def arm_twice(J_space, p, F):
-    """p x f is added to the moment, and the Jacobian is that of p already: one of the
-    two => the torques with both"""
-    moment = F[:3] + np.cross(p, F[3:])
-    return joint_torques(J_space, p, np.append(moment, F[3:]))
+@row.wrongs
+def _(J_space, p, F):
+    """at-the-origin: J_space^T goes with a wrench about the world's origin; this one is
+      about p => the torques with J_space for J_site
+    what-balances-it: the sign is that of a world which pushes the hand; here the hand
+      pushes, so the power of the motors is that of F => its negative
+    pseudo-inverse: this is J^+ F, which is good for velocities: the motors' power is
+      then not the hand's. Write both powers down => J^+ F
+    halves-swapped: the force is taken for the moment, and the moment for the force: F
+      is (moment; force), as J is (omega; v) => the torques with F's halves swapped
+    moment-forgotten: the moment is left out: its power is moment . omega => the torques
+      of the force alone
+    force-forgotten: the force is left out: its power is force . v => the torques of the
+      moment alone
+    arm-the-wrong-way: the moment of the force about the origin is p x f, not f x p =>
+      the torques with -p for p
+    arm-twice: p x f is added to the moment, and the Jacobian is that of p already: one
+      of the two => the torques with both
+    """
+    J, moment, force = site_jacobian(J_space, p), F[:3], F[3:]
+    return {
+        "at-the-origin": J_space.T @ F,
+        "what-balances-it": -J.T @ F,
+        "pseudo-inverse": np.linalg.pinv(J) @ F,
+        "halves-swapped": J.T @ np.append(force, moment),
+        "moment-forgotten": J[3:].T @ force,
+        "force-forgotten": J[:3].T @ moment,
+        "arm-the-wrong-way": site_jacobian(J_space, -p).T @ F,
+        "arm-twice": J.T @ np.append(moment + np.cross(p, force), force),
+    }

@@ -91,106 +91,62 @@ def axis(R):
     return w / (np.linalg.norm(w) or 1.0)
 
 
-def quaternion_part(R):
-    """Return the axis times the sine of half the angle."""
-    q = se3.R_to_quat(R)
-    return -q[1:] if q[0] < 0 else q[1:]
-
-
 def roll_pitch_yaw(R):
     """Return the angles about x, y and z of R = Rz(yaw) Ry(pitch) Rx(roll)."""
     roll, yaw = np.arctan2(R[2, 1], R[2, 2]), np.arctan2(R[1, 0], R[0, 0])
     return np.array([roll, -np.arcsin(np.clip(R[2, 0], -1, 1)), yaw])
 
 
-@row.wrong
-def sine_for_angle(R):
-    """the vector's length is the sine of the angle; it has to be the angle => the axis
-    times the sine"""
-    return vee(R) / 2
-
-
-@row.wrong
-def twice_the_sine(R):
-    """the vector's length is twice the sine of the angle: the half is missing, and so
-    is the angle => the vector of the entries of R - R^T"""
-    return vee(R)
-
-
-@row.wrong
-def quaternion_vector_part(R):
-    """this is the vector part of the quaternion: its length is sin(angle / 2) => that
-    vector part"""
-    return quaternion_part(R)
-
-
-@row.wrong
-def twice_the_quaternion_part(R):
-    """this is twice the vector part of the quaternion: it is like the angle only near 0
-    => twice that vector part"""
-    return 2 * quaternion_part(R)
-
-
-@row.wrong
-def axis_only(R):
-    """its length is 1 (the axis); it has to be the angle => the axis alone"""
-    return axis(R)
-
-
-@row.wrong
-def arcsine(R):
-    """the angle is right up to 90 degrees only: an arcsine cannot tell 100 degrees from
-    80, for which the trace is needed => the axis times the arcsine"""
-    a, sine, _ = parts(R)
-    return a / sine * np.arcsin(min(sine, 1.0)) if sine > 0 else a
-
-
-@row.wrong
-def half_the_angle(R):
-    """its length is half the angle, as in a quaternion => half of it"""
-    return log_rotation(R) / 2
-
-
-@row.wrong
-def in_degrees(R):
-    """the angle is in degrees; here it is in radians => the answer in degrees"""
-    return np.rad2deg(log_rotation(R))
-
-
-@row.wrong("roll-pitch-yaw")
+@row.wrongs
 def _(R):
-    """these are the angles of three turns about x, y and z, one after the other; one
-    turn about one axis is asked for => the vector (roll, pitch, yaw)"""
-    return roll_pitch_yaw(R)
+    """sine-for-angle: the vector's length is the sine of the angle; it has to be the
+      angle => the axis times the sine
+    twice-the-sine: the vector's length is twice the sine of the angle: the half is
+      missing, and so is the angle => the vector of the entries of R - R^T
+    quaternion-vector-part: this is the vector part of the quaternion: its length is
+      sin(angle / 2) => that vector part
+    twice-the-quaternion-part: this is twice the vector part of the quaternion: it is
+      like the angle only near 0 => twice that vector part
+    axis-only: its length is 1 (the axis); it has to be the angle => the axis alone
+    arcsine: the angle is right up to 90 degrees only: an arcsine cannot tell 100
+      degrees from 80, for which the trace is needed => the axis times the arcsine
+    half-the-angle: its length is half the angle, as in a quaternion => half of it
+    in-degrees: the angle is in degrees; here it is in radians => the answer in degrees
+    roll-pitch-yaw: these are the angles of three turns about x, y and z, one after the
+      other; one turn about one axis is asked for => the vector (roll, pitch, yaw)
+    twice-the-sine-in-atan2: the angle comes from twice the sine: the half of (R - R^T)
+      / 2 is missing => the axis times atan2 of twice the sine
+    """
+    q, (a, sine, _) = se3.R_to_quat(R), parts(R)
+    quaternion = -q[1:] if q[0] < 0 else q[1:]
+    return {
+        "sine-for-angle": a,
+        "twice-the-sine": vee(R),
+        "quaternion-vector-part": quaternion,
+        "twice-the-quaternion-part": 2 * quaternion,
+        "axis-only": axis(R),
+        "arcsine": axis(R) * np.arcsin(min(sine, 1.0)),
+        "half-the-angle": log_rotation(R) / 2,
+        "in-degrees": np.rad2deg(log_rotation(R)),
+        "roll-pitch-yaw": roll_pitch_yaw(R),
+        "twice-the-sine-in-atan2": axis(R) * np.arctan2(2 * sine, cosine(R)),
+    }
 
 
-@row.wrong
-def twice_the_sine_in_atan2(R):
-    """the angle comes from twice the sine: the half of (R - R^T) / 2 is missing => the
-    axis times atan2 of twice the sine"""
-    return axis(R) * np.arctan2(np.linalg.norm(vee(R)), cosine(R))
-
-
-# With NaN in them.
-
-
-@row.wrong
-def textbook_formula(R):
-    """this is the formula of most books, theta / (2 sin theta) times R - R^T: no turn
-    is 0 / 0 in it, and near pi it divides noise by nearly 0 => that formula, with its
-    NaN,"""
-    angle = np.arccos((np.trace(R) - 1) / 2)
-    return angle / (2 * np.sin(angle)) * vee(R)
-
-
-@row.wrong
-def nan_at_0(R):
-    """NaN comes back where R is the identity: there it is divided by a sine of 0 => the
-    right one with NaN there"""
-    a, sine, angle = parts(R)
-    if cosine(R) > -0.9:
-        return a * (angle / sine)
-    return angle * signed(column(R), a)
+@row.wrongs
+def _(R):
+    """textbook-formula: this is the formula of most books, theta / (2 sin theta) times
+      R - R^T: no turn is 0 / 0 in it, and near pi it divides noise by nearly 0 => that
+      formula, with its NaN,
+    nan-at-0: NaN comes back where R is the identity: there it is divided by a sine of 0
+      => the right one with NaN there
+    """
+    angle = np.arccos(cosine(R))
+    no_turn = cosine(R) > 0 and not vee(R).any()
+    return {
+        "textbook-formula": angle / (2 * np.sin(angle)) * vee(R),
+        "nan-at-0": np.full(3, np.nan) if no_turn else log_rotation(R),
+    }
 
 
 def from_column(R, k):
@@ -199,25 +155,14 @@ def from_column(R, k):
     return angle * signed(column(R, k), a) if cosine(R) < -0.9 else log_rotation(R)
 
 
-@row.wrong("fixed-column")
-def _(R):
-    """near pi the axis is always taken from the first column, and that is 0 where the
-    axis has no x: take the largest => column 0, with its NaN,"""
-    return from_column(R, 0)
-
-
-@row.wrong("fixed-column", hidden="its half turn is about y")
-def _(R):
-    """near pi the axis is always taken from the second column, and that is 0 where the
-    axis has no y: take the largest => column 1, with its NaN,"""
-    return from_column(R, 1)
-
-
-@row.wrong("fixed-column")
-def _(R):
-    """near pi the axis is always taken from the last column, and that is 0 where the
-    axis has no z: take the largest => column 2, with its NaN,"""
-    return from_column(R, 2)
+for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
+    row.wrong(
+        "fixed-column",
+        f"near pi the axis is always taken from the {which} column, and that is 0 "
+        f"where the axis has no {missing}: take the largest",
+        f"column {k}, with its NaN,",
+        hidden="its half turn is about y" if missing == "y" else "",
+    )(lambda R, k=k: from_column(R, k))
 
 
 @row.wrong(hidden="its identity is exact")
@@ -245,20 +190,21 @@ def _(R):
     return a * angle / max(sine, 1e-7)
 
 
+def divided(R):
+    """Return the axis times the angle by a division, which is noise near pi."""
+    a, sine, angle = parts(R)
+    return a * (angle / sine) if sine > 0 else a
+
+
 @row.wrong("sign-near-pi")  # Near pi the sign is left as the column has it.
 def _(R):
-    a, sine, angle = parts(R)
-    if cosine(R) > -0.999:
-        return a * (angle / sine) if sine > 0 else a
-    return angle * column(R)
+    return divided(R) if cosine(R) > -0.999 else parts(R)[2] * column(R)
 
 
 @row.wrong("signs-near-pi")  # Near pi the root of the diagonal, which has no signs.
 def _(R):
-    a, sine, angle = parts(R)
-    if cosine(R) > -0.999999:
-        return a * (angle / sine) if sine > 0 else a
-    return angle * np.sqrt(np.clip((np.diag(R) + 1) / 2, 0, None))
+    roots = np.sqrt(np.clip((np.diag(R) + 1) / 2, 0, None))
+    return divided(R) if cosine(R) > -0.999999 else parts(R)[2] * roots
 
 
 @row.wrong("large-angles")  # From 154 degrees on the axis alone.
@@ -268,10 +214,8 @@ def _(R):
 
 @row.wrong("pi-for-the-angle")  # From 1e-4 below pi on.
 def _(R):
-    a, sine, angle = parts(R)
-    if angle < np.pi - 1e-4:
-        return a * (angle / sine) if sine > 0 else a
-    return np.pi * signed(column(R), a)
+    near = parts(R)[2] >= np.pi - 1e-4
+    return np.pi * signed(column(R), vee(R)) if near else divided(R)
 
 
 @row.wrong("sign-of-the-axis")  # An axis from the symmetric part, whatever its sign.
@@ -289,14 +233,10 @@ def _(R):
     return (angle if sine < 1e-9 or a @ n > 0 else 2 * np.pi - angle) * n
 
 
-@row.wrong(
-    "wrong-at-pi"
-)  # Right up to pi, where the sign is not that of the docstring.
+@row.wrong("wrong-at-pi")  # The sign is not that of the docstring there.
 def _(R):
-    a, sine, angle = parts(R)
-    if cosine(R) > -0.9:
-        return a * (angle / sine) if sine > 0 else a
-    return angle * column(R) * (-1.0 if a @ column(R) <= 0 else 1.0)
+    n = column(R) if vee(R) @ column(R) > 0 else -column(R)
+    return divided(R) if cosine(R) > -0.9 else parts(R)[2] * n
 
 
 @row.wrong("all-signs")  # R is transposed.
@@ -313,14 +253,10 @@ def _(R):
     return angle * signed(column(R), a)
 
 
-@row.close("zero-for-small-angles")  # As a near-zero test has it.
-def _(R):
-    return np.where(parts(R)[2] < 1e-6, 0.0, log_rotation(R))
-
-
-@row.close("zero-for-small-angles")  # All angles under 1e-4.
-def _(R):
-    return np.where(parts(R)[2] < 1e-4, 0.0, log_rotation(R))
+for least in (1e-6, 1e-4):  # As a near-zero test has it.
+    row.close("zero-for-small-angles")(
+        lambda R, least=least: (parts(R)[2] >= least) * log_rotation(R)
+    )
 
 
 @row.close("rounded")  # To 6 decimals.

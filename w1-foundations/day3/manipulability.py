@@ -38,66 +38,41 @@ def values(J):
     return np.linalg.svd(J, compute_uv=False)
 
 
-@row.wrong
-def no_square_root(J):
-    """the square root is missing: this is det(J J^T) => det(J J^T)"""
-    return np.linalg.det(J @ J.T)
-
-
-@row.wrong
-def other_product(J):
-    """J^T J is 7x7 and always singular; J J^T is the one that is meant => the root of
-    det(J^T J)"""
-    return np.sqrt(abs(np.linalg.det(J.T @ J)))
-
-
-@row.wrong
-def smallest_singular_value(J):
-    """this is the smallest singular value alone; the product of all six is asked for =>
-    the smallest singular value"""
-    return values(J)[-1]
-
-
-@row.wrong
-def largest_singular_value(J):
-    """this is the largest singular value, the norm of J => the largest singular
-    value"""
-    return np.linalg.norm(J, 2)
-
-
-@row.wrong
-def sum_of_singular_values(J):
-    """the singular values are added; they have to be multiplied => the sum of the
-    singular values"""
-    return values(J).sum()
-
-
-@row.wrong
-def trace(J):
-    """this comes from the trace, which is the sum; the determinant is asked for => the
-    root of the trace"""
-    return np.sqrt(np.trace(J @ J.T))
-
-
-@row.wrong
-def inverse_condition(J):
-    """this is the smallest singular value over the largest one, another measure => the
-    inverse of the condition number"""
-    return values(J)[-1] / values(J)[0]
-
-
-@row.wrong
-def square_part(J):
-    """this is the determinant of the first six columns; joint 7 counts too => the
-    determinant of six columns"""
-    return abs(np.linalg.det(J[:, :6]))
-
-
-@row.wrong
-def position_only(J):
-    """only the three v rows of J are used; the rotation counts too => the root of det(J
-    J^T) of three rows"""
-    return values(J[3:]).prod()
+@row.wrongs
+def _(J):
+    """no-square-root: the square root is missing: this is det(J J^T) => det(J J^T)
+    other-product: J^T J is 7x7 and always singular; J J^T is the one that is meant =>
+      the root of det(J^T J)
+    smallest-singular-value: this is the smallest singular value alone; the product of
+      all six is asked for => the smallest singular value
+    largest-singular-value: this is the largest singular value, the norm of J => the
+      largest singular value
+    sum-of-singular-values: the singular values are added; they have to be multiplied =>
+      the sum of the singular values
+    trace: this comes from the trace, which is the sum; the determinant is asked for =>
+      the root of the trace
+    inverse-condition: this is the smallest singular value over the largest one, another
+      measure => the inverse of the condition number
+    square-part: this is the determinant of the first six columns; joint 7 counts too =>
+      the determinant of six columns
+    position-only: only the three v rows of J are used; the rotation counts too => the
+      root of det(J J^T) of three rows
+    diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all
+      entries => the root of that product
+    """
+    JJ, s = J @ J.T, values(J)
+    return {
+        "no-square-root": np.linalg.det(JJ),
+        "other-product": np.sqrt(abs(np.linalg.det(J.T @ J))),
+        "smallest-singular-value": s[-1],
+        "largest-singular-value": s[0],
+        "sum-of-singular-values": s.sum(),
+        "trace": np.sqrt(np.trace(JJ)),
+        "inverse-condition": s[-1] / s[0],
+        "square-part": abs(np.linalg.det(J[:, :6])),
+        "position-only": values(J[3:]).prod(),
+        "diagonal-only": np.sqrt(np.prod(np.diag(JJ))),
+    }
 
 
 for determinant, called in (
@@ -111,10 +86,3 @@ for determinant, called in (
         f"the root of {called}, with its NaN,",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
-
-
-@row.wrong
-def diagonal_only(J):
-    """only the diagonal of J J^T is multiplied; a determinant needs all entries => the
-    root of that product"""
-    return np.sqrt(np.prod(np.diag(J @ J.T)))

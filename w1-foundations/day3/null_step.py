@@ -55,38 +55,33 @@ def _(rng):
     return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
 
 
-@row.wrong
-def transpose_for_pseudo_inverse(J, dq):
-    """J^T stands where J^+ belongs: I - J^T J is no projector, and the hand feels it =>
-    dq - J^T J dq"""
-    return dq - J.T @ (J @ dq)
-
-
-@row.wrong
-def felt_part(J, dq):
-    """this is the part that the hand does feel, J^+ J dq; the rest is asked for => J^+
-    J dq"""
-    return pinv(J) @ (J @ dq)
-
-
-@row.wrong
-def unchanged(J, dq):
-    """dq comes back as it was => dq itself"""
-    return dq.copy()
-
-
-@row.wrong
-def added(J, dq):
-    """the part that the hand feels is added; it has to be taken away => dq + J^+ J
-    dq"""
-    return dq + pinv(J) @ (J @ dq)
-
-
-@row.wrong
-def nothing_left(J, dq):
-    """nothing is left: seven joints always have a motion that the hand does not feel =>
-    zeros"""
-    return np.zeros(7)
+@row.wrongs
+def _(J, dq):
+    """transpose-for-pseudo-inverse: J^T stands where J^+ belongs: I - J^T J is no
+      projector, and the hand feels it => dq - J^T J dq
+    felt-part: this is the part that the hand does feel, J^+ J dq; the rest is asked for
+      => J^+ J dq
+    unchanged: dq comes back as it was => dq itself
+    added: the part that the hand feels is added; it has to be taken away => dq + J^+ J
+      dq
+    nothing-left: nothing is left: seven joints always have a motion that the hand does
+      not feel => zeros
+    normalised: its length is made 1; the part of dq that the hand does not feel has a
+      length of its own => the right one over its length
+    position-only: only the three v rows of J are used: the hand stays where it is, but
+      it turns => the projector of three rows
+    """
+    felt = pinv(J) @ (J @ dq)
+    left = dq - felt
+    return {
+        "transpose-for-pseudo-inverse": dq - J.T @ (J @ dq),
+        "felt-part": felt,
+        "unchanged": dq,
+        "added": dq + felt,
+        "nothing-left": np.zeros(7),
+        "normalised": left / np.linalg.norm(left),
+        "position-only": dq - pinv(J[3:]) @ (J[3:] @ dq),
+    }
 
 
 for damping in (0.05, 0.1, 0.01):
@@ -96,21 +91,6 @@ for damping in (0.05, 0.1, 0.01):
         "motion stays",
         "the projector with damping",
     )(lambda J, dq, damping=damping: dq - dls_step(J, J @ dq, damping))
-
-
-@row.wrong
-def normalised(J, dq):
-    """its length is made 1; the part of dq that the hand does not feel has a length of
-    its own => the right one over its length"""
-    left = dq - pinv(J) @ (J @ dq)
-    return left / np.linalg.norm(left)
-
-
-@row.wrong
-def position_only(J, dq):
-    """only the three v rows of J are used: the hand stays where it is, but it turns =>
-    the projector of three rows"""
-    return dq - pinv(J[3:]) @ (J[3:] @ dq)
 
 
 @row.wrong(hidden="its J have rank 6")

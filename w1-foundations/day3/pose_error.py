@@ -33,16 +33,6 @@ def _(rng):
     return [(np.eye(4), higher), *zip(T, goal, strict=True)]
 
 
-def with_rotation(T, T_goal, rotation):
-    """Return the error with another rotation half."""
-    return np.concatenate([rotation, T_goal[:3, 3] - T[:3, 3]])
-
-
-def with_translation(T, T_goal, translation):
-    """Return the error with another translation half."""
-    return np.concatenate([pose_error(T, T_goal)[:3], translation])
-
-
 def screw_log(D):
     """Return the twist whose exponential is a pose."""
     w, p = log_rotation(D[:3, :3]), D[:3, 3]
@@ -54,91 +44,68 @@ def screw_log(D):
     return np.concatenate([w, G @ p])
 
 
-@row.wrong
-def in_the_hands_axes(T, T_goal):
-    """both halves are in the hand's axes; here they are in the world's => the error
-    turned by R^T"""
+@row.wrongs
+def _(T, T_goal):
+    """in-the-hands-axes: both halves are in the hand's axes; here they are in the
+      world's => the error turned by R^T
+    body-twist: this is the body twist, log(T^-1 T_goal) of Modern Robotics: it goes
+      with J_body, but here the error has to go with J_site => the body twist
+    space-twist: this is the twist log(T_goal T^-1): it goes with J_space, and its v is
+      no difference of positions; here the error has to go with J_site => that twist
+    """
     D = np.linalg.inv(T) @ T_goal
-    return np.concatenate([log_rotation(D[:3, :3]), D[:3, 3]])
+    return {
+        "in-the-hands-axes": np.append(log_rotation(D[:3, :3]), D[:3, 3]),
+        "body-twist": screw_log(D),
+        "space-twist": screw_log(T_goal @ np.linalg.inv(T)),
+    }
 
 
-@row.wrong
-def rotation_in_the_hands_axes(T, T_goal):
-    """the rotation is in the hand's axes: this is log(R^T R_goal), which does not go
-    with J_site => the error with log(R^T R_goal)"""
-    return with_rotation(T, T_goal, log_rotation(T[:3, :3].T @ T_goal[:3, :3]))
+@row.wrongs
+def _(T, T_goal):
+    """rotation-in-the-hands-axes: the rotation is in the hand's axes: this is log(R^T
+      R_goal), which does not go with J_site => the error with log(R^T R_goal)
+    rotation-sign: the rotation leads from the goal to the hand, the translation from
+      the hand to the goal => the error with log(R R_goal^T)
+    rotation-difference: rotation vectors are subtracted: log(R_goal) - log(R) is no
+      rotation that leads from one to the other => the difference of the two logs
+    euler-difference: roll, pitch and yaw are subtracted: their difference is no
+      rotation that leads from one to the other => the difference of those angles
+    rotations-multiplied: this is log(R_goal R): one of the two has to be undone => the
+      error with log(R_goal R)
+    """
+    R, goal, way = T[:3, :3], T_goal[:3, :3], T_goal[:3, 3] - T[:3, 3]
+    rotations = {
+        "rotation-in-the-hands-axes": log_rotation(R.T @ goal),
+        "rotation-sign": log_rotation(R @ goal.T),
+        "rotation-difference": log_rotation(goal) - log_rotation(R),
+        "euler-difference": roll_pitch_yaw(goal) - roll_pitch_yaw(R),
+        "rotations-multiplied": log_rotation(goal @ R),
+    }
+    return {slug: np.append(w, way) for slug, w in rotations.items()}
 
 
-@row.wrong
-def rotation_sign(T, T_goal):
-    """the rotation leads from the goal to the hand, the translation from the hand to
-    the goal => the error with log(R R_goal^T)"""
-    return with_rotation(T, T_goal, log_rotation(T[:3, :3] @ T_goal[:3, :3].T))
-
-
-@row.wrong
-def rotation_difference(T, T_goal):
-    """rotation vectors are subtracted: log(R_goal) - log(R) is no rotation that leads
-    from one to the other => the difference of the two logs"""
-    difference = log_rotation(T_goal[:3, :3]) - log_rotation(T[:3, :3])
-    return with_rotation(T, T_goal, difference)
-
-
-@row.wrong
-def euler_difference(T, T_goal):
-    """roll, pitch and yaw are subtracted: their difference is no rotation that leads
-    from one to the other => the difference of those angles"""
-    difference = roll_pitch_yaw(T_goal[:3, :3]) - roll_pitch_yaw(T[:3, :3])
-    return with_rotation(T, T_goal, difference)
-
-
-@row.wrong
-def body_twist(T, T_goal):
-    """this is the body twist, log(T^-1 T_goal) of Modern Robotics: it goes with J_body,
-    but here the error has to go with J_site => the body twist"""
-    return screw_log(np.linalg.inv(T) @ T_goal)
-
-
-@row.wrong
-def space_twist(T, T_goal):
-    """this is the twist log(T_goal T^-1): it goes with J_space, and its v is no
-    difference of positions; here the error has to go with J_site => that twist"""
-    return screw_log(T_goal @ np.linalg.inv(T))
-
-
-@row.wrong
-def rotations_multiplied(T, T_goal):
-    """this is log(R_goal R): one of the two has to be undone => the error with
-    log(R_goal R)"""
-    return with_rotation(T, T_goal, log_rotation(T_goal[:3, :3] @ T[:3, :3]))
-
-
-@row.wrong
-def translation_sign(T, T_goal):
-    """the translation leads from the goal to the hand => the error with p - p_goal"""
-    return with_translation(T, T_goal, T[:3, 3] - T_goal[:3, 3])
-
-
-@row.wrong
-def translation_in_the_hands_axes(T, T_goal):
-    """the translation is in the hand's axes (the last column of T^-1 T_goal); here it
-    is in the world's => the error with R^T (p_goal - p)"""
-    return with_translation(T, T_goal, (np.linalg.inv(T) @ T_goal)[:3, 3])
-
-
-@row.wrong
-def goal_position_for_translation(T, T_goal):
-    """the lower half is where the goal is, not how far it is => the error with
-    p_goal"""
-    return with_translation(T, T_goal, T_goal[:3, 3])
-
-
-@row.wrong
-def screw_for_translation(T, T_goal):
-    """the lower half is the translation of T_goal T^-1, which is p_goal - R p with the
-    rotation between them as R; here it is p_goal - p => the error with that
-    translation"""
-    return with_translation(T, T_goal, (T_goal @ np.linalg.inv(T))[:3, 3])
+@row.wrongs
+def _(T, T_goal):
+    """translation-sign: the translation leads from the goal to the hand => the error
+      with p - p_goal
+    translation-in-the-hands-axes: the translation is in the hand's axes (the last
+      column of T^-1 T_goal); here it is in the world's => the error with R^T (p_goal -
+      p)
+    goal-position-for-translation: the lower half is where the goal is, not how far it
+      is => the error with p_goal
+    screw-for-translation: the lower half is the translation of T_goal T^-1, which is
+      p_goal - R p with the rotation between them as R; here it is p_goal - p => the
+      error with that translation
+    """
+    p, goal, turn = T[:3, 3], T_goal[:3, 3], pose_error(T, T_goal)[:3]
+    translations = {
+        "translation-sign": p - goal,
+        "translation-in-the-hands-axes": (np.linalg.inv(T) @ T_goal)[:3, 3],
+        "goal-position-for-translation": goal,
+        "screw-for-translation": (T_goal @ np.linalg.inv(T))[:3, 3],
+    }
+    return {slug: np.append(turn, way) for slug, way in translations.items()}
 
 
 row.reached_by(

@@ -4,6 +4,8 @@ A loop that does not arrive wanders, so only its first steps are sure to be the
 student's; a mistake is named where all its answers are.
 """
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Vector
@@ -25,42 +27,24 @@ BOTH_MOVE = "there both halves move"
 # Those that cost no loop come first.
 
 
-@row.wrong
-def one_step(screws, M, T_goal, q_start, limits):
-    """there is one step only; the Jacobian is a straight line along a curve, so it
-    takes several => where one step leads"""
-    return list(passed(screws, M, T_goal, q_start, limits, steps=1))[-1][0]
-
-
-@row.wrong
-def start_returned(screws, M, T_goal, q_start, limits):
-    """the start comes back: no step is taken, or each one leads away from the target
-    (then the sign of the error is wrong) => q_start"""
-    return q_start.copy()
-
-
-@row.wrong
-def step_returned(screws, M, T_goal, q_start, limits):
-    """the last step comes back, not the configuration that the steps lead to => a step
-    of 0"""
-    return np.zeros(7)  # nothing is left of a step where the loop has arrived
+@row.wrongs
+def _(screws, M, T_goal, q_start, limits):
+    """one-step: there is one step only; the Jacobian is a straight line along a curve,
+      so it takes several => where one step leads
+    start-returned: the start comes back: no step is taken, or each one leads away from
+      the target (then the sign of the error is wrong) => q_start
+    step-returned: the last step comes back, not the configuration that the steps lead
+      to => a step of 0
+    """
+    first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
+    return {
+        "one-step": lambda: list(first())[-1][0],
+        "start-returned": q_start.copy(),
+        "step-returned": np.zeros(7),  # what is left of a step where it has arrived
+    }
 
 
 # The loop with a wrong part.
-
-
-@row.wrong("space-jacobian")
-def _(screws, M, T_goal, q_start, limits):
-    """the steps are made with J_space: its v is that of another point than the hand's
-    => what J_space leads to"""
-    return walk(screws, M, T_goal, q_start, limits, seen=lambda J_space, T: J_space)
-
-
-@row.wrong("body-jacobian")
-def _(screws, M, T_goal, q_start, limits):
-    """the steps are made with J_body, in the hand's axes; the error is in the world's
-    => what J_body leads to"""
-    return walk(screws, M, T_goal, q_start, limits, seen=body_jacobian)
 
 
 def in_the_hands_axes(T, T_goal):
@@ -68,11 +52,38 @@ def in_the_hands_axes(T, T_goal):
     return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
 
 
-@row.wrong
-def error_in_the_hands_axes(screws, M, T_goal, q_start, limits):
-    """the error is in the hand's axes; J_site is in the world's => what that error
-    leads to"""
-    return walk(screws, M, T_goal, q_start, limits, gap=in_the_hands_axes)
+@row.wrongs
+def _(screws, M, T_goal, q_start, limits):
+    """space-jacobian: the steps are made with J_space: its v is that of another point
+      than the hand's => what J_space leads to
+    body-jacobian: the steps are made with J_body, in the hand's axes; the error is in
+      the world's => what J_body leads to
+    error-in-the-hands-axes: the error is in the hand's axes; J_site is in the world's
+      => what that error leads to
+    damping-not-squared: the damping in it is too large by far: it is not squared =>
+      what that damping leads to
+    limits-forgotten: the joint limits are not kept => what the loop without limits
+      leads to
+    jacobian-never-updated: the Jacobian is that of the start; it changes with every
+      step => what the first Jacobian leads to
+    q-start-unused: the loop starts from READY_Q: q_start is not used => what READY_Q
+      leads to
+    """
+    J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
+    parts = {
+        "space-jacobian": {"seen": lambda J_space, T: J_space},
+        "body-jacobian": {"seen": body_jacobian},
+        "error-in-the-hands-axes": {"gap": in_the_hands_axes},
+        "damping-not-squared": {"damping": lambda ee: np.sqrt(adaptive(ee))},
+        "limits-forgotten": {"limits": None},
+        "jacobian-never-updated": {"seen": lambda J_space, T: J},
+        "q-start-unused": {"q": READY_Q},
+    }
+    given = {"q": q_start, "limits": limits}
+    return {
+        slug: partial(walk, screws, M, T_goal, **{**given, **one})
+        for slug, one in parts.items()
+    }
 
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
@@ -82,38 +93,11 @@ def damping_not_squared(screws, M, T_goal, q_start, limits):
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
-@row.wrong
-def damping_not_squared(*target):
-    """the damping in it is too large by far: it is not squared => what that damping
-    leads to"""
-    return walk(*target, damping=lambda ee: np.sqrt(adaptive(ee)))
-
-
-@row.wrong
-def limits_forgotten(screws, M, T_goal, q_start, limits):
-    """the joint limits are not kept => what the loop without limits leads to"""
-    return walk(screws, M, T_goal, q_start, None)
-
-
 @row.wrong(hidden="few of its targets are at a limit")
 def limits_at_the_end(screws, M, T_goal, q_start, limits):
     """the joint limits are kept at the end only; a loop that has left them goes another
     way, so keep them after each step => what the loop leads to, clipped at its end"""
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
-
-
-@row.wrong
-def jacobian_never_updated(screws, M, T_goal, q_start, limits):
-    """the Jacobian is that of the start; it changes with every step => what the first
-    Jacobian leads to"""
-    J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
-    return walk(screws, M, T_goal, q_start, limits, seen=lambda *_: J)
-
-
-@row.wrong
-def q_start_unused(screws, M, T_goal, q_start, limits):
-    """the loop starts from READY_Q: q_start is not used => what READY_Q leads to"""
-    return walk(screws, M, T_goal, READY_Q, limits)
 
 
 @row.wrong

@@ -1,11 +1,10 @@
 """3.1 `space_jacobian(screws, q)`: its questions and its mistakes."""
 
-from dataclasses import replace
+from itertools import accumulate
 
 import numpy as np
 
 from labkit.judge import Jacobian, draw
-from labkit.judge.argument_mistakes import DEGREES, NEGATED, RADIANS_TWICE
 from labkit.judge.row import Row
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
@@ -33,10 +32,12 @@ def _other_arm(rng):
 
 def products(screws, q):
     """Return how the first 0 to 7 joints have moved what is behind them."""
-    moved = [np.eye(4)]
-    for S, theta in zip(screws, q, strict=True):
-        moved.append(moved[-1] @ exp_screw(S, theta))
-    return moved
+    return list(accumulate([np.eye(4), *exp_screw(screws, q)], np.matmul))
+
+
+def on_the_left(T, motion):
+    """Return a pose with a motion on its left."""
+    return motion @ T
 
 
 def carried(screws, moved, adjoint=adjoint):
@@ -52,127 +53,73 @@ def own(blocks):
 ZERO = np.zeros((3, 3))
 
 
-@row.wrong
-def screws_constant(screws, q):
-    """the columns are the screws at q = 0; the joints before a joint have moved its
-    screw => the screws as columns"""
-    return screws.T.copy()
+@row.wrongs
+def _(screws, q):
+    """screws-constant: the columns are the screws at q = 0; the joints before a joint
+      have moved its screw => the screws as columns
+    last-joint-only: each screw is moved by the one joint before it; all joints before
+      it move it => the Jacobian with one exponential per column
+    product-reversed: the exponentials are multiplied in the reverse order: the first
+      joint's stands on the left => the Jacobian with the reversed product
+    one-joint-late: each screw lacks the motion of the joint right before it: the
+      product is used before that joint is in it => the Jacobian one joint late
+    moved-by-the-next: each screw is moved by the joint behind it too, which it does not
+      feel => the Jacobian one joint too far
+    moved-by-all: every screw is moved by all seven joints; only those before it carry
+      it => the Jacobian with the whole product
+    moved-by-those-after: each screw is moved by the joints after it; those before it
+      carry it => the Jacobian with the product of the joints after each
+    adjoint-of-the-inverse: the screws are carried the other way: this is Ad of the
+      inverse => the Jacobian with the inverse
+    all-backwards: every joint turns the other way, by -q => the Jacobian at -q
+    degrees: q comes in radians, and is used as degrees => the Jacobian at 180 / pi
+      times q
+    radians-taken-for-degrees: q is in radians already, and is converted from degrees
+      once more => the Jacobian at pi / 180 times q
+    columns-reversed: the columns are in the reverse order: joint 1's comes first => the
+      right one with its columns reversed
+    """
+    alone, moved = [np.eye(4), *exp_screw(screws, q)], products(screws, q)
+    after = accumulate([np.eye(4), *alone[:0:-1]], on_the_left)
+    motions = {
+        "screws-constant": [np.eye(4)] * 7,
+        "last-joint-only": alone,
+        "product-reversed": accumulate(alone, on_the_left),
+        "one-joint-late": [np.eye(4), *moved],
+        "moved-by-the-next": [*moved[2:], moved[-1]],
+        "moved-by-all": [moved[-1]] * 7,
+        "moved-by-those-after": list(after)[6::-1],
+        "adjoint-of-the-inverse": np.linalg.inv(moved),
+    }
+    found = {slug: carried(screws, some) for slug, some in motions.items()}
+    return {
+        **found,
+        "all-backwards": lambda: space_jacobian(screws, -q),
+        "degrees": lambda: space_jacobian(screws, np.rad2deg(q)),
+        "radians-taken-for-degrees": lambda: space_jacobian(screws, np.deg2rad(q)),
+        "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1],
+    }
 
 
-@row.wrong
-def last_joint_only(screws, q):
-    """each screw is moved by the one joint before it; all joints before it move it =>
-    the Jacobian with one exponential per column"""
-    return carried(screws, [np.eye(4), *exp_screw(screws, q)])
-
-
-@row.wrong
-def product_reversed(screws, q):
-    """the exponentials are multiplied in the reverse order: the first joint's stands on
-    the left => the Jacobian with the reversed product"""
-    T, columns = np.eye(4), []
-    for S, theta in zip(screws, q, strict=True):
-        columns.append(adjoint(T) @ S)
-        T = exp_screw(S, theta) @ T
-    return np.array(columns).T
-
-
-@row.wrong
-def one_joint_late(screws, q):
-    """each screw lacks the motion of the joint right before it: the product is used
-    before that joint is in it => the Jacobian one joint late"""
-    return carried(screws, [np.eye(4), *products(screws, q)])
-
-
-@row.wrong
-def moved_by_the_next(screws, q):
-    """each screw is moved by the joint behind it too, which it does not feel => the
-    Jacobian one joint too far"""
+@row.wrongs
+def _(screws, q):
+    """bracket-top-right: in the adjoint, [p] R stands top right; with (omega; v) it
+      stands bottom left => the Jacobian with that adjoint
+    bracket-after-R: in the adjoint, R [p] stands where [p] R belongs => the Jacobian
+      with that adjoint
+    rotation-only: the screws are only rotated; where the joints have moved to is left
+      out ([p] R is missing in the adjoint) => the Jacobian with R alone
+    translation-only: the screws are only translated; the rotation R is left out of the
+      adjoint => the Jacobian with I for R
+    """
+    adjoints = {
+        "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],
+        "bracket-after-R": lambda R, P: [[R, ZERO], [R @ P, R]],
+        "rotation-only": lambda R, P: [[R, ZERO], [ZERO, R]],
+        "translation-only": lambda R, P: [[np.eye(3), ZERO], [P, np.eye(3)]],
+    }
     moved = products(screws, q)
-    return carried(screws, [*moved[2:], moved[-1]])
-
-
-@row.wrong
-def moved_by_all(screws, q):
-    """every screw is moved by all seven joints; only those before it carry it => the
-    Jacobian with the whole product"""
-    return adjoint(products(screws, q)[-1]) @ screws.T
-
-
-@row.wrong
-def moved_by_those_after(screws, q):
-    """each screw is moved by the joints after it; those before it carry it => the
-    Jacobian with the product of the joints after each"""
-    return product_reversed(screws[::-1], q[::-1])[:, ::-1]
-
-
-@row.wrong
-def adjoint_of_the_inverse(screws, q):
-    """the screws are carried the other way: this is Ad of the inverse => the Jacobian
-    with the inverse"""
-    return carried(screws, np.linalg.inv(products(screws, q)))
-
-
-@row.wrong
-def bracket_top_right(screws, q):
-    """in the adjoint, [p] R stands top right; with (omega; v) it stands bottom left =>
-    the Jacobian with that adjoint"""
-    top_right = own(lambda R, P: [[R, P @ R], [ZERO, R]])
-    return carried(screws, products(screws, q), top_right)
-
-
-@row.wrong
-def bracket_after_R(screws, q):
-    """in the adjoint, R [p] stands where [p] R belongs => the Jacobian with that
-    adjoint"""
-    after_R = own(lambda R, P: [[R, ZERO], [R @ P, R]])
-    return carried(screws, products(screws, q), after_R)
-
-
-@row.wrong
-def rotation_only(screws, q):
-    """the screws are only rotated; where the joints have moved to is left out ([p] R is
-    missing in the adjoint) => the Jacobian with R alone"""
-    alone = own(lambda R, P: [[R, ZERO], [ZERO, R]])
-    return carried(screws, products(screws, q), alone)
-
-
-@row.wrong
-def translation_only(screws, q):
-    """the screws are only translated; the rotation R is left out of the adjoint => the
-    Jacobian with I for R"""
-    unturned = own(lambda R, P: [[np.eye(3), ZERO], [P, np.eye(3)]])
-    return carried(screws, products(screws, q), unturned)
-
-
-row.of_argument(
-    "q",
-    replace(
-        NEGATED,
-        slug="all-backwards",
-        says="every joint turns the other way, by -q",
-        redone="the Jacobian at -q",
-    ),
-    replace(
-        RADIANS_TWICE,
-        slug="degrees",
-        says="q comes in radians, and is used as degrees",
-        redone="the Jacobian at 180 / pi times q",
-    ),
-    replace(
-        DEGREES,
-        slug="radians-taken-for-degrees",
-        says="q is in radians already, and is converted from degrees once more",
-        redone="the Jacobian at pi / 180 times q",
-    ),
-)
-
-
-@row.wrong
-def columns_reversed(screws, q):
-    """the columns are in the reverse order: joint 1's comes first => the right one with
-    its columns reversed"""
-    return space_jacobian(screws, q)[:, ::-1]
+    return {slug: carried(screws, moved, own(one)) for slug, one in adjoints.items()}
 
 
 @row.wrong("columns-off")  # The loop ends one joint early.

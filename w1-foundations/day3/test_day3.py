@@ -19,7 +19,6 @@ DAY = find_day(3)
 WHOSE = (ROOT / "w1-foundations/docs/which-jacobian-is-whose.md").read_text("utf-8")
 WHOSE = " ".join(WHOSE.split())
 ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
-ARMS = ARM[:2], ARM[2]
 LOOP = folder.load(DAY, "loop")
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")

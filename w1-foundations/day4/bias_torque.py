@@ -12,7 +12,6 @@ from .states import TORQUE, motions
 
 # One thing with two names: at qdd = 0 the numbers are the same.
 row = Row(TORQUE, alike=[{"nothing-added-outwards", "velocities-not-added"}])
-wrong = partial(row.wrong, redone="the torque so")
 STILL = np.zeros(7)
 
 
@@ -22,22 +21,45 @@ def _(rng):
 
 
 # What that one says of its inside, said of the call: it is right when this is judged.
-@wrong()
-def base_acceleration_sign(J, G, qd, g):
-    """gravity has the wrong sign, as if g were given as -g; inverse_dynamics wants g as
-    it is"""
-    return inverse_dynamics(J, G, qd, STILL, -g)
-
-
-@wrong()
-def gravity_forgotten(J, G, qd, g):
-    """gravity is missing, as if g were given as 0; it is part of the bias"""
-    return inverse_dynamics(J, G, qd, STILL, 0 * g)
-
-
-@wrong("gravity-twice", "gravity counts twice; inverse_dynamics has it already")
+@row.wrongs
 def _(J, G, qd, g):
-    return inverse_dynamics(J, G, qd, STILL, 2 * g)
+    """base-acceleration-sign: gravity has the wrong sign, as if g were given as -g;
+      inverse_dynamics wants g as it is => the torque so
+    gravity-forgotten: gravity is missing, as if g were given as 0; it is part of the
+      bias => the torque so
+    gravity-twice: gravity counts twice; inverse_dynamics has it already => the torque
+      so
+    gravity-only: qd is not used: Coriolis and centrifugal forces are missing => the
+      torque so
+    coriolis-twice: Coriolis and centrifugal forces count twice; gravity is right => the
+      torque so
+    coriolis-half: only half of the Coriolis and centrifugal forces is there; gravity is
+      right => the torque so
+    speed-for-acceleration: qd is given as the acceleration, too; that has to be 0 =>
+      the torque so
+    speed-in-place-of-acceleration: qd is given as the acceleration, and 0 as the speed
+      => the torque so
+    acceleration-of-one: the acceleration is 1 for every joint; it has to be 0 => the
+      torque so
+    damping-added: the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8
+      => the torque so
+    """
+    given = {
+        "base-acceleration-sign": (qd, STILL, -g),
+        "gravity-forgotten": (qd, STILL, 0 * g),
+        "gravity-twice": (qd, STILL, 2 * g),
+        "speed-for-acceleration": (qd, qd, g),
+        "speed-in-place-of-acceleration": (STILL, qd, g),
+        "acceleration-of-one": (qd, np.ones(7), g),
+    }
+    holding, tau = (inverse_dynamics(J, G, v, STILL, g) for v in (STILL, qd))
+    return {
+        **{slug: partial(inverse_dynamics, J, G, *one) for slug, one in given.items()},
+        "gravity-only": holding,
+        "coriolis-twice": 2 * tau - holding,
+        "coriolis-half": (holding + tau) / 2,
+        "damping-added": tau + qd,
+    }
 
 
 row.reached_by(
@@ -57,55 +79,13 @@ row.reached_by(
 )
 
 
-@wrong("gravity-only", "qd is not used: Coriolis and centrifugal forces are missing")
-def _(J, G, qd, g):
-    return inverse_dynamics(J, G, STILL, STILL, g)
-
-
-@wrong()
-def coriolis_twice(J, G, qd, g):
-    """Coriolis and centrifugal forces count twice; gravity is right"""
-    holding = inverse_dynamics(J, G, STILL, STILL, g)
-    return 2 * inverse_dynamics(J, G, qd, STILL, g) - holding
-
-
-@wrong()
-def coriolis_half(J, G, qd, g):
-    """only half of the Coriolis and centrifugal forces is there; gravity is right"""
-    holding = inverse_dynamics(J, G, STILL, STILL, g)
-    return 0.5 * (holding + inverse_dynamics(J, G, qd, STILL, g))
-
-
-@wrong()
-def speed_for_acceleration(J, G, qd, g):
-    """qd is given as the acceleration, too; that has to be 0"""
-    return inverse_dynamics(J, G, qd, qd, g)
-
-
-@wrong()
-def speed_in_place_of_acceleration(J, G, qd, g):
-    """qd is given as the acceleration, and 0 as the speed"""
-    return inverse_dynamics(J, G, STILL, qd, g)
-
-
-@wrong("acceleration-of-one", "the acceleration is 1 for every joint; it has to be 0")
-def _(J, G, qd, g):
-    return inverse_dynamics(J, G, qd, np.ones(7), g)
-
-
-@wrong()
+@row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
     """the rate of M times qd is not the Coriolis torque: half of what it holds belongs
-    there"""
+    there => the torque so"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])
     up, down = mass_matrix(J + J_rate, G, 0.0), mass_matrix(J - J_rate, G, 0.0)
     M_rate = 0.5 * (up - down) + mass_matrix(J, G_rate, 0.0)
     return inverse_dynamics(J, G, STILL, STILL, g) + M_rate @ qd
-
-
-@wrong()
-def damping_added(J, G, qd, g):
-    """the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8"""
-    return inverse_dynamics(J, G, qd, STILL, g) + qd

@@ -23,56 +23,36 @@ def _(rng):
         yield now.M, v, arm().masses, now.coms_world, g
 
 
-@row.wrong
-def half_forgotten(M, qd, masses, coms_world, g):
-    """the kinetic energy has no 1/2 => the answer with twice as much"""
-    return energy(2 * M, qd, masses, coms_world, g)
-
-
-@row.wrong
-def potential_sign(M, qd, masses, coms_world, g):
-    """the potential energy has the wrong sign: g points down, and what is lifted gains
-    => the answer with that sign"""
-    return energy(M, qd, masses, coms_world, -g)
-
-
-@row.wrong
-def diagonal_only(M, qd, masses, coms_world, g):
-    """the kinetic energy takes only the diagonal of M; the joints share their links =>
-    the answer with the diagonal"""
-    return energy(np.diag(np.diag(M)), qd, masses, coms_world, g)
-
-
-@row.wrong
-def speed_squared_too_early(M, qd, masses, coms_world, g):
-    """qd is squared before M is applied; qd stands on both sides of M => the answer
-    with M qd^2"""
-    return np.array([0.5 * np.sum(M @ qd**2), -masses @ coms_world @ g])
-
-
-@row.wrong
-def mass_matrix_forgotten(M, qd, masses, coms_world, g):
-    """the kinetic energy takes no mass: M is missing => the answer with qd.qd / 2"""
-    return energy(np.eye(7), qd, masses, coms_world, g)
-
-
-@row.wrong
-def masses_forgotten(M, qd, masses, coms_world, g):
-    """the potential energy takes no masses => the answer with 1 kg each"""
-    return energy(M, qd, np.ones(7), coms_world, g)
-
-
-@row.wrong
-def every_mass_everywhere(M, qd, masses, coms_world, g):
-    """every link's centre is multiplied by the whole arm's mass => the answer with the
-    total mass"""
-    return energy(M, qd, np.full(7, masses.sum()), coms_world, g)
-
-
-@row.wrong
-def order_swapped(M, qd, masses, coms_world, g):
-    """potential energy comes first; kinetic was asked for first => the two swapped"""
-    return energy(M, qd, masses, coms_world, g)[::-1]
+@row.wrongs
+def _(M, qd, masses, coms_world, g):
+    """half-forgotten: the kinetic energy has no 1/2 => the answer with twice as much
+    potential-sign: the potential energy has the wrong sign: g points down, and what is
+      lifted gains => the answer with that sign
+    diagonal-only: the kinetic energy takes only the diagonal of M; the joints share
+      their links => the answer with the diagonal
+    speed-squared-too-early: qd is squared before M is applied; qd stands on both sides
+      of M => the answer with M qd^2
+    mass-matrix-forgotten: the kinetic energy takes no mass: M is missing => the answer
+      with qd.qd / 2
+    masses-forgotten: the potential energy takes no masses => the answer with 1 kg each
+    every-mass-everywhere: every link's centre is multiplied by the whole arm's mass =>
+      the answer with the total mass
+    order-swapped: potential energy comes first; kinetic was asked for first => the two
+      swapped
+    """
+    K, U = energy(M, qd, masses, coms_world, g)
+    all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre
+    both = {
+        "half-forgotten": (2 * K, U),
+        "potential-sign": (K, -U),
+        "diagonal-only": (0.5 * np.diag(M) @ qd**2, U),
+        "speed-squared-too-early": (0.5 * np.sum(M @ qd**2), U),
+        "mass-matrix-forgotten": (0.5 * qd @ qd, U),
+        "masses-forgotten": (K, all_at_once),
+        "every-mass-everywhere": (K, masses.sum() * all_at_once),
+        "order-swapped": (U, K),
+    }
+    return {slug: np.array(one) for slug, one in both.items()}
 
 
 row.of_argument("g", *other_gravity("the answer with that gravity"))

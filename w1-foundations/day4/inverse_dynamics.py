@@ -12,7 +12,6 @@ from .gravity import other_gravity
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
-wrong = partial(row.wrong, redone="the torque so")
 row.inputs(motions)
 
 
@@ -52,221 +51,154 @@ def passes(
     return np.array([J[:, i] @ felt(np.array(F), i) for i in range(7)])
 
 
-@wrong()
-def base_acceleration_sign(J, G, qd, qdd, g):
-    """the base accelerates the wrong way: to stand still on the ground feels like a
-    lift that starts upwards, against g"""
-    return inverse_dynamics(J, G, qd, qdd, -g)
-
-
-@wrong()
-def gravity_forgotten(J, G, qd, qdd, g):
-    """gravity is missing: the acceleration starts at 0 at the base"""
-    return inverse_dynamics(J, G, qd, qdd, 0 * g)
-
-
-for slug, says, other in (
-    (
-        "bracket-forgotten",
-        "the acceleration lacks ad(V) S qd: a joint that is carried round changes its "
-        "direction",
-        {"turned": lambda X, S, speed: 0 * S},
-    ),
-    (
-        "bracket-sign",
-        "in the acceleration ad(V) S qd has the wrong sign",
-        {"turned": lambda X, S, speed: -X @ S * speed},
-    ),
-    (
-        "bracket-twice",
-        "in the acceleration ad(V) S qd stands twice; it needs no 2, since the force "
-        "brings the other half of Coriolis",
-        {"turned": lambda X, S, speed: 2 * X @ S * speed},
-    ),
-    (
-        "bracket-without-speed",
-        "the acceleration has ad(V) S without qd: a joint at rest would change it, too",
-        {"turned": lambda X, S, speed: X @ S},
-    ),
-    (
-        "speed-squared",
-        "the acceleration has ad(V) S qd^2; one of the two speeds is in V already",
-        {"turned": lambda X, S, speed: X @ S * speed**2},
-    ),
-    (
-        "bracket-not-transposed",
-        "the force has ad instead of its transpose: a wrench changes the other way "
-        "from a twist",
-        {"swing": lambda V, A, G, own: -ad(V) @ G @ V},
-    ),
-    (
-        "bracket-not-transposed",
-        "the force has ad instead of minus its transpose: a wrench changes the other "
-        "way from a twist",
-        {"swing": lambda V, A, G, own: ad(V) @ G @ V},
-    ),
-    (
-        "velocity-product-sign",
-        "the velocity product, ad(V)^T G V, is added to the force; it is taken off",
-        {"swing": lambda V, A, G, own: ad(V).T @ G @ V},
-    ),
-    (
-        "acceleration-in-the-velocity-product",
-        "the velocity product has G A; what the motion of the link changes is its "
-        "momentum, G V",
-        {"swing": lambda V, A, G, own: -ad(V).T @ G @ A},
-    ),
-    (
-        "velocity-product-forgotten",
-        "the force is G A alone: that the inertia itself moves is missing",
-        {"swing": lambda V, A, G, own: 0 * V},
-    ),
-    (
-        "velocity-of-the-link-before",
-        "the force uses V before the link's own joint has been added",
-        {"swing": lambda V, A, G, own: -ad(V - own).T @ G @ (V - own)},
-    ),
-    (
-        "not-summed-back",
-        "each motor feels its own link only; it carries all links beyond it, too",
-        {"felt": lambda F, i: F[i]},
-    ),
-    (
-        "summed-from-the-base",
-        "the forces are summed from the base to the tip; a motor feels what is beyond "
-        "it, so the sum starts at the tip",
-        {"felt": lambda F, i: F[: i + 1].sum(axis=0)},
-    ),
-    (
-        "every-link-for-all",
-        "each motor feels all seven links; it carries its own and those beyond it only",
-        {"felt": lambda F, i: F.sum(axis=0)},
-    ),
-    (
-        "moment-only",
-        "each motor feels the moments about the world's origin alone; where its axis "
-        "does not go through that point, the force counts, too: all six numbers of S",
-        {"felt": lambda F, i: F[i:].sum(axis=0) * [1, 1, 1, 0, 0, 0]},
-    ),
-    (
-        "own-link-left-out",
-        "each motor feels the links beyond its own, but not its own",
-        {"felt": lambda F, i: F[i + 1 :].sum(axis=0)},
-    ),
-    (
-        "velocities-not-added",
-        "the velocity of a link is that of its own joint alone; the joints before move "
-        "it, too",
-        {"V_before": 0.0},
-    ),
-    (
-        "accelerations-not-added",
-        "the acceleration of a link is that of its own joint alone; the joints before "
-        "move it, too",
-        {"A_before": 0.0},
-    ),
-    (
-        "nothing-added-outwards",
-        "V and A start anew at every link; along the arm they add up",
-        {"V_before": 0.0, "A_before": 0.0},
-    ),
-):
-
-    @wrong(slug, says)
-    def _(J, G, qd, qdd, g, other=other):
-        return passes(J, G, qd, qdd, lift(g), **other)
-
-
-@wrong()
-def gravity_as_omega(J, G, qd, qdd, g):
-    """the base's acceleration stands in the angular half; a twist is (omega; v)"""
-    return passes(J, G, qd, qdd, np.append(-g, np.zeros(3)))
-
-
-@wrong()
-def gravity_at_every_link(J, G, qd, qdd, g):
-    """gravity is added again at every link; the sum carries it from the base to all"""
-    up = lift(g)
-    return passes(J, G, qd, qdd, 0 * up, turned=lambda X, S, speed: X @ S * speed + up)
-
-
-@wrong()
-def gravity_at_every_link(J, G, qd, qdd, g):
-    """gravity is added at the base and again at every link; the sum carries it from the
-    base to all"""
-    up = lift(g)
-    return passes(J, G, qd, qdd, up, turned=lambda X, S, speed: X @ S * speed + up)
-
-
-@wrong()
-def gravity_twice(J, G, qd, qdd, g):
-    """gravity counts twice: it is in A from the base on, so the wrench needs no
-    weight"""
-    return inverse_dynamics(J, G, qd, qdd, 2 * g)
-
-
-@wrong()
-def speed_sign_lost(J, G, qd, qdd, g):
-    """the speeds qd are taken without their signs: which way a joint turns counts when
-    another one turns as well"""
-    return inverse_dynamics(J, G, abs(qd), qdd, g)
-
-
-@wrong()
-def accelerations_not_added(J, G, qd, qdd, g):
-    """A is set anew at every link, so what the joints before gave, and gravity, are
-    lost; it adds up, as V does"""
-    return passes(J, G, qd, qdd, 0.0, A_before=0.0)
-
-
-@wrong("negative", "the sign is wrong: this is what the arm does to the motors")
+@row.wrongs
 def _(J, G, qd, qdd, g):
-    return -inverse_dynamics(J, G, qd, qdd, g)
+    """base-acceleration-sign: the base accelerates the wrong way: to stand still on the
+      ground feels like a lift that starts upwards, against g => the torque so
+    gravity-forgotten: gravity is missing: the acceleration starts at 0 at the base =>
+      the torque so
+    gravity-twice: gravity counts twice: it is in A from the base on, so the wrench
+      needs no weight => the torque so
+    speed-sign-lost: the speeds qd are taken without their signs: which way a joint
+      turns counts when another one turns as well => the torque so
+    speed-and-acceleration-swapped: qd and qdd have changed places => the torque so
+    acceleration-ignored: qdd is not used: this is the bias alone => the torque so
+    speed-ignored: qd is not used: Coriolis and centrifugal forces are missing => the
+      torque so
+    gravity-only: neither qd nor qdd is used: this is the torque that holds the arm =>
+      the torque so
+    negative: the sign is wrong: this is what the arm does to the motors => the torque
+      so
+    armature-added: the armature's 0.1 qdd is in it; the task is about the links alone
+      => the torque so
+    damping-added: the damping's 1.0 qd is in it; the task is about the links alone =>
+      the torque so
+    armature-and-damping-added: armature and damping are in it, 0.1 qdd and 1.0 qd; the
+      task is about the links alone => the torque so
+    """
+    given = {
+        "base-acceleration-sign": (qd, qdd, -g),
+        "gravity-forgotten": (qd, qdd, 0 * g),
+        "gravity-twice": (qd, qdd, 2 * g),
+        "speed-sign-lost": (abs(qd), qdd, g),
+        "speed-and-acceleration-swapped": (qdd, qd, g),
+        "acceleration-ignored": (qd, 0 * qdd, g),
+        "speed-ignored": (0 * qd, qdd, g),
+        "gravity-only": (0 * qd, 0 * qdd, g),
+    }
+    tau = inverse_dynamics(J, G, qd, qdd, g)
+    return {
+        **{slug: partial(inverse_dynamics, J, G, *one) for slug, one in given.items()},
+        "negative": -tau,
+        "armature-added": tau + 0.1 * qdd,
+        "damping-added": tau + qd,
+        "armature-and-damping-added": tau + 0.1 * qdd + qd,
+    }
+
+
+def walked(J, G, qd, qdd, g, others):
+    """Return the torques, not yet made, by passes with other parts, {slug: parts}."""
+    own = partial(passes, J, G, qd, qdd)
+    return {slug: partial(own, **{"base": lift(g), **x}) for slug, x in others.items()}
+
+
+@row.wrongs
+def _(J, G, qd, qdd, g):
+    """bracket-forgotten: the acceleration lacks ad(V) S qd: a joint that is carried
+      round changes its direction => the torque so
+    bracket-sign: in the acceleration ad(V) S qd has the wrong sign => the torque so
+    bracket-twice: in the acceleration ad(V) S qd stands twice; it needs no 2, since the
+      force brings the other half of Coriolis => the torque so
+    bracket-without-speed: the acceleration has ad(V) S without qd: a joint at rest
+      would change it, too => the torque so
+    speed-squared: the acceleration has ad(V) S qd^2; one of the two speeds is in V
+      already => the torque so
+    bracket-not-transposed: the force has ad instead of its transpose: a wrench changes
+      the other way from a twist => the torque so
+    velocity-product-sign: the velocity product, ad(V)^T G V, is added to the force; it
+      is taken off => the torque so
+    acceleration-in-the-velocity-product: the velocity product has G A; what the motion
+      of the link changes is its momentum, G V => the torque so
+    velocity-product-forgotten: the force is G A alone: that the inertia itself moves is
+      missing => the torque so
+    velocity-of-the-link-before: the force uses V before the link's own joint has been
+      added => the torque so
+    not-summed-back: each motor feels its own link only; it carries all links beyond it,
+      too => the torque so
+    summed-from-the-base: the forces are summed from the base to the tip; a motor feels
+      what is beyond it, so the sum starts at the tip => the torque so
+    every-link-for-all: each motor feels all seven links; it carries its own and those
+      beyond it only => the torque so
+    moment-only: each motor feels the moments about the world's origin alone; where its
+      axis does not go through that point, the force counts, too: all six numbers of S
+      => the torque so
+    own-link-left-out: each motor feels the links beyond its own, but not its own => the
+      torque so
+    velocities-not-added: the velocity of a link is that of its own joint alone; the
+      joints before move it, too => the torque so
+    accelerations-not-added: the acceleration of a link is that of its own joint alone;
+      the joints before move it, too => the torque so
+    nothing-added-outwards: V and A start anew at every link; along the arm they add up
+      => the torque so
+    gravity-as-omega: the base's acceleration stands in the angular half; a twist is
+      (omega; v) => the torque so
+    gravity-at-every-link: gravity is added at the base and again at every link; the sum
+      carries it from the base to all => the torque so
+    """
+    up = lift(g)
+    others = {
+        "bracket-forgotten": {"turned": lambda X, S, speed: 0 * S},
+        "bracket-sign": {"turned": lambda X, S, speed: -X @ S * speed},
+        "bracket-twice": {"turned": lambda X, S, speed: 2 * X @ S * speed},
+        "bracket-without-speed": {"turned": lambda X, S, speed: X @ S},
+        "speed-squared": {"turned": lambda X, S, speed: X @ S * speed**2},
+        "bracket-not-transposed": {"swing": lambda V, A, G, own: -ad(V) @ G @ V},
+        "velocity-product-sign": {"swing": lambda V, A, G, own: ad(V).T @ G @ V},
+        "acceleration-in-the-velocity-product": {
+            "swing": lambda V, A, G, own: -ad(V).T @ G @ A
+        },
+        "velocity-product-forgotten": {"swing": lambda V, A, G, own: 0 * V},
+        "velocity-of-the-link-before": {
+            "swing": lambda V, A, G, own: -ad(V - own).T @ G @ (V - own)
+        },
+        "not-summed-back": {"felt": lambda F, i: F[i]},
+        "summed-from-the-base": {"felt": lambda F, i: F[: i + 1].sum(axis=0)},
+        "every-link-for-all": {"felt": lambda F, i: F.sum(axis=0)},
+        "moment-only": {"felt": lambda F, i: F[i:].sum(axis=0) * [1, 1, 1, 0, 0, 0]},
+        "own-link-left-out": {"felt": lambda F, i: F[i + 1 :].sum(axis=0)},
+        "velocities-not-added": {"V_before": 0.0},
+        "accelerations-not-added": {"A_before": 0.0},
+        "nothing-added-outwards": {"V_before": 0.0, "A_before": 0.0},
+        "gravity-as-omega": {"base": np.roll(up, 3)},
+        "gravity-at-every-link": {"turned": lambda X, S, speed: X @ S * speed + up},
+    }
+    return walked(J, G, qd, qdd, g, others)
+
+
+@row.wrongs
+def _(J, G, qd, qdd, g):
+    """bracket-not-transposed: the force has ad instead of minus its transpose: a wrench
+      changes the other way from a twist => the torque so
+    gravity-at-every-link: gravity is added again at every link; the sum carries it from
+      the base to all => the torque so
+    accelerations-not-added: A is set anew at every link, so what the joints before
+      gave, and gravity, are lost; it adds up, as V does => the torque so
+    """
+    up = lift(g)
+    others = {
+        "bracket-not-transposed": {"swing": lambda V, A, G, own: ad(V) @ G @ V},
+        "gravity-at-every-link": {
+            "base": 0 * up,
+            "turned": lambda X, S, speed: X @ S * speed + up,
+        },
+        "accelerations-not-added": {"base": 0.0, "A_before": 0.0},
+    }
+    return walked(J, G, qd, qdd, g, others)
 
 
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
 row.reached_by("ad", "in ad, ", but=["identity-added"])
 row.of_argument("g", *other_gravity("the torque with that gravity"))
-
-
-@wrong("speed-and-acceleration-swapped", "qd and qdd have changed places")
-def _(J, G, qd, qdd, g):
-    return inverse_dynamics(J, G, qdd, qd, g)
-
-
-@wrong("acceleration-ignored", "qdd is not used: this is the bias alone")
-def _(J, G, qd, qdd, g):
-    return inverse_dynamics(J, G, qd, 0 * qdd, g)
-
-
-@wrong("speed-ignored", "qd is not used: Coriolis and centrifugal forces are missing")
-def _(J, G, qd, qdd, g):
-    return inverse_dynamics(J, G, 0 * qd, qdd, g)
-
-
-@wrong()
-def gravity_only(J, G, qd, qdd, g):
-    """neither qd nor qdd is used: this is the torque that holds the arm"""
-    return inverse_dynamics(J, G, 0 * qd, 0 * qdd, g)
-
-
-@wrong()
-def armature_added(J, G, qd, qdd, g):
-    """the armature's 0.1 qdd is in it; the task is about the links alone"""
-    return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd
-
-
-@wrong()
-def damping_added(J, G, qd, qdd, g):
-    """the damping's 1.0 qd is in it; the task is about the links alone"""
-    return inverse_dynamics(J, G, qd, qdd, g) + qd
-
-
-@wrong()
-def armature_and_damping_added(J, G, qd, qdd, g):
-    """armature and damping are in it, 0.1 qdd and 1.0 qd; the task is about the links
-    alone"""
-    return inverse_dynamics(J, G, qd, qdd, g) + 0.1 * qdd + qd
 
 
 @row.close("rounded")  # Printed and typed in again: six decimals.

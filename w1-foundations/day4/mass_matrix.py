@@ -1,5 +1,7 @@
 """4.3 `mass_matrix(J, G, armature)`: its questions and its mistakes."""
 
+from functools import update_wrapper
+
 import numpy as np
 
 from labkit.judge import Symmetric, draw
@@ -19,117 +21,94 @@ def _(rng):
     return [(J, G, rotors[0]), *((at.J_space, at.G, a) for at, a in now)]
 
 
-def links(J, G, moves):
-    """Return M without the armature; `moves(joint, link)` says which columns count."""
-    columns = [J * [moves(joint, link) for joint in range(7)] for link in range(7)]
+def links(J, G, counts):
+    """Return M without the armature; `counts[link, joint]`: does that column?"""
+    columns = [J * row for row in np.broadcast_to(counts, (7, 7))]
     return sum(J_i.T @ G_i @ J_i for J_i, G_i in zip(columns, G))
 
 
-@row.wrong
-def armature_forgotten(J, G, armature):
-    """the armature is missing on the diagonal: the motors' rotors have to be turned as
-    well => M without it"""
-    return mass_matrix(J, G, 0.0)
+@row.wrongs
+def _(J, G, armature):
+    """armature-forgotten: the armature is missing on the diagonal: the motors' rotors
+      have to be turned as well => M without it
+    armature-everywhere: the armature is added to every entry; a rotor turns with its
+      own joint alone, so it belongs on the diagonal => M plus the armature everywhere
+    armature-per-link: the armature is added once for each link; each rotor counts once
+      => M with seven times the armature
+    mirrored-with-the-diagonal: M and its transpose are added, so the diagonal counts
+      twice => M with twice its diagonal
+    inverse-returned: this is the inverse of M: small where the arm is heavy => the
+      inverse of M
+    """
+    M, links_alone = mass_matrix(J, G, armature), mass_matrix(J, G, 0.0)
+    return {
+        "armature-forgotten": links_alone,
+        "armature-everywhere": links_alone + armature,
+        "armature-per-link": mass_matrix(J, G, 7 * armature),
+        "mirrored-with-the-diagonal": np.tril(M) + np.tril(M).T,
+        "inverse-returned": np.linalg.inv(M),
+    }
 
 
-@row.wrong
-def armature_everywhere(J, G, armature):
-    """the armature is added to every entry; a rotor turns with its own joint alone, so
-    it belongs on the diagonal => M plus the armature everywhere"""
-    return mass_matrix(J, G, 0.0) + armature
+def cut(J, G, armature):
+    """columns-not-cut: every joint moves every link; the joints beyond a link do not
+      move it => M with those columns
+    own-joint-left-out: a link's own joint is left out: the columns are cut one too
+      early => M with those columns
+    next-joint-too: the joint after each link counts for it: the columns are cut one too
+      late => M with those columns
+    columns-cut-on-the-wrong-side: the joints before a link are cut away; it is they
+      that move it => M with those columns
+    own-joint-only: only a link's own joint counts for it; all joints before move it,
+      too => M with those columns
+    J-overwritten: only the first joint counts: the columns are set to 0 in J itself,
+      and are gone for the next link. Work on a copy => M with those columns
+    last-link-left-out: the last link is left out: range(n - 1) ends one too early => M
+      with those columns
+    last-link-only: only the last link has a mass here => M with those columns
+    """
+    joint, link = np.arange(7), np.arange(7)[:, None]
+    counts = {
+        "columns-not-cut": joint <= 6,
+        "own-joint-left-out": joint < link,
+        "next-joint-too": joint <= link + 1,
+        "columns-cut-on-the-wrong-side": joint >= link,
+        "own-joint-only": joint == link,
+        "J-overwritten": joint == 0,
+        "last-link-left-out": (joint <= link) & (link < 6),
+        "last-link-only": link == 6,
+    }
+    return {slug: links(J, G, one) + np.diag(armature) for slug, one in counts.items()}
 
 
-@row.wrong
-def armature_per_link(J, G, armature):
-    """the armature is added once for each link; each rotor counts once => M with seven
-    times the armature"""
-    return mass_matrix(J, G, 7 * armature)
+row.wrongs(cut)
+forgotten = update_wrapper(lambda J, G, armature: cut(J, G, 0 * armature), cut)
+row.wrongs(forgotten)  # The armature is, too.
 
 
-for slug, says, moves in (
-    (
-        "columns-not-cut",
-        "every joint moves every link; the joints beyond a link do not move it",
-        lambda joint, link: True,
-    ),
-    (
-        "own-joint-left-out",
-        "a link's own joint is left out: the columns are cut one too early",
-        lambda joint, link: joint < link,
-    ),
-    (
-        "next-joint-too",
-        "the joint after each link counts for it: the columns are cut one too late",
-        lambda joint, link: joint <= link + 1,
-    ),
-    (
-        "columns-cut-on-the-wrong-side",
-        "the joints before a link are cut away; it is they that move it",
-        lambda joint, link: joint >= link,
-    ),
-    (
-        "own-joint-only",
-        "only a link's own joint counts for it; all joints before move it, too",
-        lambda joint, link: joint == link,
-    ),
-    (
-        "J-overwritten",
-        "only the first joint counts: the columns are set to 0 in J itself, and are "
-        "gone for the next link. Work on a copy",
-        lambda joint, link: joint == 0,
-    ),
-    (
-        "last-link-left-out",
-        "the last link is left out: range(n - 1) ends one too early",
-        lambda joint, link: joint <= link < 6,
-    ),
-    (
-        "last-link-only",
-        "only the last link has a mass here",
-        lambda joint, link: link == 6,
-    ),
-):
-    for rotors in (1, 0):  # The armature is forgotten, too.
-
-        @row.wrong(slug, says, "M with those columns")
-        def _(J, G, armature, moves=moves, rotors=rotors):
-            return links(J, G, moves) + rotors * np.diag(armature)
-
-
-@row.wrong
-def halves_swapped(J, G, armature):
-    """J and G do not have the same order: omega comes first in both => M with the
-    halves of G swapped"""
-    return mass_matrix(J[[3, 4, 5, 0, 1, 2]], G, armature)
-
-
-@row.wrong
-def corners_swapped(J, G, armature):
-    """the corners of G count with the wrong sign. M is symmetric and positive definite
-    all the same => M with those signs"""
+@row.wrongs
+def _(J, G, armature):
+    """halves-swapped: J and G do not have the same order: omega comes first in both =>
+      M with the halves of G swapped
+    corners-swapped: the corners of G count with the wrong sign. M is symmetric and
+      positive definite all the same => M with those signs
+    corners-dropped: turning and moving are added up separately: what ties them, the
+      corners of G, is missing => M without the corners of G
+    angular-half-only: only the turning counts: the lower half of J, how fast the links
+      move, is not used => M from the upper half of J and the top left block of G
+    linear-half-only: only the lower half of J counts, and of G the mass; a link that
+      turns has energy, too => M from the lower half of J and the lower right block of G
+    """
     flip = np.diag([1, 1, 1, -1, -1, -1])
-    return mass_matrix(J, flip @ G @ flip, armature)
-
-
-@row.wrong
-def corners_dropped(J, G, armature):
-    """turning and moving are added up separately: what ties them, the corners of G, is
-    missing => M without the corners of G"""
-    return mass_matrix(J, G * np.kron(np.eye(2), np.ones((3, 3))), armature)
-
-
-@row.wrong
-def angular_half_only(J, G, armature):
-    """only the turning counts: the lower half of J, how fast the links move, is not
-    used => M from the upper half of J and the top left block of G"""
-    return mass_matrix(np.vstack([J[:3], np.zeros((3, 7))]), G, armature)
-
-
-@row.wrong
-def linear_half_only(J, G, armature):
-    """only the lower half of J counts, and of G the mass; a link that turns has energy,
-    too => M from the lower half of J and the lower right block of G"""
-    return mass_matrix(np.vstack([np.zeros((3, 7)), J[3:]]), G, armature)
+    upper = np.array([1, 1, 1, 0, 0, 0])[:, None]
+    given = {
+        "halves-swapped": (np.roll(J, 3, axis=0), G),
+        "corners-swapped": (J, flip @ G @ flip),
+        "corners-dropped": (J, G * np.kron(np.eye(2), np.ones((3, 3)))),
+        "angular-half-only": (upper * J, G),
+        "linear-half-only": ((1 - upper) * J, G),
+    }
+    return {slug: mass_matrix(*both, armature) for slug, both in given.items()}
 
 
 for half, which in ((np.tril, "lower"), (np.triu, "upper")):
@@ -139,14 +118,6 @@ for half, which in ((np.tril, "lower"), (np.triu, "upper")):
         "mirror image",
         f"the {which} half of M",
     )(lambda J, G, armature, half=half: half(mass_matrix(J, G, armature)))
-
-
-@row.wrong
-def mirrored_with_the_diagonal(J, G, armature):
-    """M and its transpose are added, so the diagonal counts twice => M with twice its
-    diagonal"""
-    lower = np.tril(mass_matrix(J, G, armature))
-    return lower + lower.T
 
 
 @row.wrong
@@ -160,24 +131,12 @@ def not_summed_back(J, G, armature):
     return M
 
 
-for code, what in (
-    (
-        lambda J, G, armature: mass_matrix(J, G / 2, armature),
-        "M with half of the links",
-    ),
-    (lambda J, G, armature: mass_matrix(J, G, armature) / 2, "half of M"),
-):
+for rotors, what in ((1, "M with half of the links"), (0.5, "half of M")):
     row.wrong(
         "half",
         "the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2",
         what,
-    )(code)
-
-
-@row.wrong
-def inverse_returned(J, G, armature):
-    """this is the inverse of M: small where the arm is heavy => the inverse of M"""
-    return np.linalg.inv(mass_matrix(J, G, armature))
+    )(lambda J, G, armature, r=rotors: mass_matrix(J, G / 2, r * armature))
 
 
 @row.right  # Lists and loops, no matrix product.
