@@ -14,7 +14,8 @@ from .panda_chain import FLANGE_POS, FLANGE_QUAT, PATH, fk
 R, NOWHERE = se3.quat_to_R(FLANGE_QUAT), np.zeros(3)
 FLANGE, TO_HAND = pose(R, FLANGE_POS), pose(se3.Rz(np.pi), NOWHERE)
 BACK = rigid_inverse(FLANGE)  # to link7
-FINGER, TIP = (pose(np.eye(3), np.array([0.0, 0.0, z])) for z in (0.0584, 0.1034))  # m
+# Along the z of `hand`, metres.
+FINGER, TIP = (pose(np.eye(3), np.array([0.0, 0.0, z])) for z in (0.0584, 0.1034))
 ENDS = {  # by slug, T_end_student
     "hand-for-attachment-site": TO_HAND,
     "finger-for-the-end": TO_HAND @ FINGER,

@@ -70,7 +70,9 @@ def on_each_other(model, q, path=PATH):
         ),
         "last-step-on-the-left": last @ before,
         "local-taken-for-world": last,
-        "offsets-summed": pose(R, sum(model.body(name).pos for name, _ in path)),
+        "offsets-summed": lambda: pose(
+            R, sum(model.body(name).pos for name, _ in path)
+        ),
         "point-with-w-0": pose(R, t - before[:3, 3]),
         "inertial-frames": lambda: inertial(model, q, path, "ipos"),
         "inertial-turns": lambda: inertial(model, q, path, "pos"),

@@ -1,5 +1,7 @@
 """1.4 `quat_to_R(quat)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Rotation, draw
@@ -71,13 +73,16 @@ def _(quat):
       square root is missing => the right formula with that division
     """
     unturned = np.array([1.0, 0.0, 0.0, 0.0])
+    read = {
+        "wxyz-read-as-xyzw": quat[[3, 0, 1, 2]],
+        "xyzw-rolled-wrongly": quat[[2, 3, 0, 1]],
+        "z-before-x": quat[[0, 3, 2, 1]],
+        "half-angle": quat / np.linalg.norm(quat) + unturned,
+    }
     return {
-        "wxyz-read-as-xyzw": se3.quat_to_R(quat[[3, 0, 1, 2]]),
-        "xyzw-rolled-wrongly": se3.quat_to_R(quat[[2, 3, 0, 1]]),
-        "z-before-x": se3.quat_to_R(quat[[0, 3, 2, 1]]),
-        "half-angle": se3.quat_to_R(quat / np.linalg.norm(quat) + unturned),
-        "factor-two-missing": (se3.quat_to_R(quat) + np.eye(3)) / 2,
-        "divided-by-length-squared": by_ones(quat / (quat @ quat)),
+        **{slug: partial(se3.quat_to_R, other) for slug, other in read.items()},
+        "factor-two-missing": lambda: (se3.quat_to_R(quat) + np.eye(3)) / 2,
+        "divided-by-length-squared": lambda: by_ones(quat / (quat @ quat)),
     }
 
 
