@@ -318,6 +318,7 @@ def test_dragging_joint2_moves_the_arm_to_that_angle(page, model):
     page.until(lambda: page.angle(2) > panda.READY_Q[1] + 0.3)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, page.angles())))
     page.until(lambda: close(page.matrix("library"), page.matrix("mujoco")))
+    page.tab.wait_for_timeout(200)
     assert close(page.angles()[[0, *range(2, 7)]], panda.READY_Q[[0, *range(2, 7)]])
 
 
@@ -349,6 +350,7 @@ def test_the_arrow_keys_drive_the_arm(page, model):
         page.tab.keyboard.press("ArrowRight")
     page.until(lambda: abs(page.angle(2) - panda.READY_Q[1] - 0.03) < 0.006)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, page.angles())))
+    page.tab.wait_for_timeout(200)  # the slider tells its last place once more
 
 
 # What a slow page does: what it was told before arrives after it.

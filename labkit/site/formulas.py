@@ -6,7 +6,7 @@ formula is written twice, and the page's poses are those of the day's own code.
 """
 
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import Any
 from unittest.mock import patch
@@ -47,12 +47,31 @@ class Tape:
         """Return the line of a symbol, or of a plain number."""
         return value.line if isinstance(value, Symbol) else self.at(("=", float(value)))
 
-    def run(self, q: Sequence[float]) -> list[float]:
-        """Return the value of every line at joint angles q, as the page does."""
-        values: list[float] = []
-        for name, *of in self.lines:
-            values.append(_DO[name](values, q, *of))
-        return values
+    def used(self, ends: Iterable[int]) -> tuple[list[tuple], dict[int, int]]:
+        """Return the lines that some lines need, and the new number of each."""
+        needed, left = set(), [*ends]
+        while left:
+            if (line := left.pop()) not in needed:
+                needed.add(line)
+                left += self._of(line)
+        now = {line: i for i, line in enumerate(sorted(needed))}
+        lines = [self.lines[line] for line in now]
+        return [(n, *(now[x] if n in _OF else x for x in of)) for n, *of in lines], now
+
+    def _of(self, line: int) -> list[int]:
+        name, *of = self.lines[line]
+        return of if name in _OF else []
+
+
+def run(lines: Iterable[Sequence], q: Sequence[float]) -> list[float]:
+    """Return the value of every line at joint angles q, as the page does."""
+    values: list[float] = []
+    for name, *of in lines:
+        values.append(_DO[name](values, q, *of))
+    return values
+
+
+_OF = {"+", "-", "*", "sin", "cos"}  # operations on earlier lines
 
 
 _DO: dict[str, Any] = {
@@ -111,6 +130,13 @@ class Symbol:
     def cos(self) -> "Symbol":
         """Return the cosine; `np.cos` calls this."""
         return Symbol(self.tape, ("cos", self.line))
+
+    def _unknown(self, *_: Any) -> "Symbol":
+        """Stand for what no ghost needs, and a mistake beside its own makes."""
+        return Symbol(self.tape, ("?",))
+
+    __abs__ = __truediv__ = __rtruediv__ = __ge__ = __le__ = _unknown
+    deg2rad = rad2deg = _unknown
 
 
 def _is(value: Any, number: int) -> bool:
@@ -182,4 +208,10 @@ def tables() -> dict[str, Any]:
                 },
             }
         )
-    return {"ready": READY_Q.tolist(), "lines": tape.lines, "mistakes": mistakes}
+    lines, now = tape.used(
+        n for one in mistakes for frame in one["frames"].values() for n in frame
+    )
+    for one in mistakes:
+        for frame in one["frames"].values():
+            frame[:] = [now[n] for n in frame]
+    return {"ready": READY_Q.tolist(), "lines": lines, "mistakes": mistakes}

@@ -133,7 +133,7 @@ def _in_q(row, form):
         last-joint-only: only the last joint counts: what the others do is overwritten
           => the product with joint7 alone
         """
-        joint = np.arange(1, 8)
+        joint = np.arange(1, len(q) + 1)
         used = {
             "joints-left-out": 0.0 * q,
             "all-backwards": -q,
@@ -142,12 +142,12 @@ def _in_q(row, form):
             "angles-added-up": np.cumsum(q),
             "radians-taken-for-degrees": np.deg2rad(q),
             "degrees": np.rad2deg(q),
-            "first-angle-for-all": np.full(7, q[0]),
+            "first-angle-for-all": np.full_like(q, q[0]),
             "q-backwards": q[::-1],
-            "last-joint-missing": q * (joint < 7),
+            "last-joint-missing": q * (joint < len(q)),
             "first-joint-missing": q * (joint > 1),
             "first-joint-only": q * (joint == 1),
-            "last-joint-only": q * (joint == 7),
+            "last-joint-only": q * (joint == len(q)),
         }
         return {slug: partial(form, screws, M, x) for slug, x in used.items()}
 
