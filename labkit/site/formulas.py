@@ -191,7 +191,7 @@ def questions(number: int, q: Any) -> dict[str, tuple]:
 
 def tables() -> dict[str, Any]:
     """Return what the page reads: the lines, and per mistake its words and entries."""
-    tape, mistakes = Tape(), []
+    tape, mistakes = Tape(), list[dict[str, Any]]()
     for number, row, way in chosen():
         asked = questions(number, tape.q)
         with symbols_allowed():
