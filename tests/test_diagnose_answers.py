@@ -157,7 +157,7 @@ def test_a_question_without_a_reply_is_the_callers_error():
 @pytest.mark.parametrize(
     ("kind", "S", "T", "word"),
     [
-        (Vector((7,), "Nm"), np.ones(7) * 3, np.ones(7), "3 times the right one"),
+        (Vector((7,), "N m"), np.ones(7) * 3, np.ones(7), "3 times the right one"),
         (Matrix((6, 6)), np.eye(6) + 2 * np.eye(6)[[5]].T, np.eye(6), "row 5"),
         (Pose(), np.eye(4) * np.nan, np.eye(4), "off"),
     ],

@@ -39,7 +39,7 @@ class Noisy(Tab):
         self.press = page.buttons(["a", "b"], self.set)
         self.pick = page.choice("c", ["one", "two"], self.set)
         self.tick = page.tick("t", self.set)
-        self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "Nm", "torque")
+        self.bars = page.bars(["j1", "j2"], [87.0, 12.0], "N m", "torque")
         self.plot = page.plot(["e1"], y="error (m)")
         self.image = page.image(np.arange(12.0).reshape(3, 4), "depth")
         page.gui.add_button("viser's own")

@@ -178,9 +178,10 @@ def test_a_screenshot_cuts_nothing_off(run, tmp_path, start):
     assert min(int(edge.min()) for edge in edges) > 150  # floor and sky alone
 
 
-def test_a_screenshot_refuses_the_option_that_it_cannot_honour(run, tmp_path):
+def test_an_option_that_cannot_be_honoured_is_refused(run, tmp_path):
     done = run(VIEW, "--screenshot", tmp_path / "a.png", "--entry", "panda")
     assert is_refused(done, "--entry is for --web")
+    assert is_refused(run(VIEW, "--web", "--file", "a.py"), "--file is for --clip")
 
 
 def test_a_screenshot_never_replaces_a_file(tmp_path):

@@ -184,6 +184,8 @@ def picture_of(options: argparse.Namespace) -> Path:
 def main() -> int:
     """Show the Panda in the way that was asked for."""
     options = parse()
+    if options.file and not options.clip:
+        raise Robo47Error("--file is for --clip; --web shows the file in work/")
     if options.screenshot:
         if options.entry:
             raise Robo47Error("--entry is for --web; a picture has the hand on")

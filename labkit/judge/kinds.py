@@ -130,7 +130,7 @@ class Scalar(Kind):
 
 @dataclass(frozen=True)
 class Vector(Kind):
-    """A vector. `Vector((7,), "Nm", names=JOINTS)`."""
+    """A vector. `Vector((7,), "N m", names=JOINTS)`."""
 
     # Of its entries, "joint1" and so on; else they are counted from 0.
     names: tuple[str, ...] = ()

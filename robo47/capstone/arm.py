@@ -22,9 +22,9 @@ from robo47.panda.reading import Inertias
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 OMEGA = 20.0  # rad/s, of computed torque; 100 Hz allows no more than about 60
-STIFFNESS = np.array([30.0, 30.0, 30.0, 600.0, 600.0, 600.0])  # Nm/rad, N/m
-POSTURE = (10.0, 4.0)  # Nm/rad, Nm s/rad: how firmly the elbow is held in lines
-REST = (100.0, 10.0)  # Nm/rad, Nm s/rad: the springs that hold the arm at the end
+STIFFNESS = np.array([30.0, 30.0, 30.0, 600.0, 600.0, 600.0])  # N m/rad, N/m
+POSTURE = (10.0, 4.0)  # N m/rad, N m s/rad: how firmly the elbow is held in lines
+REST = (100.0, 10.0)  # N m/rad, N m s/rad: the springs that hold the arm at the end
 REACHED = 1e-4  # m and rad: an answer of solve_ik further off than this is none
 
 

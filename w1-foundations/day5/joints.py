@@ -7,7 +7,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.row import REDONE
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
-TORQUE = Vector((7,), "Nm", scale=10.0, names=JOINTS)
+TORQUE = Vector((7,), "N m", scale=10.0, names=JOINTS)
 ANGLE = Vector((7,), "rad", names=JOINTS)
 ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn

@@ -26,13 +26,14 @@ def _(rng):
 @row.wrongs
 def _(tau, limits):
     """not-bounded: the torques come back as they are
-    above-only: torques are bounded above and not below: -100 Nm comes out as it is
+    above-only: torques are bounded above and not below: -100 N m comes out as it is
     below-only: torques are bounded below and not above
     never-negative: torques are kept between 0 and the limit; a motor turns both ways
     sign-lost: a torque at its limit loses its sign
-    limits-typed-in: the Panda's 87 and 12 Nm are typed in; take them from limits,
+    limits-typed-in: the Panda's 87 and 12 N m are typed in; take them from limits,
       another arm has others
-    one-limit-for-all: all joints get the first motor's limit; the small ones give 12 Nm
+    one-limit-for-all: all joints get the first motor's limit; the small ones give
+      12 N m
     smallest-limit-for-all: all joints get the smallest limit; each motor has its own
     all-scaled-down: one motor at its limit scales all seven down; the others can still
       give what they are asked for
@@ -63,7 +64,7 @@ def _(tau, limits):
       give what they are asked for
     nothing-within-the-limits: where all torques are within their limits, 0 comes back;
       they should stay as they are
-    first-limit-typed-in: all joints get 87 Nm, typed in; take each motor's own from
+    first-limit-typed-in: all joints get 87 N m, typed in; take each motor's own from
       limits
     all-positive: every torque has lost its sign; a motor turns both ways
     first-joint-only: only joint1 is limited; every motor has a limit => the right one

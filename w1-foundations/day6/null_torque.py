@@ -50,7 +50,7 @@ def _(J, M, Lambda, tau):
       circle, and yet the hand is accelerated by metres per second squared => tau - J^+
       J tau
     M-for-identity: M stands where the identity belongs: M tau is no torque (its unit is
-      kg m2 times Nm), so nothing can be taken away from it => (M - J^T Lambda J M^-1)
+      kg m2 times N m), so nothing can be taken away from it => (M - J^T Lambda J M^-1)
       tau
     projector-transposed: the projector is transposed: M^-1 J^T Lambda J is for joint
       accelerations; for torques M^-1 is on the other side => tau - M^-1 J^T Lambda J

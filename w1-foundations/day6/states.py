@@ -10,7 +10,7 @@ from robo47 import panda, task_space
 SIGMA = 0.1  # least singular value of J: nearer to a singularity digits are lost
 COUNT = 9  # drawn calls of each function, after the docstring's case
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
-TORQUE = Vector((7,), "Nm", scale=10.0, names=JOINTS)
+TORQUE = Vector((7,), "N m", scale=10.0, names=JOINTS)
 WRENCH = Wrench(scale=10.0)
 J_CASE, M_CASE = np.eye(6, 7), np.eye(7)
 SWAP = [3, 4, 5, 0, 1, 2]

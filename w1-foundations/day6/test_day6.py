@@ -342,7 +342,7 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
             odd = hand.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
-    assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 Nm
+    assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 N m
 
 
 def test_the_public_pages_null_space_term_reaches_the_hand(motors):

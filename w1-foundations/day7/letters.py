@@ -14,7 +14,7 @@ from robo47.arm import Arm, ArmState
 from robo47.checks import Array
 
 OMEGA = 30.0  # rad/s, of the hand's error; 100 shakes at this rate
-POSTURE = (40.0, 8.0)  # Nm/rad, Nm s/rad: how firmly the elbow stays
+POSTURE = (40.0, 8.0)  # N m/rad, N m s/rad: how firmly the elbow stays
 SPEED = 0.3  # m/s, the hand's top speed in every stroke
 RATE = 250.0  # Hz
 BOARD, LIFTED = 0.50, 0.47  # m, x of the board, and of the pen between letters
