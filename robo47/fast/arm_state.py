@@ -6,7 +6,8 @@ All links go through each call together. Two habits make the calls few:
 - A link's mass, centre of mass and inertia travel as its pseudo-inertia, the integral
   of r r^T over its mass with r = (x, y, z, 1). A pose T takes it to T P T^T (Wensing,
   Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
-  parameter identification", 2018).
+  parameter identification", 2018). Where the acceleration of each point is W r, the
+  force on a body and its moment stand in W P.
 
 Conventions as in `robo47.dynamics`.
 """
@@ -20,9 +21,15 @@ from numpy.typing import ArrayLike
 from robo47 import screws
 from robo47.checks import Array
 
-# Linear maps, for rows of numbers: p @ SKEW is [p], V @ AD is ad(V), row by row.
+# Linear maps, for rows of numbers: p @ SKEW is [p], V @ HAT is [V], row by row.
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
-AD = screws.ad(np.eye(6)).reshape(6, 36)
+HAT = np.zeros((6, 4, 4))
+HAT[:3, :3, :3], HAT[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
+HAT = HAT.reshape(6, 16)
+# (f r^T) @ WRENCH is (r x f; f), for f and r of four numbers.
+WRENCH = np.zeros((4, 4, 6))
+WRENCH[:3, :3, :3], WRENCH[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
+WRENCH = WRENCH.reshape(16, 6)
 EYE = np.eye(6)
 
 
@@ -79,10 +86,12 @@ class Constants:
         pairs: omega and v of each joint as two rows, (n, 2, 3).
         pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
         before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
+        twice: 2 below the diagonal, 1 on it, (n, n).
         after: 1 on and above it: after @ x sums x inwards, from the tip.
         lower: true on and below the diagonal, (n, n).
         armature: on a diagonal, (n, n).
         A_base: acceleration of a base that feels like gravity, (6,).
+        W_base: the same as a matrix, [A_base], (16,).
         M_home, T_zero, coms: as `robo47.arm.Arm` has them.
     """
 
@@ -98,10 +107,12 @@ class Constants:
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
         self.before = np.tri(n)
+        self.twice = 2 * self.before - np.eye(n)
         self.after = self.before.T.copy()
         self.lower = self.before.astype(bool)
         self.armature = np.diag(arm.armature)
         self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
+        self.W_base = self.A_base @ HAT
         self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms
 
 
@@ -185,14 +196,18 @@ class ArmState:
     def G(self) -> Array:
         """Inertias of the links about the world's origin, (n, 6, 6)."""
         n = len(self.q)
-        P = self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
-        return (P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
+        return (self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
+
+    @lazy
+    def _P(self) -> Array:
+        """Pseudo-inertias of the links about the world's origin, (n, 4, 4)."""
+        return self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
 
     @lazy
     def _momenta(self) -> Array:
         """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
         n = len(self.q)
-        carried = (self._c.after @ self.G.reshape(n, 36)).reshape(n, 6, 6)
+        carried = (self._c.after @ self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]
 
     @lazy
@@ -219,10 +234,10 @@ class ArmState:
         Returns:
             Torque, N m, (n,).
         """
-        ad_V, V, A = self._motion(qd)
-        F = (A + self._c.A_base)[:, None] @ self.G  # as rows: G is symmetric
-        F -= V[:, None] @ self.G @ ad_V
-        return np.vecdot(self._S, self._c.after @ F[:, 0])
+        n = len(self.q)
+        W = (self._motion(qd) + self._c.W_base).reshape(n, 4, 4)
+        F = (W @ self._P).reshape(n, 16) @ WRENCH
+        return np.vecdot(self._S, self._c.after @ F)
 
     def site_bias(self, qd: ArrayLike) -> Array:
         """Return the acceleration of the arm's end at qdd = 0: J_site's rate times qd.
@@ -233,24 +248,20 @@ class ArmState:
         Returns:
             (angular; of the point) in world axes, rad/s^2 and m/s^2, (6,).
         """
-        _, V, A = self._motion(qd)
-        omega, v, alpha, a = V[-1, :3], V[-1, 3:], A[-1, :3], A[-1, 3:]
-        p = self.T_world_ee[:3, 3]
-        return np.concatenate(
-            [alpha, a + _cross(alpha, p) + _cross(omega, v + _cross(omega, p))]
-        )
+        W = self._motion(qd)[-1].reshape(4, 4)
+        turn = 0.5 * (W - W.T)  # [omega]^2 is symmetric: [alpha] is left
+        alpha = [turn[2, 1], turn[0, 2], turn[1, 0]]
+        return np.concatenate([alpha, W[:3] @ self.T_world_ee[:, 3]])
 
-    def _motion(self, qd: ArrayLike) -> tuple[Array, Array, Array]:
-        """Return ad(V), V and A of every link at qdd = 0: (n, 6, 6), (n, 6), (n, 6)."""
+    def _motion(self, qd: ArrayLike) -> Array:
+        """Return W = [A] + [V]^2 of every link at qdd = 0, (n, 16): r'' = W r.
+
+        Each joint adds (2 V + X) X, with V the links' before it and X = [S] qd its own.
+        """
         n = len(self.q)
         qd = np.asarray(qd, dtype=np.float64)
         if qd.shape != (n,):
             raise ValueError(f"qd has shape {qd.shape}; expected ({n},)")
-        added = self._S * qd[:, None]
-        V = self._c.before @ added
-        ad_V = (V @ AD).reshape(n, 6, 6)
-        return ad_V, V, self._c.before @ (ad_V @ added[:, :, None])[:, :, 0]
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return (a @ SKEW).reshape(3, 3) @ b
+        X = (self._S * qd[:, None]) @ HAT
+        W = (self._c.twice @ X).reshape(n, 4, 4) @ X.reshape(n, 4, 4)
+        return self._c.before @ W.reshape(n, 16)
