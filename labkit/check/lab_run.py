@@ -26,8 +26,7 @@ from labkit.judge.problems import stops_with
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.lab import Lab, number_of
-from labkit.sandbox.library import library_of
-from labkit.sandbox.messages import PANDA
+from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
 ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function

@@ -17,8 +17,7 @@ from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.row import row_of
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.sandbox.library import library_of
-from labkit.sandbox.messages import robots_of
+from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
