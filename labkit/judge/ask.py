@@ -14,7 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import Exchange, Path, Question
+from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge.compare import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
@@ -204,6 +204,16 @@ class Asked:
     def exchanges(self) -> list[Exchange]:
         """All of them, in the order in which they are asked."""
         return [*self.main, *self.fresh, *chain(*self.held_out), *self.probes]
+
+
+def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
+    """Return the replies of exchanges; a ValueError where nobody asked the question."""
+    found = []
+    for exchange in exchanges:
+        if exchange.reply is None:
+            raise ValueError(f"no reply to {exchange.question}")
+        found.append(exchange.reply)
+    return found
 
 
 def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
