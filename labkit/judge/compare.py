@@ -90,6 +90,12 @@ def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
     return np.max(each, axis=0)
 
 
+def all_match(kinds: Sequence[Any], S: Parts, T: Parts) -> bool:
+    """Return whether answers have as many parts, and each part `matches`."""
+    trios = zip(S, T, kinds, strict=False)
+    return len(S) == len(T) and all(matches(s, t, kind.scale) for s, t, kind in trios)
+
+
 def off_by(kinds: Sequence[Any], S: Parts, T: Parts) -> float:
     """Return the largest difference of any entry, in units of its scale."""
     return float(gaps(kinds, S, T).max())

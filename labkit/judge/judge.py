@@ -11,6 +11,7 @@ from labkit.judge import near_miss, problems
 from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
 from labkit.judge.compare import (
     Parts,
+    all_match,
     as_one,
     difference,
     gaps,
@@ -264,8 +265,7 @@ def named_mistake(
             again = _made_again(mistake, arguments, kinds, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
-        trios = zip(S, again, kinds, strict=False)
-        if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in trios):
+        if all_match(kinds, S, again):
             says = capitalised(mistake.says)
             says += "" if says.endswith("?") else "."
             if T is not None:

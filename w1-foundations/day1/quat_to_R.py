@@ -7,7 +7,6 @@ import numpy as np
 from labkit.judge import Rotation, draw
 from labkit.judge.finished import OF_A_ROTATION
 from labkit.judge.row import Row
-from robo47 import se3
 
 from .panda_chain import FLANGE_QUAT, NEAR
 
@@ -39,9 +38,14 @@ def by_ones(quat):
     ])  # fmt: skip
 
 
+def normalised(quat):
+    """Return the right one."""
+    return by_ones(quat / np.linalg.norm(quat))
+
+
 def by_squares(quat):
     """Return ww + xx - yy - zz and so on, without normalising first."""
-    return np.linalg.norm(quat) ** 2 * se3.quat_to_R(quat)
+    return quat @ quat * normalised(quat)
 
 
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
@@ -80,8 +84,8 @@ def _(quat):
         "half-angle": quat / np.linalg.norm(quat) + unturned,
     }
     return {
-        **{slug: partial(se3.quat_to_R, other) for slug, other in read.items()},
-        "factor-two-missing": lambda: (se3.quat_to_R(quat) + np.eye(3)) / 2,
+        **{slug: partial(normalised, other) for slug, other in read.items()},
+        "factor-two-missing": lambda: (normalised(quat) + np.eye(3)) / 2,
         "divided-by-length-squared": lambda: by_ones(quat / (quat @ quat)),
     }
 
