@@ -151,6 +151,18 @@ def test_a_screw_with_a_pitch_moves_along_its_axis(pitch):
     assert r"moves along the axis by $2 \pi h$" in GUIDE
 
 
+def test_at_zero_a_row_for_a_column_is_the_same_for_four_links(arm, either_panda):
+    q = np.vstack([np.zeros(7), arm[2][2:]])
+    poses = verify.mujoco_poses(either_panda, q)
+    R = np.array([poses[link][:, :3, :3] for link in lab.LINKS])
+    same = np.isclose(R[:, :, 2], R[..., 2], atol=1e-9).all(axis=-1)
+    symmetric = np.isclose(R, np.swapaxes(R, 2, 3), atol=1e-9).all(axis=(2, 3))
+    assert (same[:, 0] == symmetric[:, 0]).all()
+    assert same[:, 0].sum() == 4
+    assert not same[1:, 1:].any()  # link1 turns about the vertical alone
+    assert "There R is symmetric for four of the seven links" in GUIDE
+
+
 def test_the_cube_of_a_bracket_is_its_negative_for_length_1_only():
     K = lab.skew(np.array([0.0, 0.6, 0.8]))
     assert_same(K @ K @ K, -K, 1e-15)

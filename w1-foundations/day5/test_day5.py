@@ -216,6 +216,17 @@ def test_rates_gains_and_integrators_of_the_guides_table(bench):
     ]
     said = ", ".join(f"{mrad:.2f}" for mrad in tracked)
     assert f"5, 10, 20, 40, 100 track within {said} mrad" in GUIDE
+    for rate, missed in ((250, False), (100, True)):
+        curves = {z: decay(bench, lab.equal_springs(10.0, z), 1.0, rate)
+                  for z in (0.5, 1.0, 2.0)}  # fmt: skip
+        off = [np.abs(e.T - lab.error_response(t, 10.0, z)).max()
+               for z, (t, e) in curves.items()]  # fmt: skip
+        assert (max(off) > 0.02) == missed  # the limit of error_dynamics
+    for rate, rests in ((100, True), (50, False)):
+        log = lab.run(
+            *bench, lab.springs, references.hold(lab.READY_Q), 6.0, rate=float(rate)
+        )
+        assert (np.ptp(log.q[-rate:], axis=0).max() < 1e-9) == rests
     assert round(tracked[0] / tracked[2]) == 7
     assert "5 tracks 7 times worse" in (ROOT / SCRIPT).read_text("utf-8")
     model = loops.motors()
