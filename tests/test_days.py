@@ -55,6 +55,7 @@ class TestManifest:
         drawings = [name for name in sections if name.startswith("drawing ")]
         assert len(drawings) == day.drawings
         assert "- [ ]" in sections["checklist"]
+        assert f"make run DAY={day.number}" in sections["checklist"]
         questions = re.findall(r"^\d+\.", sections["can you explain?"], re.MULTILINE)
         assert len(questions) == day.questions
 

@@ -112,7 +112,11 @@ def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
     data.qpos[3:7] = np.sqrt([0.5, 0.5, 0.0, 0.0])  # rolled by a quarter turn
     mujoco.mj_forward(model, data)
     assert_same(data.cvel[1, :3], screws.exp_rotation([1, 0, 0], np.pi / 2) @ omega)
-    assert "its omega is in the *body's* axes" in GUIDE
+    assert r"its $\omega$ is in the *body's* axes" in GUIDE
+    says = (
+        "Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`"
+    )
+    assert says in screws.__doc__
 
 
 @pytest.mark.parametrize("mass_at", [0.0, 0.5])
@@ -237,6 +241,21 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
     assert np.linalg.matrix_rank(S) == 5
     assert_same(S[:, 0], np.zeros(7), 0.0)
     assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
+
+
+def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
+    need(importlib.util.find_spec("PIL") is not None, "PIL: make figures")
+    monkeypatch.syspath_prepend(str(DAY.source.parent))
+    figures, words = folder.load(DAY, "figures"), set()
+    write = lambda layer, at, text, *rest: words.add(text)  # noqa: E731
+    name = lambda layer, text, *rest: words.add(text)  # noqa: E731
+    monkeypatch.setattr(figures.Layer, "text", write)
+    monkeypatch.setattr(figures.Layer, "label", name)
+    monkeypatch.setattr(figures.client, "draw", lambda scene: np.zeros((9, 9, 3), "u1"))
+    monkeypatch.setattr(figures.Layer, "over", lambda layer, picture: picture)
+    figures.screws()
+    lengths = {"0.333", "0.316", "0.384", "0.0825", "0.088"}
+    assert words == {*(f"S{i}" for i in range(1, 8)), *lengths, "x", "y"}
 
 
 # --- where in the product it is wrong ---

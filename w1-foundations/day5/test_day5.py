@@ -163,8 +163,8 @@ def without(part):
         ("springs", 8.7, "without the springs | 8.7"),
         ("Coriolis", 3.1, "without the Coriolis part of bias | 3.1"),
         ("qdd_ref", 7.1, "without qdd_ref | 7.1"),
-        ("damping", 21.7, "without damping qd | 21.7"),
-        ("zeta", 0.15, "kd = omega, so zeta = 0.5 | 0.15"),
+        ("damping", 21.7, r"without damping $d \dot q$ | 21.7"),
+        ("zeta", 0.15, r"$k_d = \omega$, so $\zeta$ = 0.5 | 0.15"),
     ],
 )
 def test_what_each_part_of_the_model_is_worth(bench, part, mrad, row):
@@ -203,7 +203,7 @@ def test_a_model_without_armature_is_off_by_a_quarter_of_a_radian(bench):
 def test_soft_springs_show_what_is_missing(bench):
     law = lambda *args: without("damping")(*args, omega=5.0)  # noqa: E731
     assert swing(bench, law) == pytest.approx(186, abs=1.0)
-    assert "at omega = 5 the row without damping is 186 mrad" in GUIDE
+    assert r"at $\omega$ = 5 the row without damping is 186 mrad" in GUIDE
 
 
 @pytest.mark.kit

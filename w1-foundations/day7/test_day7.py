@@ -126,6 +126,19 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
     assert four / one == pytest.approx(4.0)
     one, four = (lab.quintic_duration(dq, free, np.full(7, a)) for a in (4.0, 1.0))
     assert four / one == pytest.approx(2.0)
+    arm = panda.arm(panda.load("panda_nohand", drive="torque"))
+
+    def hardest(T):
+        """Return the largest torque of the move of step 2, N m, without friction."""
+        move = (lab.joint_move(lab.READY_Q, lab.GOAL_Q, x * T, T)
+                for x in np.linspace(0.0, 1.0, 50))  # fmt: skip
+        tau = [arm.at(q).M @ qdd + arm.at(q).bias(qd) for q, qd, qdd in move]
+        return np.abs(tau).max()
+
+    one, ten, thousand = hardest(0.5), hardest(5.0), hardest(500.0)
+    assert one > 1.5 * ten
+    assert ten == pytest.approx(thousand, rel=0.02)  # what gravity takes
+    assert says("A torque limit is neither: gravity does not shrink at all")
 
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
