@@ -23,13 +23,13 @@ from robo47.checks import Array
 
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ HAT is [V], row by row.
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
-HAT = np.zeros((6, 4, 4))
-HAT[:3, :3, :3], HAT[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
-HAT = HAT.reshape(6, 16)
+HAT = np.zeros((6, 16))
+_hats = HAT.reshape(6, 4, 4)
+_hats[:3, :3, :3], _hats[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
 # (f r^T) @ WRENCH is (r x f; f), for f and r of four numbers.
-WRENCH = np.zeros((4, 4, 6))
-WRENCH[:3, :3, :3], WRENCH[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
-WRENCH = WRENCH.reshape(16, 6)
+WRENCH = np.zeros((16, 6))
+_pairs = WRENCH.reshape(4, 4, 6)
+_pairs[:3, :3, :3], _pairs[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
 EYE = np.eye(6)
 
 
