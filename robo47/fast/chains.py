@@ -83,7 +83,6 @@ class Cursor:
     """
 
     def __init__(self, plan: Plan) -> None:
-        """Start at the world's frame, the root of `plan`."""
         self.plan, self.node = plan, 0
         self.R, self.t = np.eye(3), np.zeros(3)
 

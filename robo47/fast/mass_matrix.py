@@ -43,7 +43,6 @@ class Body:
     """What hangs on a joint, as one body: m, h and Q about the frame's origin."""
 
     def __init__(self) -> None:
-        """Begin with a massless body, to which links are added."""
         self.m = 0.0
         self.h: Vector = [0.0] * 3
         self.Q: list[Vector] = [[0.0] * 3 for _ in range(3)]

@@ -31,7 +31,6 @@ class Single:
         steps: Sequence[tuple[int, Step]],
         frames: Iterable[tuple[int, Array, Array]],
     ) -> None:
-        """Translate steps and frames, each with its node, to plain floats."""
         self._steps = [(source, *_parts(step)) for source, step in steps]
         self._frames = [
             (node, [_terms(column) for column in R.T], _terms(t))
