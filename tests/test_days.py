@@ -12,7 +12,7 @@ from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import find_regions, make_starter
-from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import library_of
 
 DAYS = days()
 each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
