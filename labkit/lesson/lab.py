@@ -187,6 +187,19 @@ class Lab:
             self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
 
 
+def predictions(worksheet: str) -> dict[str, str]:
+    """Return {number: predicted} of the rows of a worksheet that have a prediction.
+
+    A row is `| number | predicted | measured | why apart |`.
+    """
+    found = {}
+    for line in worksheet.splitlines():
+        cells = [cell.strip() for cell in line.strip().split("|")]
+        if len(cells) == 6 and not _OPEN.fullmatch(cells[2]):  # "" at both ends
+            found[cells[1].replace("`", "")] = cells[2]
+    return found
+
+
 def _bounds(wanted: Metric) -> str:
     bounds = (wanted.min, wanted.max)
     return " to ".join(f"{bound:g}" for bound in bounds if bound is not None)
@@ -202,16 +215,3 @@ def _worst(trials: np.ndarray, wanted: Metric) -> float:
 
 def _largest(error: ArrayLike) -> float:
     return float(np.max(np.abs(np.asarray(error, dtype=np.float64))))
-
-
-def predictions(worksheet: str) -> dict[str, str]:
-    """Return {number: predicted} of the rows of a worksheet that have a prediction.
-
-    A row is `| number | predicted | measured | why apart |`.
-    """
-    found = {}
-    for line in worksheet.splitlines():
-        cells = [cell.strip() for cell in line.strip().split("|")]
-        if len(cells) == 6 and not _OPEN.fullmatch(cells[2]):  # "" at both ends
-            found[cells[1].replace("`", "")] = cells[2]
-    return found
