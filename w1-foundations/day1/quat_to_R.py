@@ -7,6 +7,7 @@ import numpy as np
 from labkit.judge import Rotation, draw
 from labkit.judge.finished import OF_A_ROTATION
 from labkit.judge.row import Row
+from robo47 import se3
 
 from .panda_chain import FLANGE_QUAT, NEAR
 
@@ -45,7 +46,7 @@ def normalised(quat):
 
 def by_squares(quat):
     """Return ww + xx - yy - zz and so on, without normalising first."""
-    return quat @ quat * normalised(quat)
+    return np.linalg.norm(quat) ** 2 * se3.quat_to_R(quat)
 
 
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
