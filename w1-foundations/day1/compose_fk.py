@@ -143,6 +143,7 @@ row.wrong(products.turns_in_reverse)
 # The factors themselves, and the finished pose.
 
 row.of_answer(of_a_pose("maps the world to the end effector"))
+I = np.eye(4)  # noqa: E741
 IN_LINKS = "in every link's factor, "
 # The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
 # 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
@@ -206,6 +207,15 @@ def _(model, q):
         return T @ L @ (np.eye(4) if joint < 0 else turn(model, q, joint))
 
     return at(model.site("attachment_site").bodyid[0])
+
+
+@row.right  # Counts the joints: on a path from the base it is all the same.
+def _(model, q, path=PATH):
+    angle = iter(q)
+    return product(
+        link(model, name) @ (pose(se3.Rz(next(angle)), np.zeros(3)) if joint else I)
+        for name, joint in path
+    )
 
 
 @row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.

@@ -28,6 +28,7 @@ MOTIONS = (
 # What does not show in an arm of plain hinges, or is a mistake in its angles there.
 NOT_OF_AN_ARM = (
     "pitch-forgotten",
+    "hinges-only",
     "pitch-without-theta",
     "slide-forgotten",
     "slide-without-theta",
@@ -147,6 +148,8 @@ def _(S, theta):
       along its axis loses the part along it => the right one without that part
     pitch-without-theta: right for plain hinges and slides; what moves along the axis
       has to grow with theta => the right one with that part constant
+    hinges-only: right for plain hinges; along the axis nothing moves, neither as it
+      turns nor as it slides => the right one without that part
     sign-of-the-point: R is right, but the point on the axis has the wrong sign: it is
       omega x v, and (I - R) stands before it => the right one with that sign
     slide-forgotten: right where it turns; with omega = 0 it does not move at all, but
@@ -167,6 +170,7 @@ def _(S, theta):
         "travel-over-theta": t / (theta or 1.0),
         "moment-used-as-point": v - R @ v,
         "pitch-forgotten": round_it if turns else t,
+        "hinges-only": round_it,
         "pitch-without-theta": round_it + along if turns else t,
         "sign-of-the-point": theta * along - round_it if turns else t,
         "slide-forgotten": t if turns else np.zeros(3),
