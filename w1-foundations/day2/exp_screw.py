@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, draw
-from labkit.judge.argument_mistakes import DEGREES, RADIANS_TWICE
+from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47.screws import skew
@@ -89,7 +89,7 @@ def _(S, theta):
     return {slug: partial(motion, *one) for slug, one in motions.items()}
 
 
-row.of_argument("theta", DEGREES.called("degrees-into-cos"), RADIANS_TWICE)
+row.of_argument("theta", INTO_COS, RADIANS_TWICE, *SMALL_LEFT_OUT)
 
 
 @row.wrongs
@@ -177,19 +177,6 @@ def _(S, theta):
         "slide-without-theta": t if turns else v,
     }
     return {slug: partial(moved, S, theta, t) for slug, t in travel.items()}
-
-
-for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
-
-    @row.wrong(
-        "small-angle-ignored",
-        "a small theta is taken for 0; the formula is exact for small ones too, and "
-        "needs no case of its own",
-        "the right one with 0 for small theta",
-        hidden="the lab draws hardly any angle so small",
-    )
-    def _(S, theta, small=small):
-        return np.eye(4) if abs(theta) < small else motion(S, theta)
 
 
 @row.wrong

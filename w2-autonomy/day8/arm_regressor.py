@@ -100,8 +100,7 @@ TYPED_IN = Change(
     "gravity-typed-in",
     "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
     lambda g: DOWN,
-    "the Y with that gravity",
-    "the lab's robot stands upright",
+    hidden="the lab's robot stands upright",
 )
 row.of_argument("g", TYPED_IN)
 row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])

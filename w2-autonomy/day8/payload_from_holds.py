@@ -71,7 +71,6 @@ TYPED_IN = Change(
     "gravity-typed-in",
     "9.81 downwards is typed in; gravity is the argument g",
     lambda g: DOWN,
-    "what is found with that gravity",
 )
 row.of_argument("g", TYPED_IN)
 row.of_argument("R_site", TRANSPOSED.called("R-transposed"))
