@@ -39,6 +39,10 @@ def _only(some: slice) -> Callable[[Any], Any]:
     return change
 
 
+def _if_over(small: float, x: Any) -> Any:
+    return x * (abs(x) >= small)
+
+
 # Angles.
 DEGREES = Change(
     "degrees", "{name} comes in radians, and is used as degrees", np.rad2deg
@@ -76,7 +80,7 @@ SMALL_LEFT_OUT = tuple(  # any bound between two angles that are asked does it
         "small-angle-ignored",
         "a small {name} is taken for 0; the formula is exact for small ones too, and "
         "needs no case of its own",
-        lambda x, small=small: x * (abs(x) >= small),
+        partial(_if_over, small),
         hidden="the lab draws hardly any angle so small",
     )
     for small in (1e-3, 1e-2)

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.judge import HeldOut, Pose
+from labkit.judge import HeldOut, Pose, Row
 from labkit.judge.argument_mistakes import (
     FIRST_FOR_ALL,
     LEFT_OUT,
@@ -20,7 +20,6 @@ from labkit.judge.argument_mistakes import (
 )
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
-from labkit.judge.row import Row
 from robo47 import se3
 from robo47.panda import READY_Q
 

@@ -4,9 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, draw
+from labkit.judge import Rotation, Row, draw
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
-from labkit.judge.row import Row
 from robo47 import se3
 from robo47.screws import skew
 

@@ -4,10 +4,9 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, draw
+from labkit.judge import Pose, Row, draw
 from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
 from labkit.judge.finished import of_a_pose
-from labkit.judge.row import Row
 from robo47.screws import skew
 
 from .exp_rotation import formula, rodrigues
@@ -96,6 +95,8 @@ row.of_argument("theta", INTO_COS, RADIANS_TWICE, *SMALL_LEFT_OUT)
 def _(S, theta):
     """identity-for-theta: R is right, but the translation starts with I v, not with
       theta: at theta = 0 it moves already => the right one with I instead of theta I
+    sine-for-theta: R is right, but the translation starts with sin v, not with theta v:
+      along its axis a screw moves by theta v => the right one with sin I
     exp-coefficients-swapped: R is right, but in the translation the two factors have
       changed places => the right one with the two swapped
     as-in-the-rotation: R is right, but the translation uses R's own factors, sin and 1
@@ -114,6 +115,7 @@ def _(S, theta):
     c, s = np.cos(theta), np.sin(theta)
     factors = {
         "identity-for-theta": (1, 1 - c, theta - s),
+        "sine-for-theta": (s, 1 - c, theta - s),
         "exp-coefficients-swapped": (theta, theta - s, 1 - c),
         "as-in-the-rotation": (theta, s, 1 - c),
         "travel-sign-of-K": (theta, c - 1, theta - s),

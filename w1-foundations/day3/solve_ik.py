@@ -8,8 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Vector
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector
 from robo47.jacobian import body_jacobian, dls_step, pose_error, space_jacobian
 from robo47.panda import READY_Q
 from robo47.screws import fk_space

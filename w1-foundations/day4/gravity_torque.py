@@ -4,8 +4,8 @@ from functools import partial
 
 import numpy as np
 
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from labkit.judge.row import Row
 from robo47.dynamics import gravity_torque
 from robo47.screws import exp_screw, skew
 

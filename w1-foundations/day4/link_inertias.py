@@ -6,10 +6,9 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.kinds import Kind
-from labkit.judge.row import Row
 from robo47.dynamics import link_inertias, spatial_inertia
 from robo47.screws import adjoint
 

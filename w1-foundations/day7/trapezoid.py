@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 from robo47.trajectory import trapezoid
 
 
@@ -66,6 +65,8 @@ def _(t, L, v, a):
       over v => the triangle
     triangle-too-late: it becomes a triangle only below L = v^2 / (2 a), which is one
       ramp's way; there are two ramps => the triangle below v^2 / (2 a)
+    triangle-too-soon: it becomes a triangle already below L = 2 v^2 / a, and its top is
+      over v then; the two ramps take v^2 / a in all => the triangle below 2 v^2 / a
     ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
       the ramps cost one ramp more => the profile with T = L / v
     """
@@ -74,6 +75,7 @@ def _(t, L, v, a):
         "no-triangle": to_top(t, L, a, v),
         "always-a-triangle": to_top(t, L, a, np.sqrt(L * a)),
         "triangle-too-late": to_top(t, L, a, np.sqrt(L * a) if v**2 > 2 * L * a else v),
+        "triangle-too-soon": to_top(t, L, a, np.sqrt(L * a) if L * a < 2 * v**2 else v),
         "ramps-take-no-time": profile(t, L, a, top, L / top),
     }
 

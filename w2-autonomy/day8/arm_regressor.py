@@ -4,9 +4,8 @@ import itertools
 
 import numpy as np
 
-from labkit.judge import Matrix
+from labkit.judge import Matrix, Row
 from labkit.judge.argument_mistakes import Change
-from labkit.judge.row import Row
 from robo47 import dynamics
 from robo47.identification import arm_regressor, inertia_of, link_regressor
 from robo47.screws import ad, adjoint

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import Vector
+from labkit.judge import Row, Vector
 from labkit.judge.argument_mistakes import TRANSPOSED, Change
-from labkit.judge.row import Row
 from robo47.screws import skew
 
 from .states import DOWN, SWAP, hands
