@@ -74,6 +74,7 @@ class HeldOut:
     # Instead of `truth`: what is found are these very answers.
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # "wrong", "close", or "passed" for a remark only
+    near: float | None = None  # how well `mistaken` has to fit; None is the row's
 
 
 @dataclass(frozen=True)

@@ -141,7 +141,8 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
-    return off <= ask.near if held.mistaken else off > ask.near
+    near = ask.near if held.near is None else held.near
+    return off <= near if held.mistaken else off > near
 
 
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:

@@ -4,9 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, draw
+from labkit.judge import Rotation, Row, draw
 from labkit.judge.finished import OF_A_ROTATION
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import FLANGE_QUAT, NEAR
