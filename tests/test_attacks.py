@@ -17,6 +17,7 @@ from labkit.check.tasks import check_tasks
 from labkit.lesson.day import all_days, find_day
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.library import library_of
+from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT
 
 pytestmark = pytest.mark.kit
@@ -380,6 +381,43 @@ class TestHugeNumbers:
     def test_and_codings_that_no_text_has_are_said_in_a_line(self, check, coding):
         verdicts = check(f"# coding: {coding}\n{REFERENCE}")
         assert {verdict.mistake for verdict in verdicts.values()} == {"does-not-load"}
+
+
+class TestAFile:
+    """What takes long to read is refused unread, or read once."""
+
+    @pytest.mark.parametrize("more", ["def f(): 0\n", "(lambda: 0)\n", "f() < 1\n"])
+    def test_of_thousands_of_definitions_is_too_large(self, student, more):
+        script = student(more * 20_000)
+        with sandbox.Sandbox() as box, pytest.raises(Robo47Error, match="100 kB"):
+            check_tasks(DAY, script, box)
+
+    def test_is_compiled_once(self, ask):
+        (reply,) = ask("""
+            import sys
+            def f(): return 10.0 * len(sys.seen) + len(set(map(id, sys.seen)))
+            sys.seen = [*getattr(sys, "seen", []), f.__code__]
+        """)
+        assert (reply.value, reply.again) == (11, 21)
+
+    def test_that_prints_without_end_is_not_asked_on_and_on(self, ask):
+        code = """
+            n = 0
+            def f():
+                global n
+                n += 1
+                try:
+                    print("x" * 30_000_000)
+                except RuntimeError:
+                    return 1.0
+            def g(): return float(n)
+        """
+        *asked, last = [*[Question("1.1", "f", ())] * 3, Question("1.2", "g", ())]
+        *flood, count = ask(code, *asked, last)
+        assert {(one.kind, one.error) for one in flood} == {
+            ("RuntimeError", "it prints more than 20 MB")
+        }
+        assert count.value == 1
 
 
 class TestAForgedMessage:

@@ -156,7 +156,12 @@ class _Check:
         asked = next(one for one in rounds if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(
-            self.script, robots, library_of(self.day), added, self.day.limits
+            self.script,
+            robots,
+            library_of(self.day),
+            added,
+            self.day.limits,
+            brief=True,
         )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)

@@ -46,6 +46,7 @@ class Process:
         """
         self.wall, self.extras = wall(), tuple(extras)
         self.secret = b""
+        self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
         self._room = MOST_BYTES
         self.memory, self.longest = 1.0, LONGEST_LINE  # GB, bytes
@@ -92,6 +93,7 @@ class Process:
                 from labkit.sandbox import messages  # NumPy, after the start
 
                 raise LoadError(*messages.read([message]) or [stopped(CHANNEL)])
+            self.told = request
         except EndedError as error:
             raise LoadError(error.reply) from None
 
