@@ -6,6 +6,7 @@ What each wall keeps out once the guard is switched off is in test_walls.py.
 import importlib.util
 import os
 import py_compile
+import re
 import textwrap
 import time
 import tracemalloc
@@ -13,8 +14,11 @@ import tracemalloc
 import pytest
 
 from labkit.base.exchange import Question
+from labkit.check.second_look import kits_own
 from labkit.check.tasks import check_tasks
+from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.starter import make_starter
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.library import library_of
 from robo47.errors import Robo47Error
@@ -392,6 +396,14 @@ class TestAFile:
         with sandbox.Sandbox() as box, pytest.raises(Robo47Error, match="100 kB"):
             check_tasks(DAY, script, box)
 
+    @pytest.mark.parametrize("deep", ["-" * 1_400 + "1", "[" * 90 + "]" * 90])
+    def test_that_goes_deep_is_not_followed(self, check, deep):
+        starter = make_starter(REFERENCE, "starter", 1)
+        gap = 'raise NotImplementedError("task 1.1: write make_T")'
+        assert gap in starter
+        code = starter.replace(gap, f"raise NotImplementedError({deep})")
+        assert check(code)["1.1"].mistake == "unwritten"
+
     def test_is_compiled_once(self, ask):
         (reply,) = ask("""
             import sys
@@ -418,6 +430,47 @@ class TestAFile:
             ("RuntimeError", "it prints more than 20 MB")
         }
         assert count.value == 1
+
+
+class TestABorrowedFunction:
+    """The kit's own stands in the file of whoever borrows it, and nothing beside it."""
+
+    def borrowed(self, others):
+        starter = make_starter(REFERENCE, "starter", 1)
+        return with_borrowed(starter, REFERENCE, ["make_T"]) + "".join(
+            f"\ndef {name}(*a): return {others.format(name=name)}(*a)\n"
+            for task in DAY.tasks[1:]
+            for name in task.functions
+        )
+
+    @pytest.mark.parametrize(
+        "others",
+        [
+            "_kits[{name!r}]",
+            "make_T.__globals__['_kits'][{name!r}]",
+            "__import__('sys')._getframe(1).f_globals['{name}_kits']",
+        ],
+    )
+    def test_hands_out_no_other(self, check, others):
+        verdicts = check(self.borrowed(others))
+        assert verdicts["1.1"].mistake == "borrowed"
+        assert {"passed"}.isdisjoint(verdict.status for verdict in verdicts.values())
+
+    def test_works_for_what_builds_on_it(self, check):
+        verdicts = check(with_borrowed(REFERENCE, REFERENCE, ["make_T", "link_T"]))
+        found = {id: verdict.status for id, verdict in verdicts.items()}
+        assert [id for id, status in found.items() if status != "passed"] == [
+            "1.1",
+            "1.5",
+        ]
+
+    def test_brings_no_line_of_another_task(self):
+        for day in all_days():
+            for task in day.tasks:
+                others = {f for t in day.tasks if t is not task for f in t.functions}
+                brought = re.findall(r"\bdef (\w+)", kits_own(day, [task]))
+                assert others.isdisjoint(brought)
+                assert set(task.functions) <= set(brought)
 
 
 class TestAForgedMessage:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply, replies
-from labkit.check.second_look import kits_functions, old_names, right_when
+from labkit.check.second_look import kits_functions, kits_own, old_names, right_when
 from labkit.check.source_hints import arguments, renamed, unfinished
 from labkit.judge.ask import Asked, make_round
 from labkit.judge.judge import judge
@@ -103,7 +103,7 @@ class _Check:
         """
         borrowed = borrowed_tasks(self.day, self._text())
         self.renamed = old_names(self.day, self._text())
-        self.added = self.renamed + kits_functions(self.day, borrowed)
+        self.added = self.renamed + kits_own(self.day, borrowed)
         rounds = self._ask(tasks, self.added)
         self.source = self._text()
         results: dict[str, TaskResult] = {}
