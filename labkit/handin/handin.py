@@ -15,10 +15,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
+from labkit.base.exchange import SCRIPT
 from labkit.lesson.day import Day
 
 MB = 1_000_000
-LIMITS = {"script": MB, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}  # bytes
+# In bytes.
+LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
 HELPERS, PICTURES = 50, 40  # modules beside the script; pictures of the worksheet
 LISTED = 10_000  # entries of work/ that are looked at
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
