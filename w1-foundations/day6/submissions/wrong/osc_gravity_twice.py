@@ -3,6 +3,6 @@
 import numpy as np
 
 
-def osc_torque(J, Lambda, bias, site_bias, acc):
+def osc_torque(J, Lambda, bias, drift, acc):
     hold = bias.copy()
-    return J.T @ Lambda @ (acc - site_bias) + bias + hold
+    return J.T @ Lambda @ (acc - drift) + bias + hold
