@@ -15,7 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from labkit.log import append_row, lock, read_rows
+from labkit.base import lock
+from labkit.log import append_row, read_rows
 from labkit.log.header import LINE
 from labkit.log.logfile import locked
 from labkit.log.scan import scan

@@ -14,8 +14,9 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
+from labkit.base import lock
 from labkit.base.words import command, in_words
-from labkit.log import header, lock
+from labkit.log import header
 from labkit.log.rows import is_open_quote
 from robo47.errors import Robo47Error
 from robo47.paths import shown
