@@ -131,7 +131,6 @@ def rebuilt(
     """Return the document with fresh outputs, and the requests that had drifted.
 
     Args:
-        document: its text.
         folder: where it is, for the links in it.
         tables: run nothing, renew the tables of days alone.
     """
@@ -164,12 +163,7 @@ def documents_of(day: Day) -> dict[Path, bool]:
 
 
 def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
-    """Rebuild or check documents; return how many outputs were not as they are today.
-
-    Args:
-        documents: and whether their tables alone.
-        check: write nothing.
-    """
+    """Rebuild documents, some for their tables; return how many outputs were old."""
     drift = 0
     for path, tables in documents.items():
         text = path.read_text("utf-8")

@@ -31,25 +31,12 @@ class Clone:
 
 
 def head_of(root: Path = ROOT) -> str:
-    """Return the hash of the last commit.
-
-    Raises:
-        Robo47Error: there is none, or no git.
-    """
+    """Return the hash of the last commit."""
     return _git("rev-parse", "--verify", "HEAD", folder=root).strip()
 
 
 def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
-    """Clone a commit: nothing comes along that is not in it.
-
-    Args:
-        sha: of the commit.
-        into: a folder that is not there yet.
-        root: the clone to clone.
-
-    Raises:
-        Robo47Error: git cannot; says why in git's words.
-    """
+    """Clone a commit into a new folder: nothing comes along that is not in it."""
     _git("clone", "--quiet", "--no-checkout", str(root), str(into), folder=into.parent)
     _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
 
@@ -58,7 +45,6 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
     """Make a clone ready to run; the robot that is on this machine serves it too.
 
     Args:
-        root: of the clone.
         anew: make it an environment of its own; else this Python's packages serve.
 
     Raises:
@@ -85,11 +71,7 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
 
 
 def uncommitted(root: Path = ROOT) -> dict[str, str]:
-    """Return what the last commit lacks, by path: "not committed" or "changed since".
-
-    Args:
-        root: the clone.
-    """
+    """Return why each path is not in the last commit, of what it lacks."""
     listed = _git("status", "--porcelain", "--no-renames", "-z", "-uall", folder=root)
     found = {}
     for entry in filter(None, listed.split("\0")):

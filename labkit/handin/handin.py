@@ -53,11 +53,7 @@ class Handin:
 
 
 def read_handin(day: Day, root: Path) -> Handin:
-    """Return what a student hands in.
-
-    Args:
-        day: from the kit's manifest.
-        root: the student's clone.
+    """Return what a student's clone hands in for a day.
 
     Raises:
         OSError: this machine cannot read just now: not the student's doing.
@@ -82,8 +78,7 @@ def read(root: Path, name: str, limit: int) -> bytes | None:
     """Return a file's content, or None where there is no such file.
 
     Args:
-        root: the student's folder.
-        name: path from there, with "/" as separator.
+        name: path from the student's folder, with "/" as separator.
         limit: bytes.
 
     Raises:
@@ -111,10 +106,7 @@ def image_names(text: str) -> list[str]:
 def picture_path(address: str, worksheet: str) -> str:
     """Return where in the clone a picture's address leads; "" where it leads nowhere.
 
-    Args:
-        address: as it stands in the worksheet; one of the web, of another drive, or
-            above the clone is none.
-        worksheet: its path from the top of the clone.
+    One of the web, of another drive, or above the clone leads nowhere.
     """
     address = unquote(address)
     if re.search(r"[\\:\0-\x1f]", address) or address.startswith("/"):

@@ -16,8 +16,7 @@ _RIGHT = LINE.encode()
 def line_end(head: bytes) -> bytes | None:
     """Return the line end that a file's header uses, or None if it is not right.
 
-    Args:
-        head: the file's first bytes, LONGEST at most. No line end yet counts as LF.
+    Of the first bytes LONGEST are enough; no line end yet counts as LF.
     """
     rest = head.removeprefix(BOM)
     if rest.startswith(_RIGHT):

@@ -10,12 +10,7 @@ from labkit.log.scan import Line
 
 
 def watched(lines: Iterator[Line], path: Path) -> Iterator[Line]:
-    """Yield the lines unchanged; show how far through the file they are.
-
-    Args:
-        lines: what `scan` yields.
-        path: the file that they come from.
-    """
+    """Yield what `scan` yields, and show how far through the file it is."""
     size = os.path.getsize(path) if path.exists() else 0
     with tqdm(
         total=size,

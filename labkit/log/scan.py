@@ -43,11 +43,9 @@ def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
 
 
 def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
-    """Yield the lines of a log that is open already, as `scan` does.
+    """Yield the lines of a log that is open at its start, as `scan` does.
 
-    Args:
-        file: at its start.
-        path: the log's name; lines that were noted as cut stand beside it.
+    Lines that were noted as cut stand beside the log of that name.
     """
     chosen = Path(path)
     head = file.read(header.LONGEST)

@@ -10,12 +10,7 @@ from robo47.paths import ROOT
 
 
 def news(day: Day, before: str) -> list[str]:
-    """Return what is new in a day, a line each.
-
-    Args:
-        day: from the newer manifest.
-        before: a commit with the older one.
-    """
+    """Return what is new in a day since a commit, a line each."""
     own = day.own.relative_to(ROOT).as_posix()
     text = said("show", f"{before}:{own}/day.toml")
     if not text:
