@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from labkit.log import append_row, read_rows
-from labkit.log.header import LINE
+from labkit.log.rows import HEADER as LINE
 
 pytestmark = pytest.mark.kit
 

@@ -17,8 +17,8 @@ import pytest
 
 from labkit.base import lock
 from labkit.log import append_row, read_rows
-from labkit.log.header import LINE
 from labkit.log.logfile import locked
+from labkit.log.rows import HEADER as LINE
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error
 

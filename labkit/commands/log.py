@@ -15,9 +15,8 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.log import append_row
-from labkit.log.progress import watched
 from labkit.log.rows import typed
-from labkit.log.scan import Line, scan
+from labkit.log.scan import Line, watched
 from labkit.log.upkeep import came_back, restore, unsaved_rows
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -90,7 +89,7 @@ def show_check(path: Path) -> int:
     rows, bad = 0, 0
     back = came_back(path)
     notes = []
-    for line in watched(scan(path), path):
+    for line in watched(path):
         rows += line.row is not None
         if line.problem:
             bad += 1

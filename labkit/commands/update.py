@@ -35,18 +35,18 @@ def main() -> int:
     if not (ROOT / ".git").exists():
         raise Robo47Error("this folder is no git repository; clone the kit instead")
     with cli.busy("fetching"):
-        source = merge.fetch(options.place, options.to)
+        place, commit = merge.fetch(options.place, options.to)
     merge.save_own()
     own = ask("rev-parse", "HEAD")
     with cli.busy("merging"), merge.beside(own) as worktree:
-        taken = merge.merge(worktree, source.commit)
-        found = renew_labs(worktree, own, source.commit)
+        taken = merge.merge(worktree, commit)
+        found = renew_labs(worktree, own, commit)
         if ask("status", "--porcelain", at=worktree):
             ask("add", "-A", at=worktree)
             merge.commit("My labs on the newer kit", worktree)
         copies = keep_copies(found["days"])
         try:
-            merge.take(worktree, source)
+            merge.take(worktree, place)
         except Robo47Error:
             for copy in copies:
                 copy.unlink()

@@ -39,16 +39,11 @@ class UnreadError(Exception):
 
 @dataclass(frozen=True)
 class Handin:
-    """What a student hands in for a day.
+    """What a student hands in for a day, by path from the top, with "/" in it."""
 
-    Attributes:
-        files: content by path from the top of the clone, with "/" as separator.
-        unread: why a file that is there was not read, by path.
-        pictures: the worksheet's that are there, by path: whether it is the kit's own.
-    """
-
-    files: Mapping[str, bytes] = field(default_factory=dict)
-    unread: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)  # their content
+    unread: Mapping[str, str] = field(default_factory=dict)  # why not, if it is there
+    # The worksheet's that are there: whether it is the kit's own.
     pictures: Mapping[str, bool] = field(default_factory=dict)
 
 
