@@ -232,9 +232,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
     day, tmp_path, width, chromium
 ):
     week = [
-        facts(
-            d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15) for m in d.metrics]
-        )
+        facts(d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15) for m in d.metrics])
         for d in days_of(find_week(1))
     ]
     text = week_page.render(week, "of my log")
