@@ -68,13 +68,11 @@ class History:
 def read_history(
     clone: Path, wanted: Iterable[str], *, own: bool = False, at: str = "HEAD"
 ) -> History:
-    """Return the last commit of a clone.
+    """Return the last commit of a clone, or the one `at`, with the hashes of files.
 
     Args:
         clone: the student's folder; a repository around it does not count.
-        wanted: paths whose hashes to return.
         own: it is the reader's own, which may be a linked worktree.
-        at: another commit to look at.
 
     Raises:
         GitError: git is not there, or takes too long.
@@ -101,11 +99,7 @@ def read_history(
 
 
 def before(clone: Path, moment: int) -> tuple[str, int]:
-    """Return the last commit up to a moment, by the committers' clocks.
-
-    Args:
-        clone: a student's folder.
-        moment: seconds since 1970.
+    """Return the last commit up to a moment, seconds since 1970, by committers' clocks.
 
     Returns:
         Its hash, "" where there is none, and how many commits of HEAD came later. What
@@ -126,10 +120,7 @@ def before(clone: Path, moment: int) -> tuple[str, int]:
 def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]]:
     """Return plain files of a commit: hash and bytes of each, by path.
 
-    Args:
-        clone: a student's folder.
-        commit: its hash.
-        names: paths; one that ends with "/" means what is right below it.
+    A name that ends with "/" means what is right below it.
     """
     git = _repository(clone, own=False)
     listing = ("ls-tree", "-lz", "--full-tree", commit, "--")
@@ -160,12 +151,7 @@ def short_sha(folder: Path) -> str:
 def too_much(folder: Path, commit: str) -> str:
     """Return why a commit of our own clone is not to be checked out; "" where it is.
 
-    Args:
-        folder: the clone.
-        commit: its name; one that is not there yet writes nothing.
-
-    Raises:
-        GitError: git is not there, or takes too long.
+    One that is not there yet writes nothing. GitError: git is not there, or too slow.
     """
     where: dict[str, Any] = {"folder": folder, "seconds": SECONDS}
     # A line of git's on a file with a name of 300 letters has 400.
@@ -201,8 +187,6 @@ def run_bytes(
     """Run git and return what became of it; all that it started ends with it.
 
     Args:
-        arguments: after `git`.
-        folder: where.
         seconds: the limit.
         say: its standard input.
         largest: bytes of a file that it writes, and of what it says (Linux).

@@ -21,8 +21,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from alone import alone  # of scripts/: what set-up waits with as well
-
 from labkit.base import cli, store
 from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
@@ -37,10 +35,7 @@ SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
 
 
 def fetch(root: Path) -> dict[str, Any]:
-    """Fill a folder with the Panda from the first source that answers.
-
-    Returns:
-        The provenance.
+    """Fill a folder with the Panda from the first source that answers; say whence.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
@@ -156,7 +151,7 @@ def main() -> int:
             return verify(root)
         show(files.read_provenance())
         return cli.EXIT_OK
-    with alone("robot"):
+    with store.alone("robot"):
         bring(root)
     return cli.EXIT_OK
 

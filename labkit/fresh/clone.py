@@ -2,8 +2,6 @@
 
 import os
 import sys
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import git, processes
@@ -15,50 +13,23 @@ GIT_SECONDS = 120.0
 _OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
 
 
-@dataclass(frozen=True)
-class Clone:
-    """A clone that can run labs.
-
-    Attributes:
-        root: its folder.
-        python: runs its labs.
-        environment: with these variables.
-    """
-
-    root: Path
-    python: str
-    environment: Mapping[str, str]
-
-
 def head_of(root: Path = ROOT) -> str:
-    """Return the hash of the last commit.
-
-    Raises:
-        Robo47Error: there is none, or no git.
-    """
+    """Return the hash of the last commit."""
     return _git("rev-parse", "--verify", "HEAD", folder=root).strip()
 
 
 def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
-    """Clone a commit: nothing comes along that is not in it.
-
-    Args:
-        sha: of the commit.
-        into: a folder that is not there yet.
-        root: the clone to clone.
-
-    Raises:
-        Robo47Error: git cannot; says why in git's words.
-    """
+    """Clone a commit into a new folder: nothing comes along that is not in it."""
     _git("clone", "--quiet", "--no-checkout", str(root), str(into), folder=into.parent)
     _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
 
 
-def set_up(root: Path, *, anew: bool = True) -> Clone:
-    """Make a clone ready to run; the robot that is on this machine serves it too.
+def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
+    """Make a clone ready to run: its Python, and the variables that it runs with.
+
+    The robot that is on this machine serves it too.
 
     Args:
-        root: of the clone.
         anew: make it an environment of its own; else this Python's packages serve.
 
     Raises:
@@ -70,7 +41,7 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
         environment["MENAGERIE_ROOT"] = str(robot.absolute())
     if not anew:
         environment["PYTHONPATH"] = str(root)
-        return Clone(root, sys.executable, environment)
+        return sys.executable, environment
     setup = [sys.executable, "scripts/setup_env.py"]
     done = processes.run(setup, env=environment, cwd=root)
     if done.returncode != 0:
@@ -81,15 +52,11 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
     if not robot.is_dir():  # without a network the embedded twin serves
         fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
         processes.run(fetch, env=environment, cwd=root)
-    return Clone(root, python, environment)
+    return python, environment
 
 
 def uncommitted(root: Path = ROOT) -> dict[str, str]:
-    """Return what the last commit lacks, by path: "not committed" or "changed since".
-
-    Args:
-        root: the clone.
-    """
+    """Return why each path is not in the last commit, of what it lacks."""
     listed = _git("status", "--porcelain", "--no-renames", "-z", "-uall", folder=root)
     found = {}
     for entry in filter(None, listed.split("\0")):

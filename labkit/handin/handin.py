@@ -41,25 +41,16 @@ class UnreadError(Exception):
 
 @dataclass(frozen=True)
 class Handin:
-    """What a student hands in for a day.
+    """What a student hands in for a day, by path from the top, with "/" in it."""
 
-    Attributes:
-        files: content by path from the top of the clone, with "/" as separator.
-        unread: why a file that is there was not read, by path.
-        pictures: the worksheet's that are there, by path: whether it is the kit's own.
-    """
-
-    files: Mapping[str, bytes] = field(default_factory=dict)
-    unread: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)  # their content
+    unread: Mapping[str, str] = field(default_factory=dict)  # why not, if it is there
+    # The worksheet's that are there: whether it is the kit's own.
     pictures: Mapping[str, bool] = field(default_factory=dict)
 
 
 def read_handin(day: Day, root: Path) -> Handin:
-    """Return what a student hands in.
-
-    Args:
-        day: from the kit's manifest.
-        root: the student's clone.
+    """Return what a student's clone hands in for a day.
 
     Raises:
         OSError: this machine cannot read just now: not the student's doing.
@@ -84,8 +75,7 @@ def read(root: Path, name: str, limit: int) -> bytes | None:
     """Return a file's content, or None where there is no such file.
 
     Args:
-        root: the student's folder.
-        name: path from there, with "/" as separator.
+        name: path from the student's folder, with "/" as separator.
         limit: bytes.
 
     Raises:
@@ -113,10 +103,7 @@ def image_names(text: str) -> list[str]:
 def picture_path(address: str, worksheet: str) -> str:
     """Return where in the clone a picture's address leads; "" where it leads nowhere.
 
-    Args:
-        address: as it stands in the worksheet; one of the web, of another drive, or
-            above the clone is none.
-        worksheet: its path from the top of the clone.
+    One of the web, of another drive, or above the clone leads nowhere.
     """
     address = unquote(address)
     if re.search(r"[\\:\0-\x1f]", address) or address.startswith("/"):

@@ -28,12 +28,7 @@ _WORD = re.compile(f"[{_ALONE}]|[^\\W_{_ALONE}]+")
 
 
 def check_worksheet(day: Day, handin: Handin) -> list[Item]:
-    """Check the day's worksheet: definitions, drawings and checklist.
-
-    Args:
-        day: from the kit's manifest.
-        handin: what the student's folder holds.
-    """
+    """Check the day's worksheet: definitions, drawings and checklist."""
     where = day.files["worksheet"]
     names = ("definitions", "drawings", "checklist")
     data = handin.files.get(where)
@@ -71,8 +66,7 @@ def _without_comments(text: str) -> str:
 def split_sections(text: str) -> dict[str, str]:
     """Return {heading in lower case: the text below it, with its subsections}.
 
-    Args:
-        text: Markdown. A `#` inside a fenced block is no heading.
+    A `#` inside a fenced block of the Markdown is no heading.
     """
     sections: dict[str, list[str]] = {}
     open_now: list[tuple[int, str]] = []

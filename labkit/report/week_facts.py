@@ -23,23 +23,13 @@ GIT_SECONDS = 10.0
 
 @dataclass(frozen=True)
 class Number:
-    """One number of a day; None where there is no row.
+    """One number of a day; None where there is no row."""
 
-    Attributes:
-        metric: what it must reach.
-        latest: the student's last run.
-        status: what that run is worth now, as `Writers.judge` says.
-        worst: the farthest from the limit's good side that the student logged.
-        kit: the kit's own last run on this machine.
-        runs: how often the student logged it.
-    """
-
-    metric: Metric
-    latest: float | None
-    status: str
-    worst: float | None
-    kit: float | None
-    runs: int
+    metric: Metric  # what it must reach
+    latest: float | None  # the student's last run
+    status: str  # what that run is worth now, as `Writers.judge` says
+    worst: float | None  # the farthest from the limit's good side that they logged
+    kit: float | None  # the kit's own last run on this machine
 
     @property
     def passed(self) -> bool:
@@ -49,34 +39,20 @@ class Number:
 
 @dataclass(frozen=True)
 class DayFacts:
-    """How a day went.
-
-    Attributes:
-        day: from the manifest.
-        numbers: the student's beside the kit's.
-        passed: how many tasks pass; side quests are not counted.
-        tasks: of how many.
-        own: how many of the day's functions are in tasks that pass.
-        functions: of how many.
-        minutes: from the first to the last commit, None where git cannot tell.
-        hints: how many were asked for.
-        met: the named mistakes, in the order they were met.
-        checked: whether `make check` has seen all tasks in the file as it is; what it
-            has not seen does not count as passed.
-        borrowed: ids of the tasks whose functions are borrowed from the kit.
-    """
+    """How a day went."""
 
     day: Day
-    numbers: Sequence[Number]
-    passed: int
-    tasks: int
-    own: int
-    functions: int
-    minutes: int | None
-    hints: int
-    met: Sequence[Met]
+    numbers: Sequence[Number]  # the student's beside the kit's
+    passed: int  # how many tasks pass; side quests are not counted
+    tasks: int  # of how many
+    own: int  # how many of the day's functions are in tasks that pass
+    functions: int  # of how many
+    minutes: int | None  # from the first to the last commit; None: git cannot tell
+    hints: int  # how many were asked for
+    met: Sequence[Met]  # the named mistakes, in the order they were met
+    # Whether `make check` has seen all tasks in the file as it is; else none passed.
     checked: bool = True
-    borrowed: Sequence[str] = ()
+    borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property
     def begun(self) -> bool:
@@ -85,13 +61,7 @@ class DayFacts:
 
 
 def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
-    """Return how a day went.
-
-    Args:
-        day: from its manifest.
-        series: the log's rows, by day, check and metric.
-        root: the clone.
-    """
+    """Return how a day went; the series are the log's."""
     known = memory.known(day)
     passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
@@ -113,12 +83,7 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
 def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     """Return the minutes from the first to the last commit of what a day hands in.
 
-    Args:
-        day: from its manifest.
-        root: the clone.
-
-    Returns:
-        None where there are no two commits, or no git.
+    None where there are no two commits, or no git.
     """
     files = day.files
     own = [files[name] for name in ("script", "figure") if name in files]
@@ -143,12 +108,7 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
 
 
 def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
-    """Return a day's numbers, in the manifest's order.
-
-    Args:
-        day: from its manifest.
-        series: the log's rows, by day, check and metric.
-    """
+    """Return a day's numbers, in the manifest's order."""
     found = []
     for metric in day.metrics:
         key = (day.number, metric.check, metric.metric)
@@ -165,7 +125,6 @@ def _number(metric: Metric, series: Series) -> Number:
         series.writers.judge(metric, mine[-1] if mine else None),
         max(own, key=lambda value: _badness(metric, value), default=None),
         float_of(series.kits[-1]) if series.kits else None,
-        len(own),
     )
 
 

@@ -19,19 +19,12 @@ Key = tuple[str, str]  # of a number: its check and its metric
 
 @dataclass(frozen=True)
 class Ran:
-    """What became of a day's lab.
-
-    Attributes:
-        day: from the manifest.
-        mine: whether the student's file ran, and not the kit's.
-        rows: those it recorded.
-        why: why it did not pass, in a line; "" where it did.
-    """
+    """What became of a day's lab."""
 
     day: Day
-    mine: bool
-    rows: Mapping[Key, Row]
-    why: str
+    mine: bool  # the student's file ran, and not the kit's
+    rows: Mapping[Key, Row]  # those it recorded
+    why: str  # why it did not pass, in a line; "" where it did
 
     @property
     def passed(self) -> bool:
@@ -61,16 +54,12 @@ def run_labs(
     *,
     kits: bool = False,
 ) -> Iterator[Ran]:
-    """Run labs side by side, the student's own where they are begun.
+    """Run labs side by side, the student's own where begun; yield in the days' order.
 
     Args:
-        days: whose labs.
         python: to run them with.
         environment: its variables; this process's by default.
         kits: run the kit's labs, whatever the student has begun.
-
-    Returns:
-        What became of each, in the order of the days.
     """
     variables = dict(os.environ if environment is None else environment)
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:

@@ -3,7 +3,6 @@
 import contextlib
 import shutil
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import git, store
@@ -20,12 +19,7 @@ UNCHANGED = "Nothing of yours has changed."
 
 
 def ask(*arguments: str, at: Path = ROOT, may_fail: bool = False) -> str:
-    """Return what git prints.
-
-    Args:
-        arguments: after `git`.
-        at: the folder.
-        may_fail: return "" where git fails.
+    """Return what git prints; "" where it fails and may.
 
     Raises:
         Robo47Error: git fails; the first line of what it says.
@@ -51,21 +45,10 @@ def commit(message: str, at: Path) -> None:
     ask(*as_whom, *how, at=at)
 
 
-@dataclass(frozen=True)
-class Source:
-    """Where the newer kit comes from.
+def fetch(place: str | None, to: str | None) -> tuple[str, str]:
+    """Bring the newer commits here; return the remote or address, and the commit.
 
-    Attributes:
-        place: a remote's name, or an address.
-        commit: what to bring the clone to.
-    """
-
-    place: str
-    commit: str
-
-
-def fetch(place: str | None, to: str | None) -> Source:
-    """Bring the newer commits here, which changes no file of the clone.
+    No file of the clone changes.
 
     Args:
         place: an address; None is the first of REMOTES that is there.
@@ -81,7 +64,7 @@ def fetch(place: str | None, to: str | None) -> Source:
     deep = ask("rev-parse", "--is-shallow-repository") == "true"
     more = ("--unshallow",) if deep else ()
     ask("fetch", "-q", "--tags", *more, found, to or "HEAD")
-    return Source(found, ask("rev-parse", "FETCH_HEAD^{commit}"))
+    return found, ask("rev-parse", "FETCH_HEAD^{commit}")
 
 
 def save_own() -> None:
@@ -118,11 +101,7 @@ def beside(head: str) -> Iterator[Path]:
 
 
 def merge(worktree: Path, target: str) -> list[str]:
-    """Merge a commit; no line of the student's is lost.
-
-    Args:
-        worktree: at the student's commit.
-        target: the kit's.
+    """Merge a commit of the kit's; no line of the student's is lost.
 
     Returns:
         Files of the kit's that the student had changed in the same place: they are the
@@ -196,14 +175,14 @@ def _keep_rows(worktree: Path, own: str) -> None:
         path.write_text("\n".join([*now, *lost]) + "\n", "utf-8", newline="\n")
 
 
-def take(worktree: Path, source: Source) -> None:
-    """Bring the clone to what the worktree has, in one step of git's.
+def take(worktree: Path, place: str) -> None:
+    """Bring the clone to what the worktree has, in one step, and remember the place.
 
     Raises:
         Robo47Error: a file in the clone is in the way; says which.
     """
     head = ask("rev-parse", "HEAD", at=worktree)
     ask("merge", "-q", "--ff-only", head)
-    if source.place not in REMOTES and source.place not in ask("remote").split():
+    if place not in REMOTES and place not in ask("remote").split():
         known = "kit" in ask("remote").split()
-        ask("remote", *(("set-url",) if known else ("add",)), "kit", source.place)
+        ask("remote", *(("set-url",) if known else ("add",)), "kit", place)
