@@ -25,9 +25,10 @@ REACH_Q = np.array(
 
 
 def film(path: Path, day: Day, file: Path | None = None) -> int:
-    """Write a .gif or .webp; the arm of the student's code is red wherever it differs.
+    """Write a clip; the arm of the student's code is red wherever it differs.
 
     Args:
+        path: ends in .gif or .webp.
         day: whose function draws the second arm.
         file: the student's; the one in work/ unless given. Without it the arm is alone.
 

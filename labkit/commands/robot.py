@@ -35,7 +35,10 @@ SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
 
 
 def fetch(root: Path) -> dict[str, Any]:
-    """Fill a folder with the Panda from the first source that answers; say whence.
+    """Fill a folder with the Panda from the first source that answers.
+
+    Returns:
+        The provenance.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
