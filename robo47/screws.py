@@ -24,7 +24,8 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
-from robo47.fast import exponentials
+from robo47.fast.chains import evaluate
+from robo47.fast.exponentials import END, plan_of
 from robo47.fast.vectors import cross_of
 
 
@@ -172,7 +173,7 @@ def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     S, q = checks.screws_and_q(screws, q)
     M_home = checks.pose(M_home, "M_home")
     if S.ndim == M_home.ndim == 2:
-        return exponentials.end_poses(S, M_home, q)
+        return evaluate(plan_of(S, M_home), q)[END]
     steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
     return functools.reduce(np.matmul, steps) @ M_home
 

@@ -49,7 +49,7 @@ class Frame(NamedTuple):
     t: Array
 
 
-@dataclass
+@dataclass(eq=False)
 class Plan:
     """A tree of moves: step i leads from its source to node i + 1; 0 is the world."""
 
@@ -66,6 +66,12 @@ class Plan:
     def single(self) -> Single | None:
         """The same for one configuration at a time, where floats can do it."""
         return single_of(self.steps, self.frames.values())
+
+    @property
+    def alone(self) -> Single:
+        """The same of an arm of hinges and slides, where floats always can."""
+        assert self.single is not None
+        return self.single
 
     def nodes(self, chunk: Chunk) -> list[Columns]:
         """Return every node's frame, of configurations measured from `ref`."""
