@@ -82,7 +82,7 @@ class Student(threading.Thread):
         super().__init__(daemon=True, name="student")
         self.source, self.ghost, self.model = source, ghost, model
         self.deliver, self.saved = deliver, saved
-        self.news = threading.Condition()
+        self.news = threading.Event()
         self.q: Array | None = None
         self.ended = False
         self.version = 0  # of the file: another one after each save
@@ -93,9 +93,8 @@ class Student(threading.Thread):
 
     def want(self, q: Array) -> None:
         """Ask for a configuration, (nq,), instead of any that waits."""
-        with self.news:
-            self.q = q.copy()
-            self.news.notify()
+        self.q = q.copy()
+        self.news.set()
 
     @property
     def there(self) -> bool:
@@ -123,9 +122,8 @@ class Student(threading.Thread):
 
     def close(self) -> None:
         """End the thread and the sandbox."""
-        with self.news:
-            self.ended = True
-            self.news.notify()
+        self.ended = True
+        self.news.set()
 
     def run(self) -> None:
         """Look, ask, deliver, until it is closed."""
@@ -134,16 +132,13 @@ class Student(threading.Thread):
             with self._lock:
                 if changed := self._look():
                     done = None
-            with self.news:
-                q = self.q
-            if q is not None and q is not done:
+            self.news.clear()
+            if (q := self.q) is not None and q is not done:
                 done = q
                 self.deliver(self._seen(q))
             if changed:
                 self.saved()  # the checks need both cores; first the ghost
-            with self.news:
-                if self.q is done and not self.ended:
-                    self.news.wait(POLL_SECONDS)
+            self.news.wait(POLL_SECONDS)
         self._shut()
 
     def _look(self) -> bool:
