@@ -22,6 +22,7 @@ Units: metres, radians, quaternions (w, x, y, z).
 """
 
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -165,13 +166,13 @@ def _plan_all(model: mujoco.MjModel) -> Plan:
     ends = [Cursor(plan)]
     for body in range(model.nbody):
         if body:
-            ends.append(ends[model.body_parentid[body]].branch())
+            ends.append(copy(ends[model.body_parentid[body]]))
             _add_link(ends[body], _link(model, body))
         if name := model.body(body).name:
             ends[body].mark(f"body:{name}")
     for i in range(model.nsite):
         if name := model.site(i).name:
-            end = ends[model.site_bodyid[i]].branch()
+            end = copy(ends[model.site_bodyid[i]])
             end.fixed(_offset(model.site_pos[i], model.site_quat[i]))
             end.mark(f"site:{name}")
     return plan

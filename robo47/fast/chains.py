@@ -85,18 +85,12 @@ class Cursor:
     """A place in a plan, to which a chain's factors are added from left to right.
 
     What is fixed is gathered here (R and t, seen from the moving frame) and becomes a
-    step only where a joint needs it.
+    step only where a joint needs it. A copy goes on to another child.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.node = plan, 0
         self.R, self.t = np.eye(3), np.zeros(3)
-
-    def branch(self) -> "Cursor":
-        """Return a second cursor at the same place, for another child."""
-        other = Cursor(self.plan)
-        other.node, other.R, other.t = self.node, self.R, self.t
-        return other
 
     def mark(self, name: str) -> None:
         """Ask for the frame at this place."""

@@ -25,18 +25,13 @@ ENDS = ("site:attachment_site", "body:hand")
 
 
 class Inertias(NamedTuple):
-    """What n bodies weigh, and where.
+    """What n bodies weigh, and where."""
 
-    Attributes:
-        masses: kilograms, (n,).
-        coms: centres of mass in the links' own frames, metres, (n, 3).
-        inertias: rotational inertias about the centres of mass, in the links' own
-            axes, kg m^2, (n, 3, 3).
-    """
-
-    masses: Array
-    coms: Array
-    inertias: Array
+    masses: Array  # kilograms, (n,)
+    coms: Array  # centres of mass in the links' own frames, metres, (n, 3)
+    inertias: (
+        Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
+    )
 
 
 def screws(model: mujoco.MjModel) -> Array:
