@@ -182,8 +182,7 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
     """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
 
     Args:
-        screws: space screws (omega; v), (..., n, 6).
-        M_home: `T_world_ee` at q = 0, (..., 4, 4).
+        screws, M_home: as in `fk_space`.
 
     Returns:
         Body screws (omega; v), (..., n, 6) (Modern Robotics, section 4.1.3).
@@ -200,8 +199,7 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
     Args:
         body_screws: body screws (omega; v), (..., n, 6).
-        M_home: `T_world_ee` at q = 0, (..., 4, 4).
-        q: joint angles in radians (metres for slides), (..., n).
+        M_home, q: as in `fk_space`.
 
     Returns:
         T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.3).

@@ -47,8 +47,7 @@ def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> A
     """Return the torque for an acceleration, without armature and damping.
 
     Args:
-        arm: of hinges.
-        q: configurations, rad, (..., n).
+        arm, q: as in `mass_matrix`.
         qd: joint velocities, rad/s, (..., n).
         qdd: joint accelerations, rad/s^2, (..., n).
 

@@ -97,9 +97,7 @@ def reached(
     """Return whether q brings the end effector to its target, to 1e-8.
 
     Args:
-        screws: space screws (omega; v), (n, 6).
-        M_home: `T_world_ee` at q = 0, (4, 4).
-        T_goal: targets, (..., 4, 4).
+        screws, M_home, T_goal: as in `solve_ik`.
         q: what `solve_ik` returned, (..., n).
 
     Returns:
