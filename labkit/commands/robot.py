@@ -168,7 +168,7 @@ def bring(root: Path) -> None:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
         return
-    if files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
+    if files.record_of(root) or os.environ.get("MENAGERIE_ROOT"):
         check_complete(root / files.PANDA)
         show(files.read_provenance())
     else:
