@@ -22,8 +22,8 @@ from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
-from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
+from labkit.lesson.starter import borrowed_tasks
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
