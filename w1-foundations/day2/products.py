@@ -109,8 +109,7 @@ def _in_q(row, form):
         """negative-angles-left-out: joints with a negative angle do not move => the
           pose with 0 for each of them
         angles-added-up: each joint is given the sum of all angles up to its own; its
-          exponential needs its own alone, since the product carries the others => the
-          pose with those sums
+          exponential needs its own alone, since the product carries the others
         """
         used = {
             "negative-angles-left-out": np.maximum(q, 0.0),
@@ -126,11 +125,9 @@ def _in_M(row, form):
     def _(screws, M, q):
         """M-forgotten: M is missing: the motions are right, but they have to act on
           where the hand is at q = 0 => the product without M
-        M-inverted: M is inverted; it maps hand coordinates to the world as it is => the
-          product with the inverse of M
+        M-inverted: M is inverted; it maps hand coordinates to the world as it is
         M-twice: M is there twice, side by side => the product with M M for M
-        M-rotation-missing: M's rotation is missing; only its translation is there =>
-          the product without it
+        M-rotation-missing: M's rotation is missing; only its translation is there
         M-turned-back: M's rotation is transposed => the product with that M
         """
         used = {

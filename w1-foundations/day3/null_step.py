@@ -59,7 +59,6 @@ def _(J, dq):
     """transpose-for-pseudo-inverse: J^T stands where J^+ belongs: I - J^T J is no
       projector, and the hand feels it => dq - J^T J dq
     felt-part: this is the part that the hand does feel, J^+ J dq; the rest is asked for
-      => J^+ J dq
     unchanged: dq comes back as it was => dq itself
     added: the part that the hand feels is added; it has to be taken away => dq + J^+ J
       dq

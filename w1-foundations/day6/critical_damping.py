@@ -53,10 +53,8 @@ def _(K, Lambda):
       sqrt(K)
     factor-two: there is a 2 too many: the two orders are the 2 already => twice the
       right one
-    factor-two-missing: half of it is missing: the two orders are added, not averaged =>
-      half of the right one
-    K-not-rooted: K is used as it is; its square root belongs there => the right one
-      with K for its root
+    factor-two-missing: half of it is missing: the two orders are added, not averaged
+    K-not-rooted: K is used as it is; its square root belongs there
     root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
       Lambda))
     no-roots: the square roots are missing: this grows with K, where a damping grows
@@ -79,19 +77,15 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
-      right one with Lambda for its root
+    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there
     entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
-      a matrix is the one that, times itself, is the matrix => the right one with
-      np.sqrt(Lambda)
+      a matrix is the one that, times itself, is the matrix
     eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
       columns, so the root is V diag V^T => the right one with V^T diag V
     eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
       diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
     cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
-      => the right one with the Cholesky factor
-    root-of-inverse: the root is that of Lambda's inverse => the right one with the
-      inverse root
+    root-of-inverse: the root is that of Lambda's inverse
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {
@@ -114,8 +108,7 @@ def _(K, Lambda):
       both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
     cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
       Lambda => L sqrt(K) + sqrt(K) L^T
-    eigenvectors-transposed: the last transpose is missing: the root is V diag V^T =>
-      the right one with V diag V
+    eigenvectors-transposed: the last transpose is missing: the root is V diag V^T
     """
     k = np.sqrt(K)
     values, V = np.linalg.eigh(Lambda)

@@ -58,8 +58,7 @@ def _(dq, v_max, a_max):
       so this breaks the speed limit by a quarter => the duration with 1.5
     average-speed: the time dq / v would do for a move that is always at its top speed;
       this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15 => the
-      duration with 8/15
+    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15
     peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
       little earlier, where its derivative is 0 => the duration with 5.625
     peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
@@ -77,8 +76,7 @@ def _(dq, v_max, a_max):
 
 @row.wrongs
 def _(dq, v_max, a_max):
-    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others => the
-      cubic's duration
+    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others
     limits-of-different-joints: the longest way is divided by the smallest limit of all;
       way and limit have to be those of one joint => max(dq) over min(a_max) for the
       acceleration
@@ -97,13 +95,10 @@ def _(dq, v_max, a_max):
     longest-way: it takes the joint with the longest way; one with a lower limit may
       need more => the duration of the joint with the longest way
     one-limit-for-all: the first joint's limits are used for all; each joint has its own
-      => the duration with joint1's limits
-    speed-only: only the speed limits count; a short move breaks the acceleration's =>
-      the duration by speed
+    speed-only: only the speed limits count; a short move breaks the acceleration's
     acceleration-only: only the acceleration limits count; a long move breaks the
       speed's => the duration by acceleration
-    root-forgotten: acceleration falls with T squared, so T is a square root => the
-      duration without the root
+    root-forgotten: acceleration falls with T squared, so T is a square root
     added-up: the two durations are added; the longer one keeps both limits => the sum
       of the two
     forwards-only: a joint that moves backwards counts as one that is ready before it
@@ -137,11 +132,9 @@ def _(dq, v_max, a_max):
     """peak-of-the-cubic: 6 is the cubic's peak acceleration; the quintic's is where the
       derivative of its acceleration is 0 => the duration with 6
     shorter-of-two: each joint takes the shorter of its two durations; both limits count
-      => the shorter of the two
     fastest-joint: it takes the joint that needs least, for the speed and for the
       acceleration; all the others break their limits => the larger of the two minima
-    one-limit-for-all: the lowest limits are used for all; each joint has its own =>
-      the duration with the lowest limits
+    one-limit-for-all: the lowest limits are used for all; each joint has its own
     """
     each = seconds(dq, v_max, a_max)
     return {
