@@ -77,22 +77,19 @@ def _in_the_product(row, form):
           M seven times, not M => that product
         multiplied-by-entries: the exponentials are multiplied entry by entry, not as
           matrices => the product by entries
+        multiplied-by-entries 2: the exponentials are multiplied entry by entry, not as
+          matrices => the product by entries, from the identity on
         """
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
+        by_entries = np.prod(factors, axis=0)
         return {
             "product-reversed": lambda: form(screws[::-1], M, q[::-1]),
             "M-twice": lambda: M @ space(screws, M, q),
             "M-in-the-loop": reduce(np.matmul, beside_M),
-            "multiplied-by-entries": with_M(form, np.prod(factors, axis=0), M),
+            "multiplied-by-entries": with_M(form, by_entries, M),
+            "multiplied-by-entries 2": with_M(form, np.eye(4) * by_entries, M),
         }
-
-    @row.wrong
-    def multiplied_by_entries(screws, M, q):
-        """the exponentials are multiplied entry by entry, not as matrices => the
-        product by entries, from the identity on"""
-        factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
-        return with_M(form, np.eye(4) * np.prod(factors, axis=0), M)
 
     @row.wrong
     def exponentials_summed(screws, M, q):

@@ -34,6 +34,8 @@ def _(grip, mu, acceleration):
     gravity-negative: gravity has the wrong sign here: its z is -9.81, and it pulls down
     acceleration-without-sign: the acceleration's sign is lost: downwards, it takes
       weight off the fingers => the mass with |a|
+    acceleration-without-sign 2: an acceleration downwards does not count; it takes
+      weight off the fingers => the mass with max(a, 0)
     """
     return {
         "one-finger": mu * grip / (G + acceleration),
@@ -45,14 +47,8 @@ def _(grip, mu, acceleration):
         "divided-by-friction": 2 * grip / (mu * (G + acceleration)),
         "gravity-negative": 2 * mu * grip / (acceleration - G),
         "acceleration-without-sign": 2 * mu * grip / (G + abs(acceleration)),
+        "acceleration-without-sign 2": 2 * mu * grip / (G + max(acceleration, 0.0)),
     }
-
-
-@row.wrong
-def acceleration_without_sign(grip, mu, acceleration):
-    """an acceleration downwards does not count; it takes weight off the fingers => the
-    mass with max(a, 0)"""
-    return 2 * mu * grip / (G + max(acceleration, 0.0))
 
 
 for g in (9.8, 10, 9.80665):

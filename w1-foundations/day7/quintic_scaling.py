@@ -121,6 +121,8 @@ def _(t, T):
     only-s-clipped: s stops at the end, but sd and sdd go on: it says that it moves and
       stands => the answer without the ends of sd and sdd
     order: the order is s, sd, sdd; here the derivatives are swapped
+    t-for-x 2: the time itself stands where t / T belongs => the quintic of t
+    order 2: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
     """
     right = quintic_scaling(t, T)
     return {
@@ -133,17 +135,8 @@ def _(t, T):
             right[0], polynomial(QUINTIC, t / T, T)[1:]
         ),
         "order": right[[0, 2, 1]],
-    }
-
-
-@row.wrongs
-def _(t, T):
-    """t-for-x: the time itself stands where t / T belongs => the quintic of t
-    order: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
-    """
-    return {
-        "t-for-x": polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T),
-        "order": quintic_scaling(t, T)[::-1],
+        "t-for-x 2": polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T),
+        "order 2": right[::-1],
     }
 
 
