@@ -19,15 +19,13 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
-from robo47.fast import exponentials
 from robo47.fast.ik import reached as reached
 from robo47.fast.ik import solve_ik as solve_ik
-from robo47.fast.jacobians import jacobian_columns
+from robo47.fast.jacobians import jacobians
 from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
-CHUNK = 1024  # configurations at once: what one core's cache holds
 SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
 
 
@@ -50,13 +48,7 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
     S, q = checks.screws_and_q(screws, q)
     if S.ndim > 2:
         return _one_by_one(S, q)
-    flat = q.reshape(-1, len(S))
-    arm, J = exponentials.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
-    for first in range(0, len(flat), CHUNK):
-        part = slice(first, first + CHUNK)
-        now, _, _ = jacobian_columns(arm, flat[part].T, at_end=False)
-        J[part] = np.moveaxis(now, -1, 0)
-    return J.reshape(*q.shape[:-1], 6, len(S))
+    return jacobians(S, np.eye(4), q, at_end=False)
 
 
 def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:

@@ -13,8 +13,9 @@ from pathlib import Path as File
 
 import numpy as np
 
-from labkit.base.exchange import LoadError, Path, Reply, twice
+from labkit.base.exchange import LoadError, Path, Reply
 from labkit.judge import Robot
+from labkit.sandbox.sandbox import twice
 
 
 class InProcess:

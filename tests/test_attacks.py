@@ -14,13 +14,13 @@ import tracemalloc
 import pytest
 
 from labkit.base.exchange import Question
-from labkit.check.second_look import kits_own
+from labkit.check.source import kits_own
 from labkit.check.tasks import check_tasks
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.starter import make_starter
 from labkit.sandbox import process, sandbox
-from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import library_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT
 

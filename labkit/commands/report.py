@@ -5,8 +5,8 @@
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in the dark. Thresholds come from the
-days' manifests. Rows that were repaired while reading or could not be read are
-listed at the end of the page. Without a filter there is a page on the week of
+days' manifests. Lines that could not be read or may be cut are listed at the end
+of the page. Without a filter there is a page on the week of
 the last day that you began as well, report-week1.html, and its numbers are
 written between the marks of docs/RETRO_w1.md, where that file has them;
 with --file they are left alone.
@@ -18,7 +18,7 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.base.words import command, count
-from labkit.check import states
+from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
 from labkit.lesson.week import Week
@@ -59,8 +59,7 @@ def main() -> int:
     )
     if mine:
         tell(report, days)
-    look = len(report.unread) + len(report.repaired)
-    if look:
+    if look := len(report.look):
         need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
         print(f"{need}: {command('--check', args.file)}")
     return cli.EXIT_OK
@@ -84,7 +83,7 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = {task.id: states.known(day).get(task.id, "") for task in day.tasks}
+    known = {task.id: memory.known(day).get(task.id, "") for task in day.tasks}
     if not all(known.values()):
         return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{id} {state}" for id, state in known.items() if state != "passed"]
@@ -97,7 +96,7 @@ def tell(report: Report, days: list[Day]) -> None:
     for day in days:
         if not day.work.is_file():
             continue
-        found = states.known(day)
+        found = memory.known(day)
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
         says = [] if done else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]

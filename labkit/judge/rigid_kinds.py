@@ -18,7 +18,7 @@ from labkit.judge.compare import (
 )
 from labkit.judge.finished import OF_A_ROTATION, of_a_pose
 from labkit.judge.kinds import NEAR, Kind
-from labkit.judge.matrices import split, transposed
+from labkit.judge.matrices import split
 from labkit.judge.matrix_kinds import few_entries
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -104,13 +104,14 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     """Return what is wrong with rotations, (n, 3, 3)."""
     if (off := _skew(S)) > RIGID:
         det = np.linalg.det(S)
-        worst = np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0  # no 7e-189
+        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0:.3g}"  # no -0
+        size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
             "R is no rotation: its columns are not unit vectors at right angles. "
-            f"(R R^T differs from I by {off:.2g}; det R is {worst:.3g}, not 1.)",
+            f"(R R^T differs from I by {off:.2g}{size}.)",
         )
-    X = np.abs(transposed(T) @ S)
+    X = np.abs(T.mT @ S)
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
         return Finding(
             "axes-mixed-up",
@@ -156,7 +157,7 @@ def _pose_wrong(S: Array, T: Array) -> Finding:
 
 def _skew(R: Array) -> float:
     """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
-    return float(np.abs(R @ transposed(R) - np.eye(3)).max())
+    return float(np.abs(R @ R.mT - np.eye(3)).max())
 
 
 def _bottom(S: Array) -> float:

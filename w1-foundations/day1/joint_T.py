@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Pose
+from labkit.judge import Pose, Row
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR
@@ -27,7 +26,7 @@ def slides_along_z(q):
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 
-row.reached_by("Rz")
+row.reached_by("Rz", called={"theta": "the angle"})
 # A joint does not move its body, so what is done to t changes nothing.
 row.of_answer(
     of_a_pose("maps the parent to the body"),

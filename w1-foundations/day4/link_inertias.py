@@ -6,9 +6,9 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.kinds import Kind
-from labkit.judge.row import Row
 from robo47.dynamics import link_inertias, spatial_inertia
 from robo47.screws import adjoint
 
@@ -60,6 +60,8 @@ def _(T_links, masses, coms, inertias):
       the world to the link => the answer with R^T I R
     inertia-turned-once: the inertia is multiplied by R on one side only; a matrix that
       takes one vector to another has both to turn => the answer with R I
+    inertia-diagonal: only the diagonal of each inertia is used; a link's own axes need
+      not be those in which the rest is 0 => the answer with the diagonal of I
     second-R-not-transposed: the inertia is R I R; what takes a vector from the world to
       the link first is not R => the answer with R I R
     R-transposed: R is transposed, for the centre and for the inertia: this turns both
@@ -78,6 +80,7 @@ def _(T_links, masses, coms, inertias):
         "inertia-not-turned": {"about": lambda R, I: I},
         "inertia-turned-back": {"about": back},
         "inertia-turned-once": {"about": lambda R, I: R @ I},
+        "inertia-diagonal": {"about": lambda R, I: R @ np.diag(np.diag(I)) @ R.T},
         "second-R-not-transposed": {"about": lambda R, I: R @ I @ R},
         "R-transposed": {"com": lambda R, p, c: R.T @ c + p, "about": back},
     }
@@ -98,8 +101,6 @@ def _(T_links, masses, coms, inertias):
       Ad(T)^T
     origin-for-com: the mass sits at the link's origin; it sits at its centre of mass =>
       the answer with p alone
-    first-pose-for-all: every link is taken to be where the first one is => the answer
-      with the first pose seven times
     poses-multiplied: the poses are multiplied along the arm; each T of T_links is seen
       from the world already => the answer with the product of the poses up to each link
     last-link-for-all: all seven are link7's: is one array filled again for every link,
@@ -117,7 +118,6 @@ def _(T_links, masses, coms, inertias):
         "pose-inverted": lambda: placed(np.linalg.inv(T_links)),
         "adjoint-not-inverted": Ad @ own @ np.swapaxes(Ad, 1, 2),
         "origin-for-com": lambda: placed(T_links, 0 * coms),
-        "first-pose-for-all": lambda: placed(T_links[[0] * 7]),
         "poses-multiplied": lambda: placed(list(accumulate(T_links, np.matmul))),
         "last-link-for-all": lambda: placed(T_links)[[6] * 7],
         "already-summed": lambda: np.cumsum(placed(T_links)[::-1], axis=0)[::-1],
@@ -134,4 +134,5 @@ for first, whose in FIRST:
     )(lambda T, *body, first=first: link_inertias([first(T), *T[:-1]], *body))
 
 
+row.of_argument("T_links", FIRST_FOR_ALL.called("first-pose-for-all"))
 row.reached_by("spatial_inertia", "in each link's matrix ")
