@@ -85,6 +85,15 @@ def test_what_the_arm_hides(data):
     assert rank(Y.reshape(-1, 91)[:, :70]) == 45
 
 
+def test_without_a_cut_the_rank_is_near_91_and_parameters_are_huge(data):
+    Y, tau, fast = data["excited"]
+    tau = tau + noises(lab.SEED)[1]
+    for rtol, huge in ((lab.RTOL, False), (0.0, True)):
+        assert (lab.identifiable(Y[fast], rtol)[0] >= 89) == huge
+        assert (np.abs(lab.fit(Y[fast], tau[fast], rtol)).max() > 1e11) == huge
+    assert "a rank near 91, and parameters of 1e12 | nothing was cut" in SENTENCES
+
+
 def test_one_hinge_feels_three_of_ten():
     A = [[0, a, 0, a, 0, 9.81] for a in (-1, 1, 2)]
     row = identification.link_regressor([0, 2.0, 0, 0, 0, 0], A)[:, 1]
