@@ -35,7 +35,10 @@ SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
 
 
 def fetch(root: Path) -> dict[str, Any]:
-    """Fill a folder with the Panda from the first source that answers; say whence.
+    """Fill a folder with the Panda from the first source that answers.
+
+    Returns:
+        The provenance.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
@@ -165,7 +168,7 @@ def bring(root: Path) -> None:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
         return
-    if files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
+    if files.record_of(root) or os.environ.get("MENAGERIE_ROOT"):
         check_complete(root / files.PANDA)
         show(files.read_provenance())
     else:

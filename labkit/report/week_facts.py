@@ -61,7 +61,13 @@ class DayFacts:
 
 
 def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
-    """Return how a day went; the series are the log's."""
+    """Return how a day went.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+        root: the clone.
+    """
     known = memory.known(day)
     passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
@@ -83,7 +89,12 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
 def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     """Return the minutes from the first to the last commit of what a day hands in.
 
-    None where there are no two commits, or no git.
+    Args:
+        day: from its manifest.
+        root: the clone.
+
+    Returns:
+        None where there are no two commits, or no git.
     """
     files = day.files
     own = [files[name] for name in ("script", "figure") if name in files]
@@ -108,7 +119,12 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
 
 
 def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
-    """Return a day's numbers, in the manifest's order."""
+    """Return a day's numbers, in the manifest's order.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+    """
     found = []
     for metric in day.metrics:
         key = (day.number, metric.check, metric.metric)

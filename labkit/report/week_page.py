@@ -44,7 +44,12 @@ _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
 def render(facts: Sequence[DayFacts], heading: str) -> str:
-    """Return the page on a week's days, in order, under a heading of plain text."""
+    """Return the whole page.
+
+    Args:
+        facts: of the week's days, in order.
+        heading: one line of plain text on where this comes from.
+    """
     return html.page(
         escape(facts[0].day.week.heading),
         escape(heading),
