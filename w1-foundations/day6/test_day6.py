@@ -56,6 +56,9 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     light = np.diag(lab.task_inertia(J, M - 0.1 * np.eye(7)))[3:]
     said = "without armature it would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
     assert said in SENTENCES
+    free = inv(right)[:, 3]  # how a hand that nobody holds accelerates for 1 N
+    assert free[5] / free[3] == pytest.approx(1 / 3, abs=0.02)
+    assert "it also goes along z, a third as far, and turns" in SENTENCES
     rotors = 1.0 - light / np.diag(right)[3:]  # "an eighth to a quarter"
     assert_same([rotors.min(), rotors.max()], [1 / 8, 1 / 4], 6e-3)
 

@@ -238,6 +238,18 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert f"It is {least}: there is no such arm" in SENTENCES
 
 
+def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
+    Y, tau, fast = data["excited"]
+    Y, tau = Y[fast], (tau + noises(lab.SEED)[1])[fast]
+    phi, true = lab.fit(Y, tau, lab.RTOL), secret.numbers(panda.arm(robot))
+    hidden = np.linalg.svd(Y, full_matrices=False)[2][62:]
+    other = phi + hidden.T @ (hidden @ (true - phi))  # that part from the truth
+    assert_same(Y @ other, Y @ phi, 1e-11)
+    least = [min(map(lab.least_pseudo, p[:70].reshape(7, 10))) for p in (phi, other)]
+    assert least[0] < -1.0 < -0.01 < least[1]
+    assert "what is wrong is what no torque shows" in SENTENCES
+
+
 def test_mujoco_refuses_what_no_body_can_have():
     body = (
         '<mujoco><worldbody><body><inertial pos="0 0 0" mass="1" diaginertia="{}"/>'
