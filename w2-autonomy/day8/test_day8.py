@@ -46,7 +46,13 @@ def data():
 @pytest.fixture(scope="module")
 def printed():
     """Return what the lab prints, 80 columns wide at most."""
-    with patch("sys.argv", ["lab", "--no-log"]), redirect_stdout(io.StringIO()) as out:
+    told = {"how many of 70 numbers show: links": "43",
+            "grams off, of 500: one from either side": "43"}  # fmt: skip
+    with (
+        patch("sys.argv", ["lab", "--no-log"]),
+        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
+        redirect_stdout(io.StringIO()) as out,
+    ):
         assert lab.main() == 0
     assert all(len(line) <= 80 for line in out.getvalue().splitlines())
     return out.getvalue()
@@ -92,6 +98,14 @@ def test_without_a_cut_the_rank_is_near_91_and_parameters_are_huge(data):
         assert (lab.identifiable(Y[fast], rtol)[0] >= 89) == huge
         assert (np.abs(lab.fit(Y[fast], tau[fast], rtol)).max() > 1e11) == huge
     assert "a rank near 91, and parameters of 1e12 | nothing was cut" in SENTENCES
+
+
+def test_two_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
+    sheet = (ROOT / "w2-autonomy/docs/day8.md").read_text("utf-8")
+    assert "you predicted 43, measured 43: how many of 70 numbers show" in printed
+    assert "you predicted 43, measured 43.25: grams off, of 500: one" in printed
+    for row in ("how many of 70 numbers show: links", "grams off, of 500: one from"):
+        assert f"| {row}" in sheet
 
 
 def test_one_hinge_feels_three_of_ten():
