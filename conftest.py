@@ -21,9 +21,10 @@ import pytest
 
 from labkit import log
 from labkit.author.sheet import worksheet_of
-from labkit.base.exchange import Exchange, Question, Reply, replies
+from labkit.base.exchange import Exchange, Question, Reply
 from labkit.check.tasks import check_tasks
 from labkit.figures import backends
+from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day
 from labkit.lesson.folder import load_lab as load_script  # noqa: F401 (days' tests)
 from labkit.lesson.week import weeks

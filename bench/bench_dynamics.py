@@ -16,6 +16,7 @@ from bench.timing import installed, microseconds, pinocchio, take_turns
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
 from robo47.fast import dynamics
+from robo47.fast.jacobians import jacobians
 
 N = 100_000
 ONE = 2_000  # configurations for what is asked one at a time
@@ -42,12 +43,12 @@ class Rival(NamedTuple):
 
 
 def ours() -> Rival:
-    """robo47.fast.dynamics, one call."""
+    """robo47.fast, one call."""
     arm = panda.arm(_model())
     calls: dict[str, Callable[[Motion], Array]] = {
         "mass matrix": lambda m: dynamics.mass_matrix(arm, m.q),
         "inverse dynamics": lambda m: dynamics.inverse_dynamics(arm, *m),
-        "site Jacobian": lambda m: dynamics.site_jacobian(arm, m.q),
+        "site Jacobian": lambda m: jacobians(arm.screws, arm.M_home, m.q, True),
     }
     answer = lambda question, m: calls[question](m)  # noqa: E731
     return Rival(answer, answer)

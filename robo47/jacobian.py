@@ -8,7 +8,8 @@ Three Jacobians map joint speeds to a twist (omega; v), and their names are kept
 - `J_body`: v is the velocity of the hand's own origin, both in the hand's axes.
 
 Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
-metres, float64; leading dimensions broadcast.
+metres, float64; leading dimensions broadcast. A wrong shape, a number that is not
+finite, or what is no screw or pose, is a ValueError, in every function.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.fast.ik` and
 `robo47.rotation_log` hold the rest of what is named here.
@@ -19,15 +20,13 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
-from robo47.fast import exponentials
 from robo47.fast.ik import reached as reached
 from robo47.fast.ik import solve_ik as solve_ik
-from robo47.fast.jacobians import jacobian_columns
+from robo47.fast.jacobians import jacobians
 from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
-CHUNK = 1024  # configurations at once: what one core's cache holds
 SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
 
 
@@ -43,20 +42,11 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
 
     Returns:
         J_space, (..., 6, n): no unit above, metres below.
-
-    Raises:
-        ValueError: wrong shape, a non-finite number, or no screw.
     """
     S, q = checks.screws_and_q(screws, q)
     if S.ndim > 2:
         return _one_by_one(S, q)
-    flat = q.reshape(-1, len(S))
-    arm, J = exponentials.arm_of(S, np.eye(4)), np.empty((len(flat), 6, len(S)))
-    for first in range(0, len(flat), CHUNK):
-        part = slice(first, first + CHUNK)
-        now, _, _ = jacobian_columns(arm, flat[part].T, at_end=False)
-        J[part] = np.moveaxis(now, -1, 0)
-    return J.reshape(*q.shape[:-1], 6, len(S))
+    return jacobians(S, np.eye(4), q, at_end=False)
 
 
 def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
@@ -70,9 +60,6 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
 
     Returns:
         J_site, (..., 6, n): what mj_jacSite says, omega above.
-
-    Raises:
-        ValueError: wrong shape or a non-finite number.
     """
     J, p = _jacobian(J_space, "J_space"), checks.array(p, "p", (3,))
     v = J[..., 3:, :] - skew(p) @ J[..., :3, :]  # omega x p = -[p] omega
@@ -88,9 +75,6 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
 
     Returns:
         J_body, (..., 6, n) (Modern Robotics, section 5.1.4).
-
-    Raises:
-        ValueError: wrong shape, a non-finite number, or not a pose.
     """
     return adjoint(se3.inverse(T)) @ _jacobian(J_space, "J_space")
 
@@ -108,9 +92,6 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
 
     Returns:
         Torques, N m (forces of slides, N), (..., n).
-
-    Raises:
-        ValueError: wrong shape or a non-finite number.
     """
     J, F = site_jacobian(J_space, p), checks.array(F, "F", (6,))
     return (F[..., None, :] @ J)[..., 0, :]
@@ -132,7 +113,7 @@ def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
         Step dq, radians, (..., n).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a singular J without damping.
+        ValueError: also where J is singular and damping is 0.
     """
     J = _jacobian(J, "J", rows=None)
     e = checks.array(e, "e", J.shape[-2:-1])
@@ -155,9 +136,6 @@ def manipulability(J: ArrayLike) -> Array:
     Returns:
         Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
         "Manipulability of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
-
-    Raises:
-        ValueError: wrong shape or a non-finite number.
     """
     J = _jacobian(J, "J", rows=None)
     # From the singular values: det(J J^T) has only half the digits near 0.
@@ -174,9 +152,6 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
 
     Returns:
         The nearest motion with J dq = 0, (..., n) (Modern Robotics, section 6.3).
-
-    Raises:
-        ValueError: wrong shape or a non-finite number.
     """
     J = _jacobian(J, "J", rows=None)
     dq = checks.array(dq, "dq", J.shape[-1:])

@@ -14,11 +14,12 @@ from pathlib import Path as File
 import numpy as np
 import pytest
 
-from labkit.base.exchange import Exchange, LoadError, Path, Reply, twice
+from labkit.base.exchange import Exchange, LoadError, Path, Reply
 from labkit.check import tasks
 from labkit.judge import Robot
 from labkit.judge.ask import Asked
 from labkit.judge.mistake import InTurn
+from labkit.sandbox.sandbox import twice
 
 
 class InProcess:

@@ -16,7 +16,7 @@ from labkit.base.exchange import Question
 from labkit.check.tasks import check_tasks
 from labkit.lesson.day import all_days, find_day
 from labkit.sandbox import process, sandbox
-from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import library_of
 from robo47.paths import METRICS_CSV, ROOT
 
 pytestmark = pytest.mark.kit

@@ -62,6 +62,11 @@ def test_a_torn_or_odd_journal_loses_its_odd_lines_alone(tmp_path):
     assert [entry.status for entry in journal.read(tmp_path)] == ["wrong", "passed"]
 
 
+def test_a_line_of_an_older_kit_began_with_the_time(tmp_path):
+    store.add_lines(journal.NAME, ['[1790000000.5, "1.1", "wrong", "a"]'], tmp_path)
+    assert journal.read(tmp_path) == [journal.Entry("1.1", "wrong", "a")]
+
+
 def test_a_folder_that_cannot_be_written_costs_the_memory_alone(tmp_path):
     (tmp_path / ".robo47").write_text("a file in the way")
     journal.note(results(t1_1=("wrong", "a")), tmp_path)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from labkit.check.source_hints import renamed, unfinished
+from labkit.check.source import renamed, unfinished
 
 DOC = '    """Return it."""\n'
 GAP = '    raise NotImplementedError("task 1.2: write f")\n'

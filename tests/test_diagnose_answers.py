@@ -63,7 +63,7 @@ def test_an_answer_that_changes_when_asked_again_is_told_so():
     replies = [Reply(value=one, again=one + 1e-6) for one in T]
     verdict = judged_replies(MAKE_T, replies)
     assert verdict.mistake == "kept-between-calls"
-    assert "6 of 68" in verdict.message
+    assert f"6 of {len(T) + len(round_of(MAKE_T).fresh)}" in verdict.message
 
 
 def test_an_error_of_the_second_time_alone_is_state_too():
@@ -98,7 +98,6 @@ def test_a_held_out_question_tells_how_an_answer_came_about():
         Scalar(),
         truth=lambda x: x,
         held_out=[held],
-        fresh=0,
     )
 
     def verdict(answer):

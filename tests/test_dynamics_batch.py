@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from robo47 import panda, se3, verify
 from robo47.arm import Arm
-from robo47.fast import dynamics
+from robo47.fast import chains, dynamics
+from robo47.fast.jacobians import jacobians
 from robo47.fast.links import links_of
 
 pytestmark = pytest.mark.kit
@@ -26,7 +27,7 @@ def motions(either_panda):
 
 def test_mass_matrices_jacobians_and_torques_are_mujocos(motions):
     model, arm, q, qd, qdd = motions
-    M, J = dynamics.mass_matrix(arm, q), dynamics.site_jacobian(arm, q)
+    M, J = dynamics.mass_matrix(arm, q), jacobians(arm.screws, arm.M_home, q, True)
     assert_same(M, verify.mujoco_mass_matrix(model, q), 1e-13)
     assert_same(J, verify.mujoco_site_jacobian(model, q), 1e-14)
     tau = dynamics.inverse_dynamics(arm, q, qd, qdd)
@@ -37,7 +38,7 @@ def test_mass_matrices_jacobians_and_torques_are_mujocos(motions):
 
 def test_the_pandas_links_need_no_fixed_rotation(either_panda):
     """Every axis of it is one of the world's at q = 0: that is where the speed is."""
-    links = links_of(panda.arm(either_panda)).links
+    links = links_of(panda.arm(either_panda))
     assert all(link.R is None for link in links)
     assert [link.k for link in links] == [2, 1, 2, 1, 2, 1, 2]
     assert [link.sign for link in links] == [1, 1, 1, -1, 1, -1, -1]
@@ -73,7 +74,7 @@ def test_any_arm_of_hinges_gives_what_arm_gives_one_by_one(seed, n):
     q, qd, qdd = np.random.default_rng(seed).normal(size=(3, 4, n))
     M = dynamics.mass_matrix(arm, q)
     tau = dynamics.inverse_dynamics(arm, q, qd, qdd)
-    J = dynamics.site_jacobian(arm, q)
+    J = jacobians(arm.screws, arm.M_home, q, at_end=True)
     for i in range(4):
         now = arm.at(q[i])
         scale = max(1.0, np.abs(now.M).max())
@@ -88,14 +89,14 @@ def test_chunks_and_shapes_make_no_difference(twin, monkeypatch):
     rng = np.random.default_rng(3)
     q, qd, qdd = rng.normal(size=(3, 2, 5, 7))
     whole = dynamics.inverse_dynamics(arm, q, qd, qdd)
-    monkeypatch.setattr(dynamics, "CHUNK", 3)
+    monkeypatch.setattr(chains, "CHUNK", 3)
     assert_same(dynamics.inverse_dynamics(arm, q, qd, qdd), whole, 1e-12)
     assert dynamics.mass_matrix(arm, q).shape == (2, 5, 7, 7)
     one = dynamics.inverse_dynamics(arm, q[1, 2], qd[1, 2], qdd[1, 2])
     assert_same(one, whole[1, 2], 1e-12)
     same_speed = dynamics.inverse_dynamics(arm, q, qd[0, 0], np.zeros(7))
     assert same_speed.shape == (2, 5, 7)
-    assert dynamics.site_jacobian(arm, np.zeros((0, 7))).shape == (0, 6, 7)
+    assert dynamics.mass_matrix(arm, np.zeros((0, 7))).shape == (0, 7, 7)
 
 
 def test_what_is_not_for_the_batch_is_refused(twin):

@@ -30,7 +30,7 @@ def asked(kind, answers, **more):
     rights = dict(enumerate(answers))
     calls = [(float(i),) for i in rights]
     truth = InTurn(lambda i: rights[int(i)])
-    return Ask(lambda rng: calls, kind, truth=truth, fresh=0, **more)
+    return Ask(lambda rng: calls, kind, truth=truth, **more)
 
 
 def told(kind, answers, given):
@@ -80,7 +80,7 @@ class TestSizes:
         assert "right for 3 of 4 inputs" in wrong.message
 
     def test_an_answer_as_long_as_its_question(self):
-        ask = self.row(Vector((None,)), np.cumsum, fresh=0)
+        ask = self.row(Vector((None,)), np.cumsum)
         questions = [exchange.question.args[0] for exchange in round_of(ask).main]
 
         def verdict(function):
@@ -111,7 +111,6 @@ def test_robots_of_a_row_may_differ_and_be_all_that_is_asked():
         lambda rng: [(robot,) for robot in robots],
         Vector((2,)),
         truth=InTurn(lambda model: [model.nq, np.abs(model.body_pos).sum()]),
-        fresh=0,
     )
     answers = right(ask)[0]
     assert answers[:, 0].tolist() == [7, 7, 9]

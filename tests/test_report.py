@@ -12,7 +12,7 @@ import pytest
 from conftest import write_week
 from labkit.lesson.day import Metric
 from labkit.log.header import LINE
-from labkit.log.rows import encode, normalise
+from labkit.log.rows import encode, typed
 from labkit.log.scan import scan
 from labkit.report import page, plot
 from labkit.report.series import Report, Series, collect, thresholds
@@ -26,7 +26,7 @@ EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
 def line(**fields: object) -> str:
     base = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err"}
-    return encode(normalise(base | {"git_sha": "abc1234"} | fields, True))
+    return encode(typed(base | {"git_sha": "abc1234"} | fields, True)[0])
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def run(run):
 def series_of(metric: str, *values: float, limit: Metric | None = None) -> Series:
     """Return a series of these values."""
     series = Series((1, "c", metric), limit)
-    series.rows = [normalise({"value": v, "git_sha": "abc1234"}, False) for v in values]
+    series.rows = [typed({"value": v, "git_sha": "abc1234"}, False)[0] for v in values]
     return series
 
 
@@ -133,12 +133,11 @@ def test_the_filters_keep_what_they_name(log):
     assert kept(check="fk") == [1, 2]
 
 
-def test_repaired_and_unreadable_lines_are_listed_not_hidden(log):
+def test_lines_that_cannot_be_read_are_listed_not_hidden(log):
     bad = ["cut,2026", line(value=1, notes="x") + ",with <b>commas</b>"]
     text = page.render(report_on(log, *bad), "")
-    assert "Could not be read (1)" in text
+    assert "Lines to look at (2)" in text
     assert "cut,2026" in text
-    assert "Repaired while reading (1)" in text
     assert "with &lt;b&gt;commas&lt;/b&gt;" in text
 
 

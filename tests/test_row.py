@@ -1,8 +1,10 @@
 """Rows: mistakes of one function that stand together."""
 
+import numpy as np
 import pytest
 
 from labkit.judge import Scalar
+from labkit.judge import argument_mistakes as kinds
 from labkit.judge.row import REDONE, Row
 
 
@@ -38,3 +40,49 @@ def test_an_answer_without_a_sentence_is_found_and_a_sentence_without_an_answer(
     for answers in ({"doubled": 6}, {"doubled": 6, "negative": -3, "halved": 1.5}):
         with pytest.raises(KeyError, match=r"negative|halved"):
             row_of_two(lambda x, answers=answers: answers).named[0].code(3)
+
+
+def test_a_table_says_once_what_to_call_its_answers_and_what_the_lab_cannot_show():
+    row = Row(Scalar())
+
+    @row.wrongs(redone="that number", hidden={"negative": "x is positive there"})
+    def _(x):
+        """doubled: it is there twice => 2 x
+        negative: its sign is wrong
+        """
+        return {"doubled": 2 * x, "negative": -x}
+
+    doubled, negative = row.named
+    assert (doubled.redone, negative.redone) == ("2 x", "that number")
+    assert (doubled.hidden, negative.hidden) == ("", "x is positive there")
+
+
+def test_a_table_is_made_once_per_question_and_nobody_spoils_it_for_the_others():
+    asked = []
+
+    def answers(x):
+        asked.append(x.tolist())
+        return {"doubled": 2 * x, "negative": -x}
+
+    doubled, negative = row_of_two(answers).named
+    for x in (np.ones(2), np.zeros(2), np.ones(2)):
+        doubled.code(x)[:] = 5.0
+        assert negative.code(x).tolist() == (-x).tolist()
+        assert doubled.code(x).tolist() == (2 * x).tolist()
+    assert asked == [[1.0, 1.0], [0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("change", "used"),
+    [
+        (kinds.RADIANS_TWICE, np.deg2rad([1.0, 2, 3, 4, 5, 6])),
+        (kinds.DEGREES, np.rad2deg([1.0, 2, 3, 4, 5, 6])),
+        (kinds.HALVES_SWAPPED, [4, 5, 6, 1, 2, 3]),
+        (kinds.FIRST_FOR_ALL, [1, 1, 1, 1, 1, 1]),
+        (kinds.REVERSED, [6, 5, 4, 3, 2, 1]),
+        (kinds.OF_ALL_JOINTS[7], [1, 2, 3, 4, 5, 0]),
+    ],
+    ids=lambda x: getattr(x, "slug", ""),
+)
+def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
+    assert np.allclose(change.change(np.arange(1.0, 7.0)), used)

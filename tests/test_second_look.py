@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from labkit.check.lab_run import rehearse
-from labkit.check.second_look import old_names
+from labkit.check.source import old_names
 from labkit.check.tasks import check_tasks
 from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
 from labkit.lesson.day import all_days, find_day

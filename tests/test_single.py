@@ -11,6 +11,7 @@ from test_screws import any_screws, poses
 from bench.bench_fk import tilted_panda
 from robo47 import jacobian, kinematics, panda, screws, verify
 from robo47.fast.exponentials import chain_of
+from robo47.fast.jacobians import jacobians
 
 EVERY_JOINT = """
 <mujoco><worldbody><body name="a" pos="0.1 0.2 0.3" quat="1 2 3 4">
@@ -44,13 +45,18 @@ def test_slides_and_references_are_taken_into_account():
 
 @settings(max_examples=50, deadline=None)
 @given(S=st.lists(any_screws(), min_size=1, max_size=7), M=poses())
-def test_the_jacobian_of_one_is_the_formulas_whatever_the_joints(S, M):
-    q = np.random.default_rng(1).uniform(-3, 3, len(S))
-    columns, frame = chain_of(np.array(S), M).jacobian(q.tolist())
+def test_the_jacobians_are_the_formulas_whatever_the_joints(S, M):
+    S, q = np.array(S), np.random.default_rng(1).uniform(-3, 3, (2, len(S)))
+    formula = jacobian.space_jacobian(np.stack([S, S]), q)
+    assert_same(jacobian.space_jacobian(S, q), formula, 1e-12)
     T = screws.fk_space(S, M, q)
-    assert_same(np.transpose(frame), T[:3], 1e-12)
-    J = jacobian.site_jacobian(jacobian.space_jacobian(S, q), T[:3, 3])
-    assert_same(np.transpose(columns), J, 1e-12)
+    at_end = jacobian.site_jacobian(formula, T[:, :3, 3])
+    assert_same(jacobians(S, M, q, at_end=True), at_end, 1e-12)
+    for i in range(2):
+        assert_same(jacobian.space_jacobian(S, q[i]), formula[i], 1e-12)
+        columns, frame = chain_of(S, M).jacobian(q[i].tolist(), at_end=True)
+        assert_same(np.transpose(frame), T[i, :3], 1e-12)
+        assert_same(np.transpose(columns), at_end[i], 1e-12)
 
 
 def test_a_robot_with_a_ball_joint_is_left_to_the_batch():

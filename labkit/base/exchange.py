@@ -1,6 +1,6 @@
 """A question to a student's function, and the reply that came of it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -73,16 +73,6 @@ class Exchange:
     reply: Reply | None = None
 
 
-def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
-    """Return the replies of exchanges; a ValueError where nobody asked the question."""
-    found = []
-    for exchange in exchanges:
-        if exchange.reply is None:
-            raise ValueError(f"no reply to {exchange.question}")
-        found.append(exchange.reply)
-    return found
-
-
 class LoadError(Exception):
     """The student's file does not load; `reply` says why."""
 
@@ -101,27 +91,6 @@ class EndedError(Exception):
         self.reply = stopped(why)
 
 
-def twice(first: Reply, second: Reply) -> Reply:
-    """Return the first time's reply with what the second time adds to it."""
-    error = ""
-    if second.kind and not first.kind:
-        error = ": ".join(filter(None, (second.kind, second.error)))
-    return Reply(
-        **{
-            **vars(first),
-            "again": second.value,
-            "again_error": error,
-            "changed": _union(first.changed, second.changed),
-            "refused": _union(first.refused, second.refused),
-            "shares": _union(first.shares, second.shares),
-        }
-    )
-
-
 def stopped(why: str) -> Reply:
     """Return the reply of a call that never came back."""
     return Reply(error=why, kind="stopped")
-
-
-def _union(*some: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(name for names in some for name in names))[:MOST]

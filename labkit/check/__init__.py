@@ -1,9 +1,8 @@
 """Check a day: ask the student's functions, judge what came back, report.
 
     tasks          from a student's file to one verdict per task
-    second_look    whose fault a wrong answer is, and with which argument it is right
     lab_run        the day's lab, run with a file's functions
-    source_hints   what the text of the file shows: names, first slips
+    source         the file as text: the slips that it shows, code put below it
     states         how tasks stood when the file as it is was last checked
     report         how it all reads
     journal        keeps which mistakes were met

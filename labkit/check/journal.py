@@ -7,7 +7,6 @@ mistakes were met and left behind; nothing is sent anywhere, and git ignores it.
 import contextlib
 import json
 import re
-import time
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -28,7 +27,6 @@ _NO_MISTAKE |= {"missing", "raise-left-in"}
 class Entry(NamedTuple):
     """How a task stood from a moment on."""
 
-    when: float  # seconds since 1970
     task: str  # its id
     status: str  # as in a verdict
     mistake: str  # its name, "" where it has none
@@ -58,7 +56,7 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         state = (verdict.status, "" if verdict.follows else verdict.mistake)
         if known is None or (known.status, known.mistake) != state:
             says = _sentence(verdict.message) if state[1] else ""
-            entry = Entry(round(time.time(), 1), result.task.id, *state, says)
+            entry = Entry(result.task.id, *state, says)
             lines.append(json.dumps(entry))
     store.add_lines(NAME, lines, root)
 
@@ -67,10 +65,10 @@ def read(root: Path = ROOT) -> list[Entry]:
     """Return the journal, oldest first; what cannot be read is left out."""
     found = []
     for line in store.read_text(NAME, root).splitlines():
-        with contextlib.suppress(ValueError, TypeError):
-            when, task, status, mistake, *says = json.loads(line)
-            words = (str(task), str(status), str(mistake), *map(str, says[:1]))
-            found.append(Entry(float(when), *words))
+        with contextlib.suppress(ValueError, TypeError, LookupError):
+            words = json.loads(line)
+            words = words[isinstance(words[0], float) :]  # older kits wrote the time
+            found.append(Entry(*map(str, words)))
     return found
 
 

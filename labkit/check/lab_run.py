@@ -19,15 +19,14 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
-from labkit.check.second_look import old_names
+from labkit.check.source import old_names
 from labkit.handin.item import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.lab import Lab, number_of
-from labkit.sandbox.library import library_of
-from labkit.sandbox.messages import PANDA
+from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
 ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function

@@ -7,18 +7,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from labkit.base.exchange import Exchange, LoadError, Reply, replies
-from labkit.check.second_look import kits_functions, old_names, right_when
-from labkit.check.source_hints import arguments, renamed, unfinished
-from labkit.judge.ask import Asked, make_round
+from labkit.base.exchange import Exchange, LoadError, Reply
+from labkit.check.source import (
+    arguments,
+    kits_functions,
+    old_names,
+    renamed,
+    unfinished,
+)
+from labkit.judge.ask import Asked, make_round, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
+from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.sandbox.library import library_of
-from labkit.sandbox.messages import robots_of
+from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
@@ -160,7 +165,7 @@ class _Check:
         )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)
-            says = right_when(asked, verdict.wrong_calls, names, session)
+            says = right_when(asked, verdict.wrong_calls, names, session.ask)
         return replace(verdict, message=f"{verdict.message} {says}".strip())
 
     def _text(self) -> str:

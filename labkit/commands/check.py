@@ -63,11 +63,11 @@ def check(day: Day, options: argparse.Namespace) -> int:
         from labkit.sandbox.sandbox import Sandbox
 
         with Sandbox(warm) as sandbox:
-            key = states.key_of(day)
+            key = states.key_of(day) if script == day.work else ""
             results = check_tasks(day, script, sandbox, options.task, seed)
             done = required_pass(results)
             lab = check_lab(day, script, sandbox) if done and not options.task else []
-    if script == day.work:
+    if key:
         journal.note(results)
         states.remember(key, results)
     items = lab

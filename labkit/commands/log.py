@@ -37,7 +37,7 @@ def main() -> int:
         return show_check(args.file) if args.check else put_back(args.file)
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
-        args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
+        args.file, sync=True, allow_nonfinite=args.allow_nonfinite, **fields
     )
     says = f"{row['check']} {row['metric']} = {row['value']}"
     print(f"added to {shown(args.file)}: {says}")
@@ -52,12 +52,6 @@ def parser() -> argparse.ArgumentParser:
     does.add_argument("--check", action="store_true", help="list every bad line")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
     cli.add_log(it)
-    it.add_argument(
-        "--sync",
-        action=argparse.BooleanOptionalAction,
-        default=True,
-        help="have the row on the disk before returning (default: yes)",
-    )
     it.add_argument(
         "--allow-nonfinite", action="store_true", help="record NaN and infinity"
     )

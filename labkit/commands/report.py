@@ -5,8 +5,8 @@
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in the dark. Thresholds come from the
-days' manifests. Rows that were repaired while reading or could not be read are
-listed at the end of the page. Without a filter there is a page on the week of
+days' manifests. Lines that could not be read or may be cut are listed at the end
+of the page. Without a filter there is a page on the week of
 the last day that you began as well, report-week1.html, and its numbers are
 written between the marks of docs/RETRO_w1.md, where that file has them;
 with --file they are left alone.
@@ -59,8 +59,7 @@ def main() -> int:
     )
     if mine:
         tell(report, days)
-    look = len(report.unread) + len(report.repaired)
-    if look:
+    if look := len(report.look):
         need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
         print(f"{need}: {command('--check', args.file)}")
     return cli.EXIT_OK

@@ -112,7 +112,6 @@ class Layer:
     """A transparent sheet to draw on, enlarged so that its edges become smooth."""
 
     def __init__(self, size: tuple[int, int]) -> None:
-        """Make a transparent sheet of a picture's size."""
         self.size = size
         self.text_height = size[1] / 27
         self.sheet = Image.new("RGBA", (size[0] * SMOOTH, size[1] * SMOOTH))

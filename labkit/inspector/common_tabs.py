@@ -42,7 +42,6 @@ class Joints(Tab):
     title = "Joints"
 
     def __init__(self, page: Page) -> None:
-        """Make a slider for every joint, the buttons, and a box for all of q."""
         super().__init__(page)
         self.buttons = page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
         slides = page.model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
@@ -112,7 +111,6 @@ class Chain(Tab):
     wide = True  # three matrices of its own
 
     def __init__(self, page: Page) -> None:
-        """Start at the first joint."""
         super().__init__(page)
         steps = page.arm.steps()
         self.at = next(i for i, step in enumerate(steps) if step.joint)
@@ -186,7 +184,6 @@ class Tasks(Tab):
     title = "Tasks"
 
     def __init__(self, page: Page) -> None:
-        """Show what is known so far."""
         super().__init__(page)
         self.list = page.html()
         self.show(page.host.standing)

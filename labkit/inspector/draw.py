@@ -142,7 +142,6 @@ class Labels:
     """Texts in the scene; those that would cover each other become one."""
 
     def __init__(self, handles: list[viser.LabelHandle]) -> None:
-        """Take the labels, each with its own text."""
         self.handles, self.texts = handles, [handle.text for handle in handles]
 
     def show(self, points: ArrayLike) -> None:
@@ -191,7 +190,6 @@ class Target:
         T: Array,
         on_drag: Callable[[Array], None],
     ) -> None:
-        """Put it somewhere and listen to it."""
         self.handle = handle
         self.place(T)
 

@@ -97,7 +97,6 @@ class Door:
     """What every request passes: refuses it, answers it, or hands it to viser."""
 
     def __init__(self) -> None:
-        """Make a new secret."""
         self.secret = secrets.token_urlsafe(12)
         self.receive: Receive = lambda query: 0
         self.first: Callable[[], str] = str  # what a page shows before viser does

@@ -28,7 +28,6 @@ class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
     def __init__(self, server: viser.ViserServer, path: str) -> None:
-        """Begin a bare arm under a name in the scene tree."""
         self.server, self.path = server, path
         self.bodies: dict[str, viser.FrameHandle] = {}
         self.meshes: list[tuple[viser.MeshHandle, Shape]] = []

@@ -20,7 +20,7 @@ from labkit.base.exchange import LoadError, Question
 from labkit.check.own_functions import statuses
 from labkit.inspector.student import Student
 from labkit.lesson.day import all_days
-from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
 SAME = 1e-7  # of the largest number: what one calls the same

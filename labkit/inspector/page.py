@@ -31,7 +31,6 @@ class Page:
     """One opened tab's view of the page."""
 
     def __init__(self, host: "Inspector", sketch: Sketch) -> None:
-        """Begin a tab without widgets or loops; the sketch draws for it."""
         self.host, self.gui, self.draw = host, host.server.gui, sketch
         self.scene, self.arm = host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model

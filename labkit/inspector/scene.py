@@ -146,7 +146,6 @@ class Pointed:
     """The link that was clicked: its name, and the axis that its joint turns about."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        """Make the axis and the name, hidden until a link is clicked."""
         self.server, self.arm = server, arm
         self.model: mujoco.MjModel | None = None
         self.body = 0

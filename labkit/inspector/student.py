@@ -19,7 +19,7 @@ from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.ghost import Ghost, Seen, no_pose
 from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
-from labkit.sandbox.library import library_of
+from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error

@@ -1,12 +1,13 @@
 """Mistakes made with one argument before it is used, whatever function takes it.
 
-A day's file picks those that make a difference and may say them in words of its own:
+A day's file picks those that make a difference, or gives them a name of its own:
 
-    row.of_argument("q", DEGREES, replace(REVERSED, slug="from-the-tip"))
+    row.of_argument("q", DEGREES, REVERSED.called("joints-in-reverse"))
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,42 +15,141 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Change:
-    """A mistake with one argument."""
+    """A mistake with one argument; in its texts {name} is the argument's."""
 
-    slug: str  # its name
-    says: str  # as in a `Mistake`; {name} is the argument's
+    slug: str
+    says: str  # as in a `Mistake`
     change: Callable[[Any], Any]  # from the argument to what is used in its place
-    redone: str  # as in a `Mistake`; {name} is the argument's
+    redone: str = "the right one with that {name}"  # as in a `Mistake`
     hidden: str = ""  # why the lab cannot show it, "" where it can
 
+    def called(self, slug: str) -> "Change":
+        """Return the same mistake under another name."""
+        return replace(self, slug=slug)
 
+
+def _only(some: slice) -> Callable[[Any], Any]:
+    """Return what keeps some entries and makes the others 0."""
+
+    def change(x: Any) -> Any:
+        kept = np.zeros_like(x)
+        kept[some] = x[some]
+        return kept
+
+    return change
+
+
+# Angles.
 DEGREES = Change(
-    "degrees",
-    "{name} is taken for degrees; it is in radians",
-    np.deg2rad,
-    "the right one with {name} taken for degrees",
+    "degrees", "{name} comes in radians, and is used as degrees", np.rad2deg
 )
 RADIANS_TWICE = Change(
-    "radians-twice",
-    "{name} is converted from radians to degrees; it must stay in radians",
-    np.rad2deg,
-    "the right one with {name} in degrees",
+    "radians-taken-for-degrees",
+    "{name} is in radians already, and is converted from degrees once more",
+    np.deg2rad,
+)
+OF_AN_ANGLE = (
+    DEGREES.called("degrees-into-cos"),
+    RADIANS_TWICE,
+    Change(
+        "half-angle",
+        "it turns by half of {name}: that belongs to quaternions",
+        lambda x: x / 2,
+    ),
+    Change(
+        "double-angle",
+        "it turns by twice {name}; in a quaternion stand sine and cosine of half of it",
+        lambda x: 2 * x,
+    ),
+)
+ROUNDED = tuple(
+    Change(
+        "angle-rounded",
+        f"{{name}} is rounded to {decimals} decimals before it is used",
+        partial(np.round, decimals=decimals),
+    )
+    for decimals in range(4)
+)
+
+# Signs.
+NEGATED = Change("{name}-sign", "{name} enters with the wrong sign", np.negative)
+BACKWARDS = Change(
+    "all-backwards", "every joint turns the other way, by -{name}", np.negative
+)
+SIGN_LOST = Change(
+    "sign-of-{name}-lost",
+    "the sign of {name} is lost: what is negative counts as positive",
+    np.abs,
+)
+
+# One entry for another, as an index or a loop does it.
+LEFT_OUT = Change(
+    "joints-left-out",
+    "no joint turns: whatever {name} is, your pose is the one at {name} = 0",
+    np.zeros_like,
+    "the pose at {name} = 0",
+)
+FIRST_FOR_ALL = Change(
+    "first-angle-for-all",
+    "every joint is given the first, {name}[0]: the index never moves on",
+    lambda x: np.repeat(x[:1], len(x), axis=0),
+    "the right one with {name}[0] everywhere",
+)
+REVERSED = Change(
+    "{name}-backwards", "{name} is read backwards: joint1 gets the last", np.flipud
+)
+ONE_OFF = tuple(
+    Change(
+        "off-by-one-joint",
+        "each joint is given its neighbour's: {name} is indexed one off",
+        shifted,
+    )
+    for shifted in (
+        partial(np.roll, shift=1),
+        partial(np.roll, shift=-1),
+        lambda x: np.append(0.0, x[:-1]),
+        lambda x: np.append(x[1:], 0.0),
+    )
+)
+OF_ALL_JOINTS = (
+    LEFT_OUT,
+    BACKWARDS,
+    SIGN_LOST,
+    RADIANS_TWICE,
+    DEGREES,
+    FIRST_FOR_ALL,
+    REVERSED,
+    Change(
+        "last-joint-missing",
+        "the last joint does not count: the loop ends one too early",
+        _only(slice(-1)),
+    ),
+    Change(
+        "first-joint-missing",
+        "the first joint does not count: the loop starts one too late",
+        _only(slice(1, None)),
+    ),
+    Change(
+        "first-joint-only",
+        "only the first joint counts (does return stand inside the loop?)",
+        _only(slice(1)),
+    ),
+    Change(
+        "last-joint-only",
+        "only the last joint counts: what the others do is overwritten",
+        _only(slice(-1, None)),
+    ),
+    *ONE_OFF,
+)
+
+# Order within it.
+HALVES_SWAPPED = Change(
+    "halves-swapped",
+    "the halves of {name} are swapped: the angular three come first",
+    partial(np.roll, shift=3, axis=0),
 )
 TRANSPOSED = Change(
     "transposed",
-    "{name} is transposed",
-    np.transpose,
-    "the right one with {name} transposed",
-)
-REVERSED = Change(
-    "reversed",
-    "{name} is taken from its end to its beginning",
-    lambda x: x[::-1],
-    "the right one with {name} reversed",
-)
-NEGATED = Change(
-    "negated",
-    "{name} enters with the wrong sign",
-    np.negative,
-    "the right one with -{name}",
+    "{name} is transposed, or multiplied from the wrong side",
+    lambda x: np.swapaxes(x, -1, -2),
 )

@@ -14,7 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import Exchange, Path, Question
+from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge.compare import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
@@ -25,8 +25,8 @@ from robo47.paths import shown
 
 Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
-# How often inputs are drawn anew: a rare bug is found sooner. Few numbers cost little.
-FRESH_DRAWS, CHEAP_DRAWS, CHEAP = 4, 16, 16
+# How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
+FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 ANY = None  # truth of a function that is judged by `accept`
 
 
@@ -121,8 +121,6 @@ class Ask:
     # The named ones, the more general first; a function that returns them where making
     # them costs something.
     mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()
-    # How many of the drawn inputs, from the end, are drawn anew at each check.
-    fresh: int = 2
     # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
     near: float = 1e-4  # and nearly right up to this
@@ -160,26 +158,30 @@ class Ask:
         return [tuple(call) for call in self.inputs(np.random.default_rng(SEED))]
 
     @cached_property
-    def draws(self) -> int:
-        """How often inputs are drawn anew."""
-        draws = (
-            CHEAP_DRAWS if sum(map(np.size, self.main[-1])) <= CHEAP else FRESH_DRAWS
-        )
-        return (draws if self.truth else 1) if self.fresh else 0
+    def drawn(self) -> int:
+        """How many inputs are drawn: from the first on that two draws do not share."""
+        others = self.inputs(np.random.default_rng(SEED + 1))
+        pairs = zip(self.main, others, strict=False)
+        alike = [all(map(np.array_equal, *pair)) for pair in pairs]
+        return len(alike) - [*alike, False].index(False)
 
     @cached_property
     def edges(self) -> list[tuple[Any, ...]]:
         """Calls with the edge values of every argument, where one answer is right."""
-        if not self.truth:
-            return []
-        draw = [Edges(np.random.PCG64([SEED, i])) for i in range(self.draws)]
-        found = {repr(call): call for call in self.drawn(draw)}
+        calls = self.anew(SEED, Edges) if self.truth else []
+        found = {repr(call): call for call in calls}
         return [c for c in found.values() if not self.at_edge or self.at_edge(*c)]
 
-    def drawn(self, generators: Sequence[np.random.Generator]) -> list[tuple[Any, ...]]:
-        """Return the calls that each generator draws anew."""
-        calls = [list(self.inputs(rng))[-self.fresh :] for rng in generators]
-        return list(map(tuple, chain.from_iterable(calls)))
+    def anew(
+        self, seed: int, kind: type[np.random.Generator] = np.random.Generator
+    ) -> list[tuple[Any, ...]]:
+        """Return calls drawn anew, by as many generators as that takes."""
+        cheap = sum(map(np.size, self.main[-1])) <= CHEAP
+        most = 2 if not self.truth else CHEAP_FRESH if cheap else FRESH
+        draws = range(-(-most // self.drawn) if self.drawn else 0)
+        generators = [kind(np.random.PCG64([seed, i])) for i in draws]
+        calls = [[*self.inputs(rng)][-self.drawn :] for rng in generators]
+        return list(map(tuple, chain(*calls)))[-most:]
 
 
 @dataclass(frozen=True)
@@ -204,6 +206,16 @@ class Asked:
         return [*self.main, *self.fresh, *chain(*self.held_out), *self.probes]
 
 
+def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
+    """Return the replies of exchanges; a ValueError where nobody asked the question."""
+    found = []
+    for exchange in exchanges:
+        if exchange.reply is None:
+            raise ValueError(f"no reply to {exchange.question}")
+        found.append(exchange.reply)
+    return found
+
+
 def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
     """Return the questions to a function, which the sandbox is to answer.
 
@@ -220,12 +232,11 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
     def further(inputs: Inputs) -> list[Exchange]:
         return exchanges(inputs(np.random.default_rng(SEED)))
 
-    anew = [np.random.default_rng([seed, i]) for i in range(ask.draws)]
     return Asked(
         function,
         ask,
         exchanges(ask.main),
-        exchanges([*ask.edges, *ask.drawn(anew)]),
+        exchanges([*ask.edges, *ask.anew(seed)]),
         [further(held.inputs) for held in ask.held_out],
         further(ask.probe) if ask.probe else [],
     )

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from labkit.judge.matrices import transposed
 from robo47 import se3
 from robo47.checks import Array
 
@@ -119,8 +118,8 @@ def degrees(R_a: Array, R_b: Array) -> Array:
 
     By atan2 from R's skew part and trace: exact near 0, where arccos is not.
     """
-    R = transposed(R_a) @ R_b
-    skew = R - transposed(R)
+    R = R_a.mT @ R_b
+    skew = R - R.mT
     sine = np.sqrt(np.sum(skew**2, axis=(-2, -1)) / 8.0)
     cosine = (np.trace(R, axis1=-2, axis2=-1) - 1.0) / 2.0
     return np.rad2deg(np.arctan2(sine, cosine))

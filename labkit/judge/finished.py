@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from labkit.judge.kinds import TRUNCATED
-from labkit.judge.matrices import pose, rigid_inverse, split, transposed
+from labkit.judge.matrices import pose, rigid_inverse, split
 from labkit.judge.mistake import Mistake
 from robo47.checks import Array
 
@@ -58,7 +58,7 @@ OF_A_ROTATION = [
     Mistake(
         "R-transposed",
         "the matrix is right except that it is transposed: it turns the other way",
-        transposed,
+        np.matrix_transpose,
         "its transpose",
     ),
     Mistake(
@@ -82,7 +82,7 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         Mistake(
             "R-transposed",
             f"all is right except that R is transposed: T[:3, :3] {wrong_way}",
-            _parts(R=transposed),
+            _parts(R=np.matrix_transpose),
             "the right one with R transposed",
         ),
         Mistake(
@@ -94,7 +94,7 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         Mistake(
             "T-transposed",
             "the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1)",
-            transposed,
+            np.matrix_transpose,
             "its transpose",
         ),
         Mistake(

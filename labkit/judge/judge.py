@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Exchange, Question, replies
+from labkit.base.exchange import Exchange, Question
 from labkit.judge import near_miss, problems
-from labkit.judge.ask import Ask, Asked, Case, HeldOut, right_answers, stacked
+from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
 from labkit.judge.compare import (
     Parts,
     as_one,

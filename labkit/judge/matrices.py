@@ -21,11 +21,6 @@ def split(T: Array) -> tuple[Array, Array]:
     return T[..., :3, :3], T[..., :3, 3]
 
 
-def transposed(M: Array) -> Array:
-    """Return M, (..., n, n), with its last two axes swapped."""
-    return np.swapaxes(M, -1, -2)
-
-
 def times(M: Array, v: Array) -> Array:
     """Return M v, (..., 3), for M, (..., 3, 3), and v, (..., 3)."""
     return (M @ v[..., None])[..., 0]
@@ -34,4 +29,4 @@ def times(M: Array, v: Array) -> Array:
 def rigid_inverse(T: Array) -> Array:
     """Return the inverse of T, (..., 4, 4), if it is a pose."""
     R, t = split(T)
-    return pose(transposed(R), -times(transposed(R), t))
+    return pose(R.mT, -times(R.mT, t))

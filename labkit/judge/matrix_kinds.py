@@ -7,12 +7,11 @@ import numpy as np
 
 from labkit.judge.compare import difference, gap
 from labkit.judge.kinds import NEAR, NEGATED, TRUNCATED, Kind, one_factor
-from labkit.judge.matrices import transposed
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 TRANSPOSED = Mistake(
-    "transposed", "the matrix is transposed", transposed, "its transpose"
+    "transposed", "the matrix is transposed", np.matrix_transpose, "its transpose"
 )
 
 
@@ -87,8 +86,8 @@ class Symmetric(Matrix):
     """A symmetric matrix, such as a mass matrix. `Symmetric((7, 7), "kg m2")`."""
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        skew = float(np.abs(S - transposed(S)).max())
-        if float(difference(S, transposed(S), self.scale).max()) > NEAR:
+        skew = float(np.abs(S - S.mT).max())
+        if float(difference(S, S.mT, self.scale).max()) > NEAR:
             return Finding(
                 "not-symmetric",
                 f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
@@ -105,7 +104,7 @@ class Symmetric(Matrix):
         return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        sym = 0.5 * (S + transposed(S))
+        sym = 0.5 * (S + S.mT)
         least = np.linalg.eigvalsh(sym).min() if np.isfinite(S).all() else np.nan
         return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
 

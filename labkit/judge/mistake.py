@@ -8,6 +8,7 @@ import numpy as np
 
 from labkit.judge.compare import as_one
 
+KEPT = 64  # questions whose answers are kept
 # Words that are symbols of a formula; those of one letter but "a" are, too.
 SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
            "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
@@ -69,6 +70,25 @@ def own(argument: Any) -> Any:
     """Return a copy of an array or a number; a model or a path is as it is."""
     plain = isinstance(argument, np.ndarray | np.generic)
     return np.copy(argument)[()] if plain else argument
+
+
+def once(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that keeps its answers to the last questions."""
+    known: dict[Any, Any] = {}
+
+    def key(argument: Any) -> Any:
+        if isinstance(argument, np.ndarray):
+            return argument.shape, argument.dtype, argument.tobytes()
+        return repr(argument) if isinstance(argument, list) else argument
+
+    def keeping(*args: Any) -> Any:
+        if (question := tuple(map(key, args))) not in known:
+            if len(known) >= KEPT:
+                known.clear()
+            known[question] = function(*map(own, args))
+        return known[question]
+
+    return keeping
 
 
 class InTurn:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Reply, replies
-from labkit.judge.ask import Ask, Asked, stacked
+from labkit.base.exchange import Reply
+from labkit.judge.ask import Ask, Asked, replies, stacked
 from labkit.judge.compare import Parts, as_one, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, InTurn, Verdict
@@ -167,23 +167,23 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
     """Return that a function keeps something between its calls, if it does."""
     replied = replies([*asked.main, *asked.fresh])
     differ = [reply for reply in replied if _differs(reply)]
+    if not differ:
+        return None
     code = "\n".join(function_lines(source, asked.function)[2])
-    if differ and re.search(r"\brandom\b|\brng\b|\bdefault_rng\b", code):
+    if re.search(r"\brandom\b|\brng\b|\bdefault_rng\b", code):
         return Finding(
             "draws-itself",
             "The same input gave two different answers when it was asked twice, and "
             "it draws random numbers itself: what is random is an argument here, so "
             "that a run can be repeated. Draw in main(), and hand it over.",
         )
-    if differ:
-        return Finding(
-            "kept-between-calls",
-            "The same input gave two different answers when it was asked twice, for "
-            f"{len(differ)} of {len(replied)} inputs: something is kept between calls "
-            "(a default argument such as T=np.eye(4), a matrix or list at the top of "
-            "the file, the last call's input). Make it anew in the function.",
-        )
-    return None
+    return Finding(
+        "kept-between-calls",
+        "The same input gave two different answers when it was asked twice, for "
+        f"{len(differ)} of {len(replied)} inputs: something is kept between calls "
+        "(a default argument such as T=np.eye(4), a matrix or list at the top of "
+        "the file, the last call's input). Make it anew in the function.",
+    )
 
 
 def shared_memory(replies: Sequence[Reply]) -> Finding | None:

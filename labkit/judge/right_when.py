@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from labkit.base.exchange import Question, Reply
+from labkit.judge.ask import Asked, as_plain
 from labkit.judge.compare import rigid, say_factor
-from labkit.judge.mistake import own
+from labkit.judge.mistake import InTurn, own
 from labkit.judge.problems import flat
 from robo47.checks import Array
 
@@ -28,6 +30,38 @@ class Experiment(NamedTuple):
     says: str  # "ed is 0"
     changed: float  # how many numbers of the argument were made neutral
     calls: list[Call]  # the arguments of each
+
+
+def right_when(
+    asked: Asked,
+    wrong: Sequence[int],
+    names: Sequence[str],
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> str:
+    """Return with which argument neutral a wrong function is right, or "".
+
+    Args:
+        asked: what it was asked.
+        wrong: the places of the main questions that it answered wrongly.
+        names: of its arguments.
+        reply_to: asks it further questions.
+    """
+    mains = [asked.main[i].question for i in wrong][-QUESTIONS:]
+    calls = [question.args for question in mains]
+    tried, twice = experiments(calls, names), doublings(calls, names)
+
+    def answers(some: Sequence[Call]) -> list[Any]:
+        questions = [Question(mains[0].task, asked.function, call) for call in some]
+        return [None if r.kind else r.value for r in reply_to(questions)]
+
+    given, doubled = ([answers(one.calls) for one in some] for some in (tried, twice))
+    ask, near = asked.ask, asked.ask.near
+    assert isinstance(ask.truth, InTurn)
+    truth = _of_one(ask.truth)
+    others = [_of_one(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
+    says = conclude(tried, given, truth, near, others)
+    more = not_doubled(twice, answers(calls), doubled, calls, truth, near)
+    return f"{says} {more}".strip()
 
 
 def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
@@ -230,3 +264,8 @@ def _or_none(function: Callable[..., Any], call: Call) -> Any:
             return function(*map(own, call))
     except Exception:  # a singular matrix, say
         return None
+
+
+def _of_one(function: InTurn) -> Callable[..., Any]:
+    """Return a function of one question's arguments."""
+    return lambda *args: function.function(*map(as_plain, args))

@@ -18,7 +18,7 @@ from labkit.judge.compare import (
 )
 from labkit.judge.finished import OF_A_ROTATION, of_a_pose
 from labkit.judge.kinds import NEAR, Kind
-from labkit.judge.matrices import split, transposed
+from labkit.judge.matrices import split
 from labkit.judge.matrix_kinds import few_entries
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -110,7 +110,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
             "R is no rotation: its columns are not unit vectors at right angles. "
             f"(R R^T differs from I by {off:.2g}; det R is {worst:.3g}, not 1.)",
         )
-    X = np.abs(transposed(T) @ S)
+    X = np.abs(T.mT @ S)
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
         return Finding(
             "axes-mixed-up",
@@ -156,7 +156,7 @@ def _pose_wrong(S: Array, T: Array) -> Finding:
 
 def _skew(R: Array) -> float:
     """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
-    return float(np.abs(R @ transposed(R) - np.eye(3)).max())
+    return float(np.abs(R @ R.mT - np.eye(3)).max())
 
 
 def _bottom(S: Array) -> float:

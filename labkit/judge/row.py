@@ -23,7 +23,7 @@ import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache, cached_property, update_wrapper
+from functools import cache, cached_property, partial, update_wrapper
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
@@ -32,7 +32,7 @@ import numpy as np
 
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
-from labkit.judge.mistake import InTurn, Mistake
+from labkit.judge.mistake import InTurn, Mistake, once, own
 from labkit.lesson import folder
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
@@ -40,10 +40,6 @@ from robo47.paths import shown
 
 Code = Callable[..., Any]
 REDONE = "the answer with this mistake"
-
-
-def _as_they_are(*args: Any) -> tuple[Any, ...]:
-    return args
 
 
 @dataclass(frozen=True)
@@ -128,25 +124,39 @@ class Row:
 
         return keep
 
-    def wrongs(self, code: Code) -> Code:
+    def wrongs(
+        self,
+        code: Code | None = None,
+        redone: str = REDONE,
+        hidden: Mapping[str, str] = MappingProxyType({}),
+    ) -> Any:
         """Take the mistakes of one function that returns {slug: answer}.
 
         Its docstring has a line of each, "slug: sentence => what to call the answer";
         an indented line goes on with the one above. An answer that costs much, or may
         stop, is a function without arguments.
+
+        Args:
+            code: the function; None to give the others.
+            redone: what to call an answer whose line does not say.
+            hidden: per slug why the lab cannot show it, as in a `Way`.
         """
+        if code is None:
+            return partial(self.wrongs, redone=redone, hidden=hidden)
         text = re.sub(r"\n +", " ", inspect.getdoc(code) or "")
         said = dict(line.split(": ", 1) for line in text.splitlines())
-        for slug, says in said.items():
+        table = once(code)
+        for slug, line in said.items():
 
             def one(*args: Any, slug: str = slug) -> Any:
-                if (answers := code(*args)).keys() != said.keys():
+                if (answers := table(*args)).keys() != said.keys():
                     raise KeyError(*answers.keys() ^ said.keys())
                 answer = answers[slug]
-                return answer() if callable(answer) else answer
+                return answer() if callable(answer) else own(answer)
 
             update_wrapper(one, code, (), ())  # its arguments' names
-            self.wrong(slug, *says.split(" => "))(one)
+            says, _, called = line.partition(" => ")
+            self.wrong(slug, says, called or redone, hidden.get(slug, ""))(one)
         return code
 
     def close(self, slug: str) -> Any:
@@ -172,9 +182,9 @@ class Row:
                 def code(*args: Any, change: Code = one.change) -> Any:
                     return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
 
-                says = one.says.format(name=name)
-                redone = one.redone.format(name=name)
-                yield Way("wrong", one.slug, says, code, redone, one.hidden)
+                text = (one.slug, one.says, one.redone)
+                slug, says, redone = (part.format(name=name) for part in text)
+                yield Way("wrong", slug, says, code, redone, one.hidden)
 
         self._entries.append(ways)
 
@@ -204,7 +214,7 @@ class Row:
         but: Iterable[str] = (),
         called: Mapping[str, str] = MappingProxyType({}),
         hidden: Mapping[str, str] = MappingProxyType({}),
-        given: Callable[..., tuple[Any, ...]] = _as_they_are,
+        given: Callable[..., tuple[Any, ...]] = lambda *args: args,
     ) -> None:
         """Take the mistakes of a small function that the lab's own one calls.
 
@@ -303,13 +313,13 @@ class Row:
     def _calling(self, small: str, wrong: Code, given: Code) -> Code:
         """Return the lab's own function with a small one replaced."""
         lab = self.lab
-        own = getattr(lab, self.function)  # it may be replaced itself when called
+        large = getattr(lab, self.function)  # it may be replaced itself when called
 
         def code(*args: Any) -> Any:
             right = getattr(lab, small)
             setattr(lab, small, wrong)
             try:
-                return own(*given(*args))
+                return large(*given(*args))
             finally:
                 setattr(lab, small, right)
 

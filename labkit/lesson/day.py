@@ -225,6 +225,12 @@ def all_days(root: Path = ROOT) -> list[Day]:
     return [load_day(path) for path in _manifests(root).values()]
 
 
+def days_before(day: Day) -> list[Day]:
+    """Return the earlier days of the course, in order."""
+    some = _manifests(ROOT).items()
+    return [load_day(path) for number, path in some if number < day.number]
+
+
 def days_of(week: Week) -> list[Day]:
     """Return the days of a week, in order."""
     return [load_day(path) for path in week.manifests.values()]
@@ -261,16 +267,15 @@ def chosen_day(number: int | None, task_id: str | None = None) -> Day:
         number: of the day; None where none was typed: the task's, or the last begun.
         task_id: such as "1.4", or None.
     """
-    day = find_day(started_day() if number is None else number)
     if not task_id:
-        return day
-    of_task, _ = find_task(task_id)
-    if number not in (None, of_task.number):
+        return find_day(started_day() if number is None else number)
+    day, _ = find_task(task_id)
+    if number not in (None, day.number):
         raise Robo47Error(
-            f"task {task_id} is of day {of_task.number}, not of day {number}: "
+            f"task {task_id} is of day {day.number}, not of day {number}: "
             "name one of the two"
         )
-    return of_task
+    return day
 
 
 def chosen_week(number: int | None, day: int | None = None) -> Week:

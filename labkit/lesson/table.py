@@ -39,22 +39,22 @@ def load(kind: Any, manifest: Path, **given: Any) -> Any:
 
 @lru_cache(128)  # one command asks for the same manifests many times
 def _load(kind: Any, manifest: Path, _state: Any, **given: Any) -> Any:
-    where = shown(manifest)
     try:
-        table = tomllib.loads(manifest.read_text("utf-8"))
+        return fill(kind, tomllib.loads(manifest.read_text("utf-8")), **given)
     except (OSError, ValueError) as error:
-        raise Robo47Error(f"{where} cannot be read: {error}") from None
-    return fill(kind, table, where, **given)
+        raise Robo47Error(f"{shown(manifest)} cannot be read: {error}") from None
+    except Robo47Error as error:
+        raise Robo47Error(f"{shown(manifest)}{error}") from None
 
 
-def fill(kind: Any, table: dict[str, Any], where: str, **given: Any) -> Any:
+def fill(kind: Any, table: dict[str, Any], where: str = "", **given: Any) -> Any:
     """Return a dataclass with the entries of a table.
 
     Args:
         kind: its fields are texts, numbers, bools, tuples of texts or whole numbers,
             and tuples of dataclasses, whose tables are called by their `id` or place.
         table: as tomllib reads it.
-        where: what to call it in an error.
+        where: what to call it in an error, behind the file's name.
         given: fields that are no entries.
 
     Raises:

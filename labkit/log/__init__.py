@@ -17,7 +17,7 @@ from pathlib import Path
 from labkit.base.git import short_sha
 from labkit.base.words import command, count
 from labkit.log.logfile import append_or_keep
-from labkit.log.rows import COLUMNS, Row, encode, normalise, typed
+from labkit.log.rows import COLUMNS, Row, encode, typed
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error
 from robo47.paths import HOME, METRICS_CSV, ROOT, shown
@@ -51,7 +51,9 @@ def append_row(
         Robo47Error: an unknown field, a value its column cannot hold, or a file
             that cannot take the row; then the message carries the row's text.
     """
-    row = normalise(_filled(fields), allow_nonfinite)
+    row, faults = typed(_filled(fields), allow_nonfinite)
+    if faults:
+        raise Robo47Error(f"not recorded: {'; '.join(faults)}.")
     append_or_keep(_file(path), encode(row), sync)
     return row
 

@@ -8,8 +8,6 @@ import operator
 import re
 from collections.abc import Mapping
 
-from robo47.errors import Robo47Error
-
 COLUMNS = (
     "run_id",
     "date",
@@ -39,24 +37,13 @@ _FORMULA = re.compile("'*[=+@-]")
 _GUARDED = re.compile("'+[=+@-]")
 
 
-def normalise(fields: Mapping[str, object], allow_nonfinite: bool) -> Row:
-    """Return a full row with each column's own type.
+def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:
+    """Return a full row with each column's own type, and every fault in words.
 
     Args:
         fields: values by column name; None or a missing name is an empty cell.
         allow_nonfinite: let NaN and the infinities pass.
-
-    Raises:
-        Robo47Error: names each wrong field, what it holds and what it may hold.
     """
-    row, faults = typed(fields, allow_nonfinite)
-    if faults:
-        raise Robo47Error(f"not recorded: {'; '.join(faults)}.")
-    return row
-
-
-def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:
-    """Return what `normalise` does, and in words every field that is wrong."""
     row: Row = {}
     faults = [_unknown(name) for name in fields if name not in COLUMNS]
     for name in COLUMNS:
@@ -82,7 +69,7 @@ def _unknown(name: str) -> str:
 
 
 def encode(row: Row) -> str:
-    """Return a normalised row as one CSV line, without the line end."""
+    """Return a typed row as one CSV line, without the line end."""
     return ",".join([_cell(name, row[name]) for name in COLUMNS])
 
 

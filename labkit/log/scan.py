@@ -1,23 +1,22 @@
-"""Reading the log line by line: what each holds, was repaired to hold, or why not.
+"""Reading the log line by line: the row that each holds, or why it holds none.
 
 One line is one row, so a quote that is never closed costs its own line only.
 """
 
 import csv
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
+from labkit.base.words import count
 from labkit.log import header
 from labkit.log.logfile import CUT
-from labkit.log.rows import COLUMNS, Row, decode, is_open_quote
+from labkit.log.rows import COLUMNS, Row, decode
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 WIDTH = len(COLUMNS)
-_DATE = re.compile(r"\d{4}-\d\d-\d\d")
 
 
 class Line(NamedTuple):
@@ -81,63 +80,36 @@ def _opened(path: Path) -> BinaryIO:
 
 
 def _line(number: int, raw: bytes, cut: set[str]) -> Line:
-    text, problem = _decoded(raw)
-    row, fault = _row_of(text)
-    problem = problem or fault
+    problem = "" if raw.endswith(b"\n") else "it has no line end, so it may be cut"
+    row, bare = None, raw.rstrip(b"\r\n")
+    text = bare.decode("utf-8", "replace").replace("\r", " ")
+    try:
+        row = decode(_cells(bare))
+    except ValueError as error:
+        problem = str(error)
     if row is not None and not problem and text in cut:
         problem = "it had no line end when the next row came, so it may be cut"
-    return Line(number, text, row, problem, len(raw))
+    return Line(number, text.replace("\0", ""), row, problem, len(raw))
 
 
-def _decoded(raw: bytes) -> tuple[str, str]:
-    """Return a line's text, and what had to be repaired to read it."""
-    problem = "" if raw.endswith(b"\n") else "it has no line end, so it may be cut"
-    raw = raw.rstrip(b"\r\n")
+def _cells(raw: bytes) -> list[str]:
+    """Return the cells of a line; ValueError says why it holds no row."""
     if b"\0" in raw:
-        raw = raw.replace(b"\0", b"").rstrip(b"\r\n")
-        problem = "it has NUL bytes (PowerShell's >>, or a power cut)"
+        raise ValueError("it has NUL bytes (PowerShell's >>, or a power cut)")
     try:
-        text = raw.decode()
+        text = raw.decode().replace("\r", " ")
+        cells = (
+            next(csv.reader([text], strict=True)) if '"' in text else text.split(",")
+        )
     except UnicodeDecodeError:
-        text = raw.decode("cp1252", "replace")
-        problem = "it is not UTF-8; read as Windows-1252"
-    return text.replace("\r", " "), problem
-
-
-def _row_of(text: str) -> tuple[Row | None, str]:
-    """Return a line's row, or None, and what is wrong with the line."""
-    try:
-        cells, problem = _cells(text)
-        if len(cells) != WIDTH:
-            cells, problem = _thirteen(cells)
-        return decode(cells), problem
-    except ValueError as error:
-        return None, str(error)
-
-
-def _cells(text: str) -> tuple[list[str], str]:
-    if '"' not in text:
-        return text.split(","), ""
-    problem = ""
-    if is_open_quote(text):
-        text, problem = text + '"', "it has a quote that is never closed"
-    try:
-        cells = next(csv.reader([text], strict=True))
+        raise ValueError("it is not UTF-8; save the log as UTF-8") from None
     except csv.Error:
         raise ValueError("its quotes do not match") from None
-    if len(cells) == 1 and "," in cells[0]:  # cmd.exe's echo keeps the quotes
-        return cells[0].split(","), "the whole line is in quotes"
-    return cells, problem
-
-
-def _thirteen(cells: list[str]) -> tuple[list[str], str]:
-    """Return a row's cells from a few too many; too few may hide a cut number."""
-    if len(cells) < WIDTH:
-        raise ValueError(f"{len(cells)} columns where {WIDTH} belong (cut, or no row)")
-    if any(_DATE.fullmatch(cell) for cell in cells[2:]):
-        raise ValueError(f"{len(cells)} columns where {WIDTH} belong (two rows in one)")
-    notes = ",".join(cells[WIDTH - 1 :])
-    return [*cells[: WIDTH - 1], notes], "it has commas outside quotes in its notes"
+    if len(cells) != WIDTH:
+        few = "cut, or no row"
+        why = few if len(cells) < WIDTH else "two rows in one, or commas without quotes"
+        raise ValueError(f"{count(len(cells), 'column')} where {WIDTH} belong ({why})")
+    return cells
 
 
 def _known_cuts(path: Path) -> set[str]:

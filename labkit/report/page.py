@@ -59,13 +59,11 @@ def render(
             _day(day, list(series), (checked or {}).get(day, ""))
             for day, series in days
         ),
-        _look("Repaired while reading", report.repaired),
-        _look("Could not be read", report.unread),
+        _look(report.look),
     )
 
 
 def _tiles(report: Report) -> str:
-    attention = len(report.repaired) + len(report.unread)
     tiles = [
         ("pass" if report.count("pass") else "none", report.count("pass"), "passing"),
         ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
@@ -73,7 +71,7 @@ def _tiles(report: Report) -> str:
         ("none", sum(map(report.count, AGAIN)), "to run again"),
         ("none", report.count("none") + report.count("kit"), "not run yet"),
         ("", report.rows, "rows"),
-        ("fail" if attention else "none", attention, "lines to look at"),
+        ("fail" if report.look else "none", len(report.look), "lines to look at"),
     ]
     return html.tiles((role, f"{count:,}", label) for role, count, label in tiles)
 
@@ -172,7 +170,7 @@ def _run_cells(row: Row) -> Iterator[str]:
         yield f"<td{kind}>{escape(text)}</td>"
 
 
-def _look(title: str, lines: list[Line]) -> str:
+def _look(lines: list[Line]) -> str:
     if not lines:
         return ""
     rows = (
@@ -186,7 +184,9 @@ def _look(title: str, lines: list[Line]) -> str:
         '<p class="muted">More: <code>python3 scripts/log_metric.py --check</code></p>'
     )
     head = "<th>line</th><th>why</th><th>text</th>"
-    return html.section(f"{title} ({len(lines):,})", html.table(head, rows, below=rest))
+    return html.section(
+        f"Lines to look at ({len(lines):,})", html.table(head, rows, below=rest)
+    )
 
 
 def _clipped(text: str, most: int = 300) -> str:

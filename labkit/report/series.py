@@ -89,8 +89,7 @@ class Report:
     """Everything that the page shows."""
 
     series: list[Series]
-    repaired: list[Line] = field(default_factory=list)
-    unread: list[Line] = field(default_factory=list)
+    look: list[Line] = field(default_factory=list)  # lines that need one
     rows: int = 0
 
     def count(self, status: str) -> int:
@@ -152,7 +151,7 @@ def collect(
     for line in lines:
         row = line.row
         if row is None:
-            report.unread.append(line)
+            report.look.append(line)
             continue
         if str(row["date"]) < since or day not in (None, row["day"]):
             continue
@@ -160,7 +159,7 @@ def collect(
             continue
         report.rows += 1
         if line.problem:
-            report.repaired.append(line)
+            report.look.append(line)
         _add(found, thresholds, row)
     report.series = sorted(found.values(), key=_place)
     for series in report.series:  # a merge may leave the dates out of order

@@ -1,5 +1,10 @@
-"""Messages between the checker and the sandbox: request, questions, replies."""
+"""Messages between the checker and the sandbox: request, questions, replies.
 
+With a request travel the modules of `robo47` that a day's student code may import, as
+source text: those of earlier days. Nothing else of the kit is there to find.
+"""
+
+import ast
 import base64
 import contextlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -13,6 +18,7 @@ import numpy as np
 from labkit.base.exchange import MOST, NUMBERS, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
+from labkit.lesson.day import Day, days_before
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda
@@ -23,6 +29,7 @@ PANDA = Robot()  # what a file that loads the robot at its top is given
 LARGEST, MOST_BESIDE = 1_000_000, 50  # bytes of a file, files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
+KIT = ROOT / "robo47"
 
 
 def request(
@@ -50,6 +57,33 @@ def request(
     if PANDA.entry not in known and _names_panda(told):
         copies.append(_copy_of(PANDA))
     return {**told, "models": copies, "facts": _facts()}
+
+
+def library_of(day: Day) -> dict[str, str]:
+    """Return the sources of what days before this one brought, and what that imports.
+
+    Returns:
+        By module name: {"robo47.se3": "...", ...}.
+
+    Raises:
+        Robo47Error: a manifest names a module that is not there, or one that imports an
+            answer of this day. (A test looks at later days.)
+    """
+    found = {"kit": ""}  # a lab's first import, which leads to the kit's own Python
+    waiting = [name for earlier in days_before(day) for name in earlier.library]
+    while waiting:
+        name = waiting.pop()
+        if f"robo47.{name}" in found:
+            continue
+        if name in day.library:
+            raise Robo47Error(
+                f"{shown(file_of(name))} is an answer of day {day.number}, and the "
+                "library of an earlier day imports it"
+            )
+        source, inner = _source_of(name)
+        found[f"robo47.{name}"] = source
+        waiting += inner
+    return found
 
 
 def _names_panda(told: dict[str, Any]) -> bool:
@@ -95,6 +129,38 @@ def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
         for message, value in zip(came, values, strict=False):
             found.append(_reply(message, value))
     return found
+
+
+@cache
+def _source_of(name: str) -> tuple[str, tuple[str, ...]]:
+    """Return a module's source, and which modules of the kit it imports."""
+    path = file_of(name)
+    try:
+        source = path.read_text("utf-8")
+    except OSError:
+        raise Robo47Error(
+            f"a day's library names {shown(path)}, which is not there"
+        ) from None
+    inner: list[str] = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+            inner += [n if file_of(_inner(n)).is_file() else node.module for n in names]
+        elif isinstance(node, ast.Import):
+            inner += [alias.name for alias in node.names]
+    return source, tuple(filter(None, map(_inner, inner)))
+
+
+def file_of(name: str) -> File:
+    """Return where a module is: "fast.ik" in robo47/fast/ik.py."""
+    path = KIT.joinpath(*name.split("."))
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def _inner(module: str) -> str:
+    """Return "fast.ik" of robo47.fast.ik, and "" of what is not the kit's."""
+    top, _, rest = module.partition(".")
+    return rest if top == "robo47" else ""
 
 
 @lru_cache(8)  # a class is asked with the same few robots

@@ -21,6 +21,7 @@ from typing import Any
 
 from labkit.base.exchange import (
     CHANNEL,
+    MOST,
     EndedError,
     Exchange,
     Limits,
@@ -28,7 +29,6 @@ from labkit.base.exchange import (
     Question,
     Reply,
     stopped,
-    twice,
 )
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
@@ -280,3 +280,24 @@ def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:
     while more := {t for t in needs if found & set(needs[t])} - found:
         found |= more
     return found - {task}
+
+
+def twice(first: Reply, second: Reply) -> Reply:
+    """Return the first time's reply with what the second time adds to it."""
+    error = ""
+    if second.kind and not first.kind:
+        error = ": ".join(filter(None, (second.kind, second.error)))
+    return Reply(
+        **{
+            **vars(first),
+            "again": second.value,
+            "again_error": error,
+            "changed": _union(first.changed, second.changed),
+            "refused": _union(first.refused, second.refused),
+            "shares": _union(first.shares, second.shares),
+        }
+    )
+
+
+def _union(*some: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for names in some for name in names))[:MOST]

@@ -32,7 +32,7 @@ SETTINGS: dict[str, Any] = {
         "sphinx.ext.napoleon",  # which say Args and Returns
         "labkit.site.extension",
     ],
-    "myst_enable_extensions": ["dollarmath"],
+    "myst_enable_extensions": ["dollarmath", "tasklist"],
     "myst_heading_anchors": 4,
     "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",

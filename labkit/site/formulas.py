@@ -31,7 +31,6 @@ class Tape:
     """Operations in the order in which they are done; none stands there twice."""
 
     def __init__(self) -> None:
-        """Begin with the joint angles."""
         self.lines: list[tuple] = []
         self._known: dict[tuple, int] = {}
         self.q = np.array([Symbol(self, ("q", i)) for i in range(JOINTS)], dtype=object)
@@ -89,7 +88,6 @@ class Symbol:
     """A number that is not known yet; NumPy takes it as an entry of an array."""
 
     def __init__(self, tape: Tape, line: tuple) -> None:
-        """Note the operation that gives it."""
         self.tape, self.line = tape, tape.at(line)
 
     def _with(self, name: str, a: Any, b: Any) -> Any:

@@ -166,7 +166,9 @@ class Task:
         opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
         lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
         mu = float(model.geom("cube").friction[0])
-        self.heaviest = float(self.fns.heaviest_cube(50.0 * opening, mu, lift))
+        self.heaviest = float(
+            self.fns.heaviest_cube(50.0 * max(opening, 0.0), mu, lift)
+        )
 
     def _cube(self) -> Array:
         """Return T_world_cube, (4, 4), from what a camera would see."""

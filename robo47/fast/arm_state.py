@@ -23,13 +23,13 @@ from robo47.checks import Array
 
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ HAT is [V], row by row.
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
-HAT = np.zeros((6, 4, 4))
-HAT[:3, :3, :3], HAT[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
-HAT = HAT.reshape(6, 16)
+HAT = np.zeros((6, 16))
+_hats = HAT.reshape(6, 4, 4)
+_hats[:3, :3, :3], _hats[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
 # (f r^T) @ WRENCH is (r x f; f), for f and r of four numbers.
-WRENCH = np.zeros((4, 4, 6))
-WRENCH[:3, :3, :3], WRENCH[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
-WRENCH = WRENCH.reshape(16, 6)
+WRENCH = np.zeros((16, 6))
+_pairs = WRENCH.reshape(4, 4, 6)
+_pairs[:3, :3, :3], _pairs[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
 EYE = np.eye(6)
 
 
@@ -96,7 +96,6 @@ class Constants:
     """
 
     def __init__(self, arm: Any) -> None:
-        """Work them out, once for each `robo47.arm.Arm`."""
         n = len(arm.masses)
         S = np.zeros((n, 4, 4))
         S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
@@ -120,7 +119,6 @@ class lazy:  # noqa: N801 (a decorator, as property is)
     """What `cached_property` is, without the lock that Python 3.11 takes in it."""
 
     def __init__(self, compute: Callable[[Any], Array]) -> None:
-        """Keep the function; its name is the attribute's."""
         self._compute, self.__doc__ = compute, compute.__doc__
 
     def __get__(self, state: Any, owner: type) -> Any:
@@ -191,12 +189,6 @@ class ArmState:
         to_end = EYE.copy()
         to_end[:3, 3:] = (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
         return (self._S @ to_end).T
-
-    @lazy
-    def G(self) -> Array:
-        """Inertias of the links about the world's origin, (n, 6, 6)."""
-        n = len(self.q)
-        return (self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
 
     @lazy
     def _P(self) -> Array:

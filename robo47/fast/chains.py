@@ -14,6 +14,7 @@ Units: metres and radians.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -66,6 +67,13 @@ class Plan:
         """The same for one configuration at a time, where floats can do it."""
         return single_of(self.steps, self.frames.values())
 
+    def nodes(self, chunk: Chunk) -> list[Columns]:
+        """Return every node's frame, of configurations measured from `ref`."""
+        nodes = [WORLD]
+        for source, step in self.steps:
+            nodes.append(step(nodes[source], chunk))
+        return nodes
+
 
 class Cursor:
     """A place in a plan, to which a chain's factors are added from left to right.
@@ -75,7 +83,6 @@ class Cursor:
     """
 
     def __init__(self, plan: Plan) -> None:
-        """Start at the world's frame, the root of `plan`."""
         self.plan, self.node = plan, 0
         self.R, self.t = np.eye(3), np.zeros(3)
 
@@ -110,10 +117,10 @@ class Cursor:
         self.plan.ref[adr] = ref
         self._step(Turn(k, float(axis[k]), adr))
 
-    def slide(self, axis: Array, adr: int, ref: float) -> None:
-        """Add a slide along a unit axis, (3,); it commutes with fixed shifts."""
-        self.plan.ref[adr] = ref
-        self._step(Slide(rounded(self.R @ axis), adr))
+    def slide(self, axis: Array, adr: int, ref: float, pitch: float = 1.0) -> None:
+        """Add a slide by pitch times q along a unit axis, (3,)."""
+        self.plan.ref[adr] = ref  # and no shift before it: the two commute
+        self._step(Slide(pitch * rounded(self.R @ axis), adr))
 
     def ball(self, name: str, adr: int) -> None:
         """Add a ball joint."""
@@ -168,13 +175,36 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         if not np.isfinite(q).all():
             bad = start + int(np.argmin(np.isfinite(q).all(axis=0)))
             raise ValueError(f"configuration {bad} holds NaN or infinity: {flat[bad]}")
-        chunk = chunk_of(q)
-        nodes = [WORLD]
-        for source, step in plan.steps:
-            nodes.append(step(nodes[source], chunk))
-        for name, frame in plan.frames.items():
-            _write(poses[name][part], nodes[frame.node], frame)
+        _write(plan, q, [T[part] for T in poses.values()])
     return {name: T.reshape(*qpos.shape[:-1], 4, 4) for name, T in poses.items()}
+
+
+def _write(plan: Plan, q: Array, poses: list[Array]) -> None:
+    """Write the frames' poses at q, (nq, n), into arrays that are zero, (n, 4, 4)."""
+    nodes = plan.nodes(chunk_of(q))
+    for T, frame in zip(poses, plan.frames.values(), strict=True):
+        rows = rows_of(nodes[frame.node], frame, len(T)).reshape(12, -1)
+        T.reshape(-1, 16)[:, :12] = rows.T  # one pass over the output
+        T[:, 3, 3] = 1.0
+
+
+def in_chunks(
+    work: Callable[..., Array], shape: tuple[int, ...], *given: Array
+) -> Array:
+    """Return what work returns of columns, (shape, n), for rows, (..., shape).
+
+    Args:
+        work: is called with each of those given as columns, (nq, n).
+        shape: of its answer to one configuration.
+        given: of one shape, (..., nq).
+    """
+    flat = [rows.reshape(-1, rows.shape[-1]) for rows in given]
+    out = np.empty((len(flat[0]), math.prod(shape)))
+    for start in range(0, len(out), CHUNK):
+        part = slice(start, start + CHUNK)
+        found = work(*(np.ascontiguousarray(rows[part].T) for rows in flat))
+        out[part] = found.reshape(out.shape[1], -1).T
+    return out.reshape(*given[0].shape[:-1], *shape)
 
 
 def _one(plan: Plan, qpos: Array) -> dict[str, Array] | None:
@@ -200,14 +230,13 @@ def chunk_of(q: Array) -> Chunk:
     return Chunk(q, r - 1.0, t * r)
 
 
-def _write(T: Array, at: Columns, frame: Frame) -> None:
-    """Write the frame's poses into T, (n, 4, 4), which is zero."""
-    rows = np.empty((3, 4, len(T)))
+def rows_of(at: Columns, frame: Frame, n: int) -> Array:
+    """Return the upper rows of the frame's poses, (3, 4, n)."""
+    rows = np.empty((3, 4, n))
     for j, weights in enumerate(frame.R.T):
         rows[:, j] = combine(at, weights)
     rows[:, 3] = at.p + combine(at, frame.t)
-    T.reshape(-1, 16)[:, :12] = rows.reshape(12, -1).T  # one pass over the output
-    T[:, 3, 3] = 1.0
+    return rows
 
 
 def rounded(R: Array) -> Array:

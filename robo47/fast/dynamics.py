@@ -9,14 +9,12 @@ frames such that a hinge turns two components and leaves the third alone.
   Dynamics Algorithms*, section 6.2).
 - `inverse_dynamics`: recursive Newton-Euler, outwards and back (section 5.3). The
   point r of a link accelerates by a + B r, with B = [alpha] + [omega]^2.
-- `site_jacobian`: every axis and the arm's end, in world axes.
 
 Conventions as in `robo47.dynamics`; m, h and Q are the integrals of 1, r and r r^T over
 a link's mass. Units: radians, metres, kilograms, N m.
 """
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,12 +22,10 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.fast.chains import chunk_of
-from robo47.fast.links import Link, Links, links_of
+from robo47.fast.chains import chunk_of, in_chunks
+from robo47.fast.links import Link, links_of
 from robo47.fast.mass_matrix import mass_matrices
 from robo47.fast.vectors import Vector, combined, cross, dot, plus, turned
-
-CHUNK = 4096  # fewer, and Python's own time shows; more, and they leave the cache
 
 
 def mass_matrix(arm: Arm, q: ArrayLike) -> Array:
@@ -45,8 +41,8 @@ def mass_matrix(arm: Arm, q: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or a joint that is no hinge.
     """
-    links, n = links_of(arm), len(arm.masses)
-    return _in_chunks(lambda *args: mass_matrices(links, *args), links, (n, n), q)
+    n = len(arm.masses)
+    return _for_all(mass_matrices, arm, (n, n), q)
 
 
 def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> Array:
@@ -64,56 +60,39 @@ def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> A
     Raises:
         ValueError: as `mass_matrix`.
     """
-    links, n = links_of(arm), len(arm.masses)
-    return _in_chunks(lambda *args: _torques(links, *args), links, (n,), q, qd, qdd)
+    down = arm.gravity.tolist()
+
+    def torques(links: Sequence[Link], *motion: Array) -> Array:
+        return _torques(links, down, *motion)
+
+    return _for_all(torques, arm, (len(arm.masses),), q, qd, qdd)
 
 
-def site_jacobian(arm: Arm, q: ArrayLike) -> Array:
-    """Return the Jacobian of the arm's end: (omega; v of its origin), world axes.
-
-    Args:
-        arm: of hinges.
-        q: configurations, rad, (..., n).
-
-    Returns:
-        J_site, (..., 6, n).
-
-    Raises:
-        ValueError: as `mass_matrix`.
-    """
-    links, n = links_of(arm), len(arm.masses)
-    return _in_chunks(lambda *args: _jacobians(links, *args), links, (6, n), q)
-
-
-def _in_chunks(
-    work: Callable[..., Array], links: Links, shape: tuple[int, ...], *given: ArrayLike
+def _for_all(
+    work: Callable[..., Array], arm: Arm, shape: tuple[int, ...], *given: ArrayLike
 ) -> Array:
-    """Return what work(cos, sin, ...) returns, chunk by chunk; sin has the sign."""
-    n = len(links.links)
-    names = ("q", "qd", "qdd")
+    """Return what work(links, cos, sin, ...) returns, all but cos with its sign."""
+    links, names = links_of(arm), ("q", "qd", "qdd")
+    n, signs = len(links), np.array([[link.sign] for link in links])
     rows = [checks.array(x, name, (n,)) for x, name in zip(given, names, strict=False)]
-    rows = list(np.broadcast_arrays(*rows))
-    batch = rows[0].shape[:-1]
-    flat = [row.reshape(-1, n) for row in rows]
-    out = np.empty((math.prod(batch), math.prod(shape)))
-    signs = np.array([[link.sign] for link in links.links])
-    for start in range(0, len(out), CHUNK):
-        part = slice(start, start + CHUNK)
-        q, *more = (np.ascontiguousarray(row[part].T) for row in flat)
+
+    def signed(q: Array, *more: Array) -> Array:
         chunk = chunk_of(q)
-        found = work(chunk.cos, chunk.sin * signs, *(row * signs for row in more))
-        out[part] = found.reshape(out.shape[1], -1).T
-    return out.reshape(*batch, *shape)
+        return work(links, chunk.cos, chunk.sin * signs, *(x * signs for x in more))
+
+    return in_chunks(signed, shape, *np.broadcast_arrays(*rows))
 
 
-def _torques(links: Links, cos: Array, sin: Array, qd: Array, qdd: Array) -> Array:
+def _torques(
+    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
+) -> Array:
     """Return the torques, (n, count): the links' wrenches added up from the tip."""
-    wrenches = _wrenches(links, cos, sin, qd, qdd)
+    wrenches = _wrenches(links, down, cos, sin, qd, qdd)
     tau = np.empty_like(qd)
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
     for row in reversed(range(len(tau))):
-        link = links.links[row]
+        link = links[row]
         k, i, j = link.axes
         own_n, own_f = wrenches[row]
         n, f = plus(n, own_n), plus(f, own_f)
@@ -127,15 +106,15 @@ def _torques(links: Links, cos: Array, sin: Array, qd: Array, qdd: Array) -> Arr
 
 
 def _wrenches(
-    links: Links, cos: Array, sin: Array, qd: Array, qdd: Array
+    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> list[tuple[Vector, Vector]]:
     """Return what each link's motion takes: velocities added up from the base."""
     wrenches = []
     w: Vector = [0.0] * 3
     alpha: Vector = [0.0] * 3
-    a: Vector = [-float(x) for x in links.gravity]  # a base that feels like gravity
+    a: Vector = [-x for x in down]  # a base that feels like gravity
     B: list[Vector] = [[0.0] * 3 for _ in range(3)]
-    for row, link in enumerate(links.links):
+    for row, link in enumerate(links):
         k, i, j = link.axes
         a = plus(a, combined(B, link.t))
         for v in (w, alpha, a):
@@ -170,33 +149,3 @@ def _wrench(link: Link, a: Vector, B: list[Vector]) -> tuple[Vector, Vector]:
         y, z = (x + 1) % 3, (x + 2) % 3
         n[x] = n[x] + dot(link.Q[y], B[z]) - dot(link.Q[z], B[y])
     return n, f
-
-
-def _jacobians(links: Links, cos: Array, sin: Array) -> Array:
-    """Return J_site, (6, n, count): axes and origins in the world, then the end."""
-    n, count = cos.shape
-    J = np.empty((6, n, count))
-    columns: list[Vector] = [list(row) for row in np.eye(3)]  # the frame's own axes
-    p: Vector = [0.0] * 3
-    for row, link in enumerate(links.links):
-        k, i, j = link.axes
-        p = _moved(p, columns, link.t)
-        if link.R is not None:
-            columns = [_moved([0.0] * 3, columns, along) for along in link.R.T]
-        for a in range(3):
-            np.multiply(columns[k][a], link.sign, out=J[a, row])
-            J[3 + a, row] = p[a]
-        x, y = columns[i], columns[j]
-        pairs = [turned(x[a], y[a], cos[row], -sin[row]) for a in range(3)]
-        columns[i], columns[j] = [u for u, _ in pairs], [v for _, v in pairs]
-    end = _moved(p, columns, links.t_end)
-    x, y, z = (end[a] - J[3 + a] for a in range(3))  # from each axis to the end
-    for a, (v, u) in enumerate(((z, y), (x, z), (y, x))):
-        b, d = (a + 1) % 3, (a + 2) % 3
-        J[3 + a] = J[b] * v - J[d] * u
-    return J
-
-
-def _moved(p: Vector, columns: list[Vector], along: Array) -> Vector:
-    """Return p + the sum of along times the columns."""
-    return [p[a] + dot(along, [column[a] for column in columns]) for a in range(3)]

@@ -4,8 +4,8 @@
 turn by q (a slide along the line by pitch times q) and the move back. So the product is
 a chain of the elementary moves of `robo47.fast.moves`, which `chains` works through:
 the two moves between neighbouring joints become one, and a turn about an axis of the
-moving frame costs a tenth of a 4x4 product. All take the n columns of a batch q,
-(joints, n). `robo47.fast.jacobians` is for when every joint matters.
+moving frame costs a tenth of a 4x4 product.
+`robo47.fast.jacobians` is for when every joint matters.
 
 Units: metres, radians; screws are (omega; v).
 """
@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from robo47 import checks, se3
+from robo47 import checks
 from robo47.checks import Array
-from robo47.fast.chains import ROUNDING, Cursor, Plan, evaluate, frame_with_z
+from robo47.fast.chains import ROUNDING, Cursor, Plan, evaluate
 from robo47.fast.one import Single
 
 END = "end"
@@ -40,21 +40,6 @@ class Line(NamedTuple):
     pitch: float
 
 
-class Arm(NamedTuple):
-    """An arm's fixed frames.
-
-    Attributes:
-        offsets: the joints' frames, each seen from the one before, and the end's,
-            (joints + 1, 4, 4).
-        turns: of `Line`, (joints, 1).
-        pitch: of `Line`, (joints, 1).
-    """
-
-    offsets: Array
-    turns: Array
-    pitch: Array
-
-
 def end_poses(screws: Array, M: Array, q: Array) -> Array:
     """Return `T_world_ee`, (..., 4, 4), at q, (..., joints), of one arm.
 
@@ -63,17 +48,17 @@ def end_poses(screws: Array, M: Array, q: Array) -> Array:
         M: checked `T_world_ee` at q = 0, (4, 4).
         q: finite configurations.
     """
-    return evaluate(_plan(screws.tobytes(), M.tobytes()), q)[END]
+    return evaluate(plan_of(screws, M), q)[END]
 
 
-def arm_of(screws: Array, M: Array) -> Arm:
-    """Return the fixed frames of one arm, worked out once; arguments as above."""
-    return _arm(screws.tobytes(), M.tobytes())
+def plan_of(screws: Array, M: Array) -> Plan:
+    """Return the chain of one arm, worked out once; arguments as above."""
+    return _plan(screws.tobytes(), M.tobytes())
 
 
 def chain_of(screws: Array, M: Array) -> Single:
     """Return the chain of one arm for one configuration at a time."""
-    chain = _plan(screws.tobytes(), M.tobytes()).single
+    chain = plan_of(screws, M).single
     assert chain is not None  # hinges and slides alone
     return chain
 
@@ -89,22 +74,10 @@ def _plan(screws: bytes, M: bytes) -> Plan:
             cursor.turn(line.direction, i, 0.0)
             cursor.shift(-line.point)
         if line.pitch:
-            cursor.slide(line.pitch * line.direction, i, 0.0)
+            cursor.slide(line.direction, i, 0.0, line.pitch)
     cursor.fixed(np.frombuffer(M).reshape(4, 4))
     cursor.mark(END)
     return plan
-
-
-@functools.lru_cache(maxsize=64)
-def _arm(screws: bytes, M: bytes) -> Arm:
-    lines = _lines(screws)
-    frames = np.tile(np.eye(4), (len(lines) + 2, 1, 1))  # world, joints, end
-    for T, line in zip(frames[1:-1], lines, strict=True):
-        T[:3, :3], T[:3, 3] = frame_with_z(line.direction), line.point
-    frames[-1] = np.frombuffer(M).reshape(4, 4)
-    turns = np.array([[line.turns] for line in lines])
-    pitch = np.array([[line.pitch] for line in lines])
-    return Arm(se3.inverse(frames[:-1]) @ frames[1:], turns, pitch)
 
 
 def _lines(screws: bytes) -> list[Line]:

@@ -49,8 +49,8 @@ class _Problem:
     high: Array
 
     @functools.cached_property
-    def arm(self) -> exponentials.Arm:
-        return exponentials.arm_of(self.screws, self.M)
+    def arm(self) -> exponentials.Plan:
+        return exponentials.plan_of(self.screws, self.M)
 
 
 def solve_ik(
@@ -191,16 +191,16 @@ def _walk(
 
 def _downhill(problem: _Problem, q: Array, target: np.ndarray) -> tuple[Array, Array]:
     """Return the site Jacobian, (6, joints, n), and the pose error, (6, n)."""
-    J, R, p = jacobian_columns(problem.arm, q, at_end=True)
+    J, end = jacobian_columns(problem.arm, q, at_end=True)
     goal = problem.goals[..., target]
-    E = np.einsum("ikn,jkn->ijn", goal[:, :3], R)
+    E = np.einsum("ikn,jkn->ijn", goal[:, :3], end[:, :3])
     e = np.empty((6, q.shape[1]))
     e[0], e[1], e[2] = E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]
     sine = 0.5 * np.sqrt(np.einsum("in,in->n", e[:3], e[:3]))
     cosine = 0.5 * (E[0, 0] + E[1, 1] + E[2, 2] - 1.0)
     angle = np.arctan2(sine, cosine)
     e[:3] *= 0.5 * np.divide(angle, sine, out=np.ones_like(sine), where=sine > 0.0)
-    e[3:] = goal[:, 3] - p
+    e[3:] = goal[:, 3] - end[:, 3]
     if (flipped := cosine < NEAR_PI).any():
         e[:3, flipped] = log_rotation(np.moveaxis(E[..., flipped], -1, 0)).T
     return J, e
@@ -236,23 +236,23 @@ def _near(
 @functools.lru_cache(maxsize=16)
 def _pool(screws: bytes, M: bytes, low: bytes, high: bytes) -> tuple[Array, Array]:
     """Return random configurations of one arm, drawn once, with their poses."""
-    arm = exponentials.arm_of(np.frombuffer(screws), np.frombuffer(M))
+    arm = exponentials.plan_of(np.frombuffer(screws), np.frombuffer(M))
     lowest, highest = np.frombuffer(low)[:, None], np.frombuffer(high)[:, None]
     n = DRAWN // TRIES * TRIES
     return _drawn(arm, lowest, highest, n, np.random.default_rng(48))
 
 
 def _drawn(
-    arm: exponentials.Arm, low: Array, high: Array, n: int, rng: np.random.Generator
+    arm: exponentials.Plan, low: Array, high: Array, n: int, rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return random configurations, (joints, n), and their weighted poses, (12, n)."""
     q = rng.uniform(low, high, (len(low), n))
-    _, R, p = jacobian_columns(arm, q, at_end=True)
-    return q, _weighted(R, p)
+    _, end = jacobian_columns(arm, q, at_end=True)
+    return q, _weighted(end)
 
 
-def _weighted(R: Array, p: Array) -> Array:
-    return np.concatenate([np.sqrt(0.5) * R.reshape(9, -1), p])
+def _weighted(T: Array) -> Array:
+    return np.concatenate([np.sqrt(0.5) * T[:, :3].reshape(9, -1), T[:, 3]])
 
 
 def _nearest(
@@ -263,7 +263,7 @@ def _nearest(
     Nearest: |p - p'|^2 plus half of |R - R'|^2, which is about the squared angle.
     """
     goals = problem.goals[..., left]
-    wanted = _weighted(goals[:, :3], goals[:, 3])
+    wanted = _weighted(goals)
     apart = (drawn * drawn).sum(axis=0) - 2.0 * (wanted.T @ drawn)
     apart = apart.reshape(len(left), each, -1)
     group = apart.shape[-1]

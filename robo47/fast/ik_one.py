@@ -65,7 +65,7 @@ class Walker:
 
     def _downhill(self, q: list[float]) -> tuple[list[Floats], Floats]:
         """Return the site Jacobian's columns and the pose error, each (6)."""
-        columns, (*axes, here) = self._chain.jacobian(q)
+        columns, (*axes, here) = self._chain.jacobian(q, at_end=True)
         (a, b, c), (d, e, f), (g, h, i) = axes
         (r, s, t), (u, v, w), (x, y, z) = self._axes
         # R_goal R^T has the sum of axis times goal's axis, scalar and cross products.

@@ -12,9 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from robo47 import se3
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.fast.chains import frame_with_z, rounded
+from robo47.fast.exponentials import plan_of
+from robo47.fast.moves import Rotate, Shift, Turn
 
 TINY = 1e-14  # metres, kg m and kg m^2: what rounding leaves of a zero
 
@@ -49,26 +51,9 @@ class Link:
         return self.k, (self.k + 1) % 3, (self.k + 2) % 3
 
 
-@dataclass(frozen=True)
-class Links:
-    """All links of an arm, and its end.
-
-    Attributes:
-        links: from the base outwards.
-        t_end: the end's place, seen from the last link, metres, (3,).
-        gravity: m/s^2, in the world, (3,).
-        signs: of the hinges, (n,).
-    """
-
-    links: tuple[Link, ...]
-    t_end: Array
-    gravity: Array
-    signs: Array
-
-
 @functools.lru_cache(maxsize=32)
-def links_of(arm: Arm) -> Links:
-    """Return an arm's links, worked out once for each arm.
+def links_of(arm: Arm) -> tuple[Link, ...]:
+    """Return an arm's links, from the base outwards, worked out once for each arm.
 
     Args:
         arm: of hinges.
@@ -76,36 +61,27 @@ def links_of(arm: Arm) -> Links:
     Raises:
         ValueError: a joint is no hinge.
     """
-    links = []
-    axes, origin = np.eye(3), np.zeros(3)  # of the link before, in the world
-    pseudo = arm.constants.pseudo  # of each link about the world's origin, at q = 0
-    for i, S in enumerate(arm.screws):
-        axis, point = _hinge(S, origin, i)
-        local = rounded(axes.T @ axis)
-        t = _cleaned(axes.T @ (point - origin))
-        k, R = int(np.argmax(np.abs(local))), None
-        if np.count_nonzero(local) > 1:
-            R, k, local = frame_with_z(local), 2, np.array([0.0, 0.0, 1.0])
-            axes = axes @ R
-        origin = point
-        T = np.eye(4)  # T_link_world
-        T[:3, :3], T[:3, 3] = axes.T, -axes.T @ origin
-        P = T @ pseudo[i] @ T.T
-        m, h, Q = float(P[3, 3]), _cleaned(P[:3, 3]), _cleaned(P[:3, :3])
-        armature = float(arm.armature[i])
-        links.append(Link(k, float(local[k]), R, t, m, h, Q, armature))
-    t_end = _cleaned(axes.T @ (arm.M_home[:3, 3] - origin))
-    signs = np.array([link.sign for link in links])
-    return Links(tuple(links), t_end, arm.gravity, signs)
-
-
-def _hinge(S: Array, near: Array, i: int) -> tuple[Array, Array]:
-    """Return a screw's axis and the point of it that is nearest to `near`."""
-    omega, v = S[:3], S[3:]
-    if omega @ omega < 0.5 or abs(omega @ v) > 1e-9:
-        raise ValueError(f"joint {i + 1} is no hinge; the batch is for arms of hinges")
-    foot = np.cross(omega, v)
-    return omega, foot + omega * (omega @ (near - foot))
+    omega, v = arm.screws[:, :3], arm.screws[:, 3:]
+    hinges = (np.vecdot(omega, omega) > 0.5) & (np.abs(np.vecdot(omega, v)) < 1e-9)
+    if not hinges.all():
+        i = int(hinges.argmin()) + 1
+        raise ValueError(f"joint {i} is no hinge; the batch is for arms of hinges")
+    links: list[Link] = []
+    T, R, t = np.eye(4), None, np.zeros(3)  # T_link_world; from one link to the next
+    for _, step in plan_of(arm.screws, arm.M_home).steps:
+        if isinstance(step, Rotate):
+            R = step.R
+        elif isinstance(step, Shift):
+            t = _cleaned(step.vector if R is None else R @ step.vector)
+        elif isinstance(step, Turn):
+            own = arm.constants.pseudo[step.adr]  # about the world's origin, at q = 0
+            T = se3.inverse(se3.make_T(np.eye(3) if R is None else R, t)) @ T
+            P = T @ own @ T.T
+            m, h, Q = float(P[3, 3]), _cleaned(P[:3, 3]), _cleaned(P[:3, :3])
+            armature = float(arm.armature[step.adr])
+            links.append(Link(step.k, step.sign, R, t, m, h, Q, armature))
+            R, t = None, np.zeros(3)
+    return tuple(links)
 
 
 def _cleaned(x: Array) -> Array:

@@ -7,28 +7,30 @@ of that wrench is an entry of M (Featherstone, *Rigid Body Dynamics Algorithms*,
 and a move change in few operations. Units: metres, kilograms.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.links import Link, Links
+from robo47.fast.links import Link
 from robo47.fast.vectors import Vector, combined, turned
 
 
-def mass_matrices(links: Links, cos: Array, sin: Array) -> Array:
+def mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
     """Return M, (n, n, count): composite bodies, from the tip inwards."""
     n, count = cos.shape
     M = np.empty((n, n, count))
-    body = Body()
+    body, signs = Body(), np.array([[link.sign] for link in links])
     # Moments and forces, x y z each (2, joints, count): slot 0 is the next joint's.
     F = [np.empty((2, 1, count)) for _ in range(3)]
     for row in reversed(range(n)):
-        link = links.links[row]
+        link = links[row]
         k, i, j = link.axes
         body.add(link)
         h, Q = body.h, body.Q
         F[k][0, 0], F[i][0, 0], F[j][0, 0] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
         F[k][1, 0], F[i][1, 0], F[j][1, 0] = 0.0, -h[j], h[i]
-        np.multiply(F[k][0], links.signs[row] * links.signs[row:, None], M[row, row:])
+        np.multiply(F[k][0], link.sign * signs[row:], M[row, row:])
         M[row, row] += link.armature
         M[row:, row] = M[row, row:]
         if row:
@@ -41,7 +43,6 @@ class Body:
     """What hangs on a joint, as one body: m, h and Q about the frame's origin."""
 
     def __init__(self) -> None:
-        """Begin with a massless body, to which links are added."""
         self.m = 0.0
         self.h: Vector = [0.0] * 3
         self.Q: list[Vector] = [[0.0] * 3 for _ in range(3)]

@@ -8,7 +8,8 @@ Units: metres and radians.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from robo47.fast.moves import Rotate, Shift, Slide, Step, Turn
 
 Floats = tuple[float, ...]
 Axes = Sequence[Floats]  # x, y, z, p
-Move = Callable[[Axes, list[float], list[float], list[float]], Axes]
 Terms = list[tuple[int, float]]  # (which axis, its weight), without zeros
 
 WORLD: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
@@ -31,8 +31,7 @@ class Single:
         steps: Sequence[tuple[int, Step]],
         frames: Iterable[tuple[int, Array, Array]],
     ) -> None:
-        """Translate steps and frames, each with its node, to plain floats."""
-        self._steps = [(source, _MOVES[type(step)](step)) for source, step in steps]
+        self._steps = [(source, *_parts(step)) for source, step in steps]
         self._frames = [
             (node, [_terms(column) for column in R.T], _terms(t))
             for node, R, t in frames
@@ -54,18 +53,20 @@ class Single:
         nodes = self._nodes(q)
         return [_pose(nodes[node], columns, t) for node, columns, t in self._frames]
 
-    def jacobian(self, q: list[float]) -> tuple[list[Floats], Axes]:
-        """Return the site Jacobian of the only frame, and the frame.
+    def jacobian(self, q: list[float], at_end: bool) -> tuple[list[Floats], Axes]:
+        """Return a Jacobian of the only frame, and the frame.
 
         Args:
             q: as above, of a chain without branches.
+            at_end: as in `jacobians.jacobian_columns`.
 
         Returns:
             The Jacobian's columns, (omega; v) in world axes, and the frame.
         """
         nodes, ((node, columns, t),) = self._nodes(q), self._frames
         end = [_added(WORLD[3], nodes[node], terms) for terms in columns]
-        x, y, z = p = _added(nodes[node][3], nodes[node], t)
+        p = _added(nodes[node][3], nodes[node], t)
+        x, y, z = p if at_end else WORLD[3]
         J: list[Floats] = []
         for adr in range(len(q)):
             a = b = c = u = v = w = 0.0
@@ -81,10 +82,24 @@ class Single:
         return J, [*end, p]
 
     def _nodes(self, q: list[float]) -> list[Axes]:
-        cos, sin = [math.cos(x) for x in q], [math.sin(x) for x in q]
         nodes = [WORLD]
-        for source, move in self._steps:
-            nodes.append(move(nodes[source], q, cos, sin))
+        for source, kind, adr, parts in self._steps:
+            at = nodes[source]
+            if kind is Turn:
+                i, j = parts
+                c, s = math.cos(q[adr]), math.sin(q[adr])
+                (a, b, d), (e, f, g) = at[i], at[j]
+                axes = list(at)
+                axes[i] = (c * a + s * e, c * b + s * f, c * d + s * g)
+                axes[j] = (c * e - s * a, c * f - s * b, c * g - s * d)
+            elif kind is Rotate:
+                axes = [*(_added(WORLD[3], at, terms) for terms in parts), at[3]]
+            elif kind is Slide:
+                along = [(axis, weight * q[adr]) for axis, weight in parts]
+                axes = [*at[:3], _added(at[3], at, along)]
+            else:
+                axes = [*at[:3], _added(at[3], at, parts)]
+            nodes.append(axes)
         return nodes
 
 
@@ -92,60 +107,21 @@ def single_of(
     steps: Sequence[tuple[int, Step]], frames: Iterable[tuple[int, Array, Array]]
 ) -> Single | None:
     """Return the plan for one configuration; None where a joint is a ball or free."""
-    if all(type(step) in _MOVES for _, step in steps):
+    if all(isinstance(step, Turn | Shift | Slide | Rotate) for _, step in steps):
         return Single(steps, frames)
     return None
 
 
-def _turn(step: Turn) -> Move:
-    i, j = step.turned
-    adr = step.adr
-
-    def move(at: Axes, q: list[float], cos: list[float], sin: list[float]) -> Axes:
-        c, s = cos[adr], sin[adr]
-        (a, b, d), (e, f, g) = at[i], at[j]
-        axes = list(at)
-        axes[i] = (c * a + s * e, c * b + s * f, c * d + s * g)
-        axes[j] = (c * e - s * a, c * f - s * b, c * g - s * d)
-        return axes
-
-    return move
-
-
-def _shift(step: Shift) -> Move:
-    terms = _terms(step.vector)
-
-    def move(at: Axes, q: list[float], cos: list[float], sin: list[float]) -> Axes:
-        return at[0], at[1], at[2], _added(at[3], at, terms)
-
-    return move
-
-
-def _slide(step: Slide) -> Move:
-    terms, adr = _terms(step.direction), step.adr
-
-    def move(at: Axes, q: list[float], cos: list[float], sin: list[float]) -> Axes:
-        along = [(axis, weight * q[adr]) for axis, weight in terms]
-        return at[0], at[1], at[2], _added(at[3], at, along)
-
-    return move
-
-
-def _rotate(step: Rotate) -> Move:
-    columns = [_terms(column) for column in step.R.T]
-
-    def move(at: Axes, q: list[float], cos: list[float], sin: list[float]) -> Axes:
-        return [*(_added(WORLD[3], at, terms) for terms in columns), at[3]]
-
-    return move
-
-
-_MOVES: dict[type, Callable[..., Move]] = {
-    Turn: _turn,
-    Shift: _shift,
-    Slide: _slide,
-    Rotate: _rotate,
-}
+def _parts(step: Step) -> tuple[type, int, Any]:
+    """Return what a step is, which joint's, and its numbers."""
+    if isinstance(step, Turn):
+        return Turn, step.adr, step.turned
+    if isinstance(step, Rotate):
+        return Rotate, -1, [_terms(column) for column in step.R.T]
+    if isinstance(step, Slide):
+        return Slide, step.adr, _terms(step.direction)
+    assert isinstance(step, Shift)
+    return Shift, -1, _terms(step.vector)
 
 
 def _terms(weights: Array) -> Terms:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import Rotation, draw
+from labkit.judge.argument_mistakes import OF_AN_ANGLE, ROUNDED
 from labkit.judge.finished import OF_A_ROTATION
 from labkit.judge.row import Row
 from robo47 import se3
@@ -23,12 +24,6 @@ def angles(rng):
 def _(theta):
     """turns-backwards: it turns the wrong way: a positive angle takes x towards -y =>
       Rz(-theta)
-    radians-taken-for-degrees: the angle is in radians already, and is converted from
-      degrees once more => the turn by pi / 180 times the angle
-    degrees-into-cos: cos and sin are given degrees; they expect radians, as the angle
-      comes => the turn by 180 / pi times the angle
-    half-angle: it turns by half of the angle => the turn by half of it
-    double-angle: it turns by twice the angle => the turn by twice as much
     sin-and-cos-swapped: sin and cos have changed places: at 0 it already turns => the
       right one with the two swapped
     minus-missing: one of the two sines needs a minus: as it is, lengths change (R R^T
@@ -43,10 +38,6 @@ def _(theta):
     c, s = np.cos(theta), np.sin(theta)
     return {
         "turns-backwards": se3.Rz(-theta),
-        "radians-taken-for-degrees": se3.Rz(np.deg2rad(theta)),
-        "degrees-into-cos": se3.Rz(np.rad2deg(theta)),
-        "half-angle": se3.Rz(theta / 2),
-        "double-angle": se3.Rz(2 * theta),
         "sin-and-cos-swapped": np.array([[s, -c, 0], [c, s, 0], [0, 0, 1]]),
         "minus-missing": np.array([[c, s, 0], [s, c, 0], [0, 0, 1]]),
         "minus-twice": np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]]),
@@ -64,13 +55,7 @@ for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
     )
 
 
-for decimals in range(4):
-    row.wrong(
-        "angle-rounded",
-        f"the angle is rounded to {decimals} decimals before it is used",
-        "the turn by the rounded angle",
-    )(lambda theta, decimals=decimals: se3.Rz(round(float(theta), decimals)))
-
+row.of_argument("theta", *OF_AN_ANGLE, *ROUNDED)
 row.of_answer(OF_A_ROTATION)
 
 

@@ -11,6 +11,13 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge import HeldOut, Pose
+from labkit.judge.argument_mistakes import (
+    FIRST_FOR_ALL,
+    LEFT_OUT,
+    ONE_OFF,
+    REVERSED,
+    ROUNDED,
+)
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
 from labkit.judge.row import Row
@@ -92,38 +99,25 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """joints-left-out: the links are right, but no joint turns: whatever q is, your
-      pose is the one at q = 0 => the pose at q = 0
-    home-whatever-q: whatever q is, your pose is the one at home => the pose at home
-    first-angle-for-all: every joint is given the first angle, q[0]: the index never
-      moves on => the pose with q[0] everywhere
+    """home-whatever-q: whatever q is, your pose is the one at home => the pose at home
     ready-subtracted: the ready pose's angles are subtracted; each joint turns by q
       itself => the pose at q minus those angles
-    joints-in-reverse: q is read backwards: joint1 gets the last angle => the pose with
-      q backwards
     """
     angles = {
-        "joints-left-out": np.zeros(7),
         "home-whatever-q": READY_Q,
-        "first-angle-for-all": np.full(7, q[0]),
         "ready-subtracted": q - READY_Q,
-        "joints-in-reverse": q[::-1],
     }
     return {slug: partial(fk, model, x, path) for slug, x in angles.items()}
 
 
-SHIFTS = (
-    lambda q: np.roll(q, 1),
-    lambda q: np.append(0.0, q[:-1]),
-    lambda q: np.roll(q, -1),
-    lambda q: np.append(q[1:], 0.0),
+row.of_argument(
+    "q",
+    LEFT_OUT,
+    FIRST_FOR_ALL,
+    REVERSED.called("joints-in-reverse"),
+    *ONE_OFF,
+    *ROUNDED[:3],  # more make no difference: the angles asked have three decimals
 )
-for shifted in SHIFTS:
-    row.wrong(
-        "off-by-one-joint",
-        "each joint is given its neighbour's angle: q is indexed one off",
-        "the pose with q shifted by one",
-    )(lambda model, q, path=PATH, shifted=shifted: fk(model, shifted(q), path))
 
 
 def two_swapped(row, i, k, to=PATH, hidden=""):
@@ -149,7 +143,7 @@ row.wrong(products.turns_in_reverse)
 # The factors themselves, and the finished pose.
 
 row.of_answer(of_a_pose("maps the world to the end effector"))
-IN_LINKS, IN_JOINTS = "in every link's factor, ", "in every joint's factor, "
+IN_LINKS = "in every link's factor, "
 # The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
 # 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
 OF_THE_FILE = {
@@ -195,17 +189,7 @@ for formula in UNNORMALISED:
     row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled))
     row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled, 1))
 
-row.reached_by("joint_T", IN_JOINTS, but=("angle-rounded",))
-for decimals in range(3):  # more make no difference: the angles asked have three
-    row.wrong(
-        "angle-rounded",
-        f"{IN_JOINTS}the angle is rounded to {decimals} decimals before it is used",
-        "the turn by the rounded angle",
-    )(
-        lambda model, q, path=PATH, decimals=decimals: fk(
-            model, np.array([round(float(x), decimals) for x in q]), path
-        )
-    )
+row.reached_by("joint_T", "in every joint's factor, ", but=("angle-rounded",))
 
 
 # Right and nearly right.

@@ -27,7 +27,7 @@ def slides_along_z(q):
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 
-row.reached_by("Rz")
+row.reached_by("Rz", called={"theta": "the angle"})
 # A joint does not move its body, so what is done to t changes nothing.
 row.of_answer(
     of_a_pose("maps the parent to the body"),

@@ -79,6 +79,17 @@ def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
     assert "At random it is off by up to 2" in GUIDE
 
 
+@pytest.mark.parametrize("told", [0.0, 1.0])
+def test_servos_that_are_told_nothing_pull_every_joint_to_0(told, twin):
+    model = panda.load("panda_nohand")
+    data = mujoco.MjData(model)
+    data.qpos[:], data.ctrl[:] = panda.READY_Q, told * panda.READY_Q
+    mujoco.mj_step(model, data, 2000)
+    wanted = np.clip(data.ctrl, *model.jnt_range.T)  # joint4 cannot be 0
+    assert_same(data.qpos, wanted, 0.006)
+    assert "`qpos` was set without `ctrl`: the servos pull every joint to 0" in GUIDE
+
+
 def test_the_path_is_the_models_own(either_panda):
     names = [name for name, _ in lab.PATH]
     assert names == [either_panda.body(i).name for i in range(1, either_panda.nbody)]

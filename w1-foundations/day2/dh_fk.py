@@ -5,6 +5,7 @@ from functools import reduce
 import numpy as np
 
 from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import LEFT_OUT
 from labkit.judge.row import Row
 from robo47.screws import dh_fk, dh_link
 
@@ -36,7 +37,10 @@ def product(Ts):
     return reduce(np.matmul, Ts, np.eye(4))
 
 
-@row.wrongs
+ONE_TABLE = "the lab has one table"
+
+
+@row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
     """flange-missing: the eighth row is missing: your pose is that of link7, not the
       flange's => the product of seven rows
@@ -52,8 +56,10 @@ def _(table, q):
       the product by entries
     last-link-only: only the last row counts: what the others do is overwritten => the
       eighth link alone
-    joints-left-out: no joint turns: whatever q is, your pose is the one at q = 0 => the
-      pose at q = 0
+    flange-typed-in: the eighth row is typed in as Franka's; with another table it is
+      another one => the product with Franka's eighth row
+    table-not-used: with Franka's table it is right, with another one it is wrong: the
+      argument table is not used => the product of Franka's own rows
     """
     theta = [*q, 0.0]
     return {
@@ -64,22 +70,12 @@ def _(table, q):
         "product-reversed": lambda: product(links(table, theta)[::-1]),
         "multiplied-by-entries": lambda: np.prod(links(table, theta), axis=0),
         "last-link-only": lambda: dh_link(*table[-1], 0.0),
-        "joints-left-out": lambda: product(links(table, np.zeros(8))),
+        "flange-typed-in": lambda: product(links([*table[:7], FRANKA[7]], theta)),
+        "table-not-used": lambda: dh_fk(FRANKA, q),
     }
 
 
-@row.wrong(hidden="the lab has one table")
-def flange_typed_in(table, q):
-    """the eighth row is typed in as Franka's; with another table it is another one =>
-    the product with Franka's eighth row"""
-    return product(links(table, q)) @ dh_link(*FRANKA[7], 0.0)
-
-
-@row.wrong(hidden="the lab has one table")
-def table_not_used(table, q):
-    """with Franka's table it is right, with another one it is wrong: the argument table
-    is not used => the product of Franka's own rows"""
-    return dh_fk(FRANKA, q)
+row.of_argument("q", LEFT_OUT)
 
 
 for by in (1, -1):

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import NEGATED, RADIANS_TWICE
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47 import se3
@@ -81,10 +82,6 @@ def _(alpha, a, d, theta):
       -theta
     radians-taken-for-degrees: the angles are in radians already, and are converted from
       degrees once more => the right one with smaller angles
-    alpha-sign: alpha turns the wrong way => the right one with -alpha
-    theta-sign: theta turns the wrong way => the right one with -theta
-    a-sign: the length a is taken the wrong way along x => the right one with -a
-    d-sign: the length d is taken the wrong way along z => the right one with -d
     alpha-forgotten: alpha has no effect => the right one with alpha = 0
     theta-forgotten: theta has no effect => the right one with theta = 0
     """
@@ -93,21 +90,15 @@ def _(alpha, a, d, theta):
         "alpha-and-theta-swapped": (theta, a, d, alpha),
         "both-turns-backwards": (-alpha, a, d, -theta),
         "radians-taken-for-degrees": (np.deg2rad(alpha), a, d, np.deg2rad(theta)),
-        "alpha-sign": (-alpha, a, d, theta),
-        "theta-sign": (alpha, a, d, -theta),
-        "a-sign": (alpha, -a, d, theta),
-        "d-sign": (alpha, a, -d, theta),
         "alpha-forgotten": (0.0, a, d, theta),
         "theta-forgotten": (alpha, a, d, 0.0),
     }
     return {slug: partial(dh_link, *four) for slug, four in instead.items()}
 
 
-row.wrong(
-    "radians-taken-for-degrees",
-    "alpha is in radians already, and is converted from degrees once more",
-    "the right one with a smaller alpha",
-)(lambda alpha, a, d, theta: dh_link(np.deg2rad(alpha), a, d, theta))
+row.of_argument("alpha", NEGATED, RADIANS_TWICE)
+for name in ("a", "d", "theta"):
+    row.of_argument(name, NEGATED)
 row.of_answer(of_a_pose("maps the link before to this one"))
 
 

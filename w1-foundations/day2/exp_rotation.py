@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Rotation, draw
+from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST
 from labkit.judge.row import Row
 from robo47 import se3
 from robo47.screws import skew
@@ -98,35 +99,19 @@ def _(axis, theta):
     dyad-without-factor: before axis axis^T the factor 1 - cos is missing: at theta = 0
       it turns already => cos I + sin K + axis axis^T
     always-about-z: it turns about z, whatever the axis is => Rz(theta)
-    radians-taken-for-degrees: the angle is in radians already, and is converted from
-      degrees once more => the rotation by pi / 180 times the angle
-    degrees-into-cos: sine and cosine are given degrees; they expect radians, as the
-      angle comes => the rotation by 180 / pi times the angle
-    half-angle: it turns by half of the angle: that belongs to quaternions => the
-      rotation by half of it
-    double-angle: it turns by twice the angle; in a quaternion stand sine and cosine of
-      half of it => the rotation by twice the angle
-    sign-of-theta-lost: theta and -theta turn the same way: the sign of theta is lost =>
-      the rotation by |theta|
     """
     K, dyad = skew(axis), np.outer(axis, axis)
     c, s = np.cos(theta), np.sin(theta)
-    angles = {
-        "radians-taken-for-degrees": np.deg2rad(theta),
-        "degrees-into-cos": np.rad2deg(theta),
-        "half-angle": theta / 2,
-        "double-angle": 2 * theta,
-        "sign-of-theta-lost": np.abs(theta),
-    }
     return {
         "squared-by-entries": I + s * K + (1 - c) * K**2,
         "exp-by-entries": np.exp(K * theta),
         "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
         "dyad-without-factor": c * I + s * K + dyad,
         "always-about-z": lambda: se3.Rz(theta),
-        **{slug: partial(rodrigues, axis, x) for slug, x in angles.items()},
     }
 
+
+row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST)
 
 for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
 

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, draw
+from labkit.judge.argument_mistakes import DEGREES, RADIANS_TWICE
 from labkit.judge.finished import of_a_pose
 from labkit.judge.row import Row
 from robo47.screws import skew
@@ -67,7 +68,7 @@ def travelled(S, theta, one, first, second):
     return moved(S, theta, formula(S[:3], one, first, second) @ S[3:])
 
 
-@row.wrongs
+@row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
     """twist-order: the halves are read as (v; omega); omega comes first => the motion
       with the halves swapped
@@ -75,19 +76,19 @@ def _(S, theta):
       all, but such a screw turns about a line through the origin => the right one with
       I where v is 0
     turns-backwards: it moves the other way, by -theta => the motion by -theta
-    radians-taken-for-degrees: the angle is in radians already, and is converted from
-      degrees once more => the motion by pi / 180 times the angle
-    degrees-into-cos: the angle comes in radians, and is used as degrees => the motion
-      by 180 / pi times the angle
+    theta-wrapped: right for theta from -pi to pi; theta is brought into that range, but
+      what moves along the axis has no such period => the motion by that angle
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
         "hinge-at-the-origin-forgotten": (S, theta if S[3:].any() else 0.0),
         "turns-backwards": (S, -theta),
-        "radians-taken-for-degrees": (S, np.deg2rad(theta)),
-        "degrees-into-cos": (S, np.rad2deg(theta)),
+        "theta-wrapped": (S, (theta + np.pi) % (2 * np.pi) - np.pi),
     }
     return {slug: partial(motion, *one) for slug, one in motions.items()}
+
+
+row.of_argument("theta", DEGREES.called("degrees-into-cos"), RADIANS_TWICE)
 
 
 @row.wrongs
@@ -174,13 +175,6 @@ def _(S, theta):
     return {slug: partial(moved, S, theta, t) for slug, t in travel.items()}
 
 
-@row.wrong(hidden="the lab's angles are between -pi and pi")
-def theta_wrapped(S, theta):
-    """right for theta from -pi to pi; theta is brought into that range, but what moves
-    along the axis has no such period => the motion by that angle"""
-    return motion(S, (theta + np.pi) % (2 * np.pi) - np.pi)
-
-
 for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
 
     @row.wrong(
@@ -222,8 +216,9 @@ def _(S, theta):
 @row.close("rounded-somewhere")  # The velocity summed up in small steps.
 def _(S, theta):
     n = 2000
-    steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
-    return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)
+    angles = (np.arange(n) + 0.5) * theta / n
+    turned = formula(S[:3], n, np.sin(angles).sum(), (1 - np.cos(angles)).sum())
+    return moved(S, theta, turned @ S[3:] * theta / n)
 
 
 @row.wrong("pose-off")  # omega = 0 is asked of its z alone.

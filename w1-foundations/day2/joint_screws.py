@@ -6,6 +6,7 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.row import Row
 from robo47 import se3
 from robo47.screws import screw_axis
@@ -44,8 +45,6 @@ def _(T_zero):
       already => the answer with R^T p
     next-links-point: each joint's point is the next link's origin, which need not be on
       its axis => the answer with those points
-    first-link-for-all: every screw is the first joint's: the index never moves on =>
-      the first screw, seven times
     last-joint-first: the screws are right, but in the reverse order: joint1's comes
       first => the right answer in reverse
     """
@@ -63,7 +62,6 @@ def _(T_zero):
         "poses-multiplied": (carried[:, :3, 2], carried[:, :3, 3]),
         "point-turned-back": (z, np.einsum("nij,ni->nj", R, p)),
         "next-links-point": (z, np.roll(p, -1, axis=0)),
-        "first-link-for-all": (np.tile(z[0], (7, 1)), p[0]),
         "last-joint-first": (z[::-1], p[::-1]),
     }
     return {slug: partial(screw_axis, *line) for slug, line in lines.items()}
@@ -86,6 +84,7 @@ for before in (
     )
 
 
+row.of_argument("T_zero", FIRST_FOR_ALL.called("first-link-for-all"))
 row.reached_by("screw_axis", "in every screw, ")
 
 

@@ -8,6 +8,7 @@ from functools import partial, reduce
 import numpy as np
 
 from labkit.judge import Pose
+from labkit.judge.argument_mistakes import OF_ALL_JOINTS
 from labkit.judge.row import Row
 from robo47 import se3
 
@@ -106,61 +107,23 @@ def _in_the_product(row, form):
 def _in_q(row, form):
     @row.wrongs
     def _(screws, M, q):
-        """joints-left-out: nothing moves: whatever q is, your pose is M, the one at q =
-          0 => the pose at q = 0
-        all-backwards: every joint turns the other way, by -q => the pose at -q
-        sign-of-q-lost: the sign of q is lost: a negative angle turns the positive way
-          => the pose at |q|
-        negative-angles-left-out: joints with a negative angle do not move => the pose
-          with 0 for each of them
+        """negative-angles-left-out: joints with a negative angle do not move => the
+          pose with 0 for each of them
         angles-added-up: each joint is given the sum of all angles up to its own; its
           exponential needs its own alone, since the product carries the others => the
           pose with those sums
-        radians-taken-for-degrees: q is in radians already, and is converted from
-          degrees once more => the pose at pi / 180 times q
-        degrees: q comes in radians, and is used as degrees => the pose at 180 / pi
-          times q
-        first-angle-for-all: every joint is given the first angle, q[0]: the index never
-          moves on => the pose with q[0] everywhere
-        q-backwards: q is read backwards: joint1 gets the last angle => the pose with q
-          backwards
-        last-joint-missing: the last joint does not count: the loop ends one too early
-          => the product without it
-        first-joint-missing: the first joint does not count: the loop starts one too
-          late => the product without it
-        first-joint-only: only the first joint counts (does return stand inside the
-          loop?) => the product with joint1 alone
-        last-joint-only: only the last joint counts: what the others do is overwritten
-          => the product with joint7 alone
         """
-        joint = np.arange(1, len(q) + 1)
         used = {
-            "joints-left-out": 0.0 * q,
-            "all-backwards": -q,
-            "sign-of-q-lost": np.abs(q),
             "negative-angles-left-out": np.maximum(q, 0.0),
             "angles-added-up": np.cumsum(q),
-            "radians-taken-for-degrees": np.deg2rad(q),
-            "degrees": np.rad2deg(q),
-            "first-angle-for-all": np.full_like(q, q[0]),
-            "q-backwards": q[::-1],
-            "last-joint-missing": q * (joint < len(q)),
-            "first-joint-missing": q * (joint > 1),
-            "first-joint-only": q * (joint == 1),
-            "last-joint-only": q * (joint == len(q)),
         }
         return {slug: partial(form, screws, M, x) for slug, x in used.items()}
 
-    for by in (1, -1):
-        row.wrong(
-            "off-by-one-joint",
-            "each joint is given its neighbour's angle: q is indexed one off",
-            "the pose with q shifted by one",
-        )(lambda screws, M, q, by=by: form(screws, M, np.roll(q, by)))
+    row.of_argument("q", *OF_ALL_JOINTS)
 
 
 def _in_M(row, form):
-    @row.wrongs
+    @row.wrongs(hidden={"M-turned-back": "the Panda's M is symmetric"})
     def _(screws, M, q):
         """M-forgotten: M is missing: the motions are right, but they have to act on
           where the hand is at q = 0 => the product without M
@@ -169,16 +132,13 @@ def _in_M(row, form):
         M-twice: M is there twice, side by side => the product with M M for M
         M-rotation-missing: M's rotation is missing; only its translation is there =>
           the product without it
+        M-turned-back: M's rotation is transposed => the product with that M
         """
         used = {
             "M-forgotten": np.eye(4),
             "M-inverted": se3.inverse(M),
             "M-twice": M @ M,
             "M-rotation-missing": se3.make_T(np.eye(3), M[:3, 3]),
+            "M-turned-back": se3.make_T(M[:3, :3].T, M[:3, 3]),
         }
         return {slug: partial(form, screws, x, q) for slug, x in used.items()}
-
-    @row.wrong(hidden="the Panda's M is symmetric")
-    def M_turned_back(screws, M, q):
-        """M's rotation is transposed => the product with that M"""
-        return form(screws, se3.make_T(M[:3, :3].T, M[:3, 3]), q)

@@ -112,7 +112,11 @@ def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
     data.qpos[3:7] = np.sqrt([0.5, 0.5, 0.0, 0.0])  # rolled by a quarter turn
     mujoco.mj_forward(model, data)
     assert_same(data.cvel[1, :3], screws.exp_rotation([1, 0, 0], np.pi / 2) @ omega)
-    assert "its omega is in the *body's* axes" in GUIDE
+    assert r"its $\omega$ is in the *body's* axes" in GUIDE
+    says = (
+        "Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`"
+    )
+    assert says in screws.__doc__
 
 
 @pytest.mark.parametrize("mass_at", [0.0, 0.5])
@@ -149,6 +153,18 @@ def test_a_screw_with_a_pitch_moves_along_its_axis(pitch):
     T = lab.exp_screw(S, 2 * np.pi)
     assert_same(T[:3, 3], 2 * np.pi * pitch * omega, 1e-12)
     assert r"moves along the axis by $2 \pi h$" in GUIDE
+
+
+def test_at_zero_a_row_for_a_column_is_the_same_for_four_links(arm, either_panda):
+    q = np.vstack([np.zeros(7), arm[2][2:]])
+    poses = verify.mujoco_poses(either_panda, q)
+    R = np.array([poses[link][:, :3, :3] for link in lab.LINKS])
+    same = np.isclose(R[:, :, 2], R[..., 2], atol=1e-9).all(axis=-1)
+    symmetric = np.isclose(R, np.swapaxes(R, 2, 3), atol=1e-9).all(axis=(2, 3))
+    assert (same[:, 0] == symmetric[:, 0]).all()
+    assert same[:, 0].sum() == 4
+    assert not same[1:, 1:].any()  # link1 turns about the vertical alone
+    assert "There R is symmetric for four of the seven links" in GUIDE
 
 
 def test_the_cube_of_a_bracket_is_its_negative_for_length_1_only():
@@ -225,6 +241,21 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
     assert np.linalg.matrix_rank(S) == 5
     assert_same(S[:, 0], np.zeros(7), 0.0)
     assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
+
+
+def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
+    need(importlib.util.find_spec("PIL") is not None, "PIL: make figures")
+    monkeypatch.syspath_prepend(str(DAY.source.parent))
+    figures, words = folder.load(DAY, "figures"), set()
+    write = lambda layer, at, text, *rest: words.add(text)  # noqa: E731
+    name = lambda layer, text, *rest: words.add(text)  # noqa: E731
+    monkeypatch.setattr(figures.Layer, "text", write)
+    monkeypatch.setattr(figures.Layer, "label", name)
+    monkeypatch.setattr(figures.client, "draw", lambda scene: np.zeros((9, 9, 3), "u1"))
+    monkeypatch.setattr(figures.Layer, "over", lambda layer, picture: picture)
+    figures.screws()
+    lengths = {"0.333", "0.316", "0.384", "0.0825", "0.088"}
+    assert words == {*(f"S{i}" for i in range(1, 8)), *lengths, "x", "y"}
 
 
 # --- where in the product it is wrong ---

@@ -3,12 +3,14 @@
 import numpy as np
 
 from labkit.judge import Vector, draw
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.row import Row
 from robo47.jacobian import site_jacobian
 
 from .jacobians import JOINTS
 
 row = Row(Vector((7,), "N m", names=JOINTS))
+row.of_argument("F", HALVES_SWAPPED)
 
 
 @row.inputs
@@ -30,8 +32,6 @@ def _(J_space, p, F):
       pushes, so the power of the motors is that of F => its negative
     pseudo-inverse: this is J^+ F, which is good for velocities: the motors' power is
       then not the hand's. Write both powers down => J^+ F
-    halves-swapped: the force is taken for the moment, and the moment for the force: F
-      is (moment; force), as J is (omega; v) => the torques with F's halves swapped
     moment-forgotten: the moment is left out: its power is moment . omega => the torques
       of the force alone
     force-forgotten: the force is left out: its power is force . v => the torques of the
@@ -46,7 +46,6 @@ def _(J_space, p, F):
         "at-the-origin": J_space.T @ F,
         "what-balances-it": -J.T @ F,
         "pseudo-inverse": np.linalg.pinv(J) @ F,
-        "halves-swapped": J.T @ np.append(force, moment),
         "moment-forgotten": J[3:].T @ force,
         "force-forgotten": J[:3].T @ moment,
         "arm-the-wrong-way": site_jacobian(J_space, -p).T @ F,

@@ -133,12 +133,15 @@ def _(R):
     }
 
 
-@row.wrongs
+@row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
     """textbook-formula: this is the formula of most books, theta / (2 sin theta) times
       R - R^T: no turn is 0 / 0 in it, and near pi it divides noise by nearly 0 => that
       formula, with its NaN,
     nan-at-0: NaN comes back where R is the identity: there it is divided by a sine of 0
+      => the right one with NaN there
+    arccosine-beyond-1: NaN comes back where rounding makes (trace - 1) / 2 a bit more
+      than 1, or less than -1: the arccosine has no answer there. atan2 always has one
       => the right one with NaN there
     """
     angle = np.arccos(cosine(R))
@@ -146,6 +149,7 @@ def _(R):
     return {
         "textbook-formula": angle / (2 * np.sin(angle)) * vee(R),
         "nan-at-0": np.full(3, np.nan) if no_turn else log_rotation(R),
+        "arccosine-beyond-1": axis(R) * angle,
     }
 
 
@@ -163,14 +167,6 @@ for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", 
         f"column {k}, with its NaN,",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
-
-
-@row.wrong(hidden="its identity is exact")
-def arccosine_beyond_1(R):
-    """NaN comes back where rounding makes (trace - 1) / 2 a bit more than 1, or less
-    than -1: the arccosine has no answer there. atan2 always has one => the right one
-    with NaN there"""
-    return axis(R) * np.arccos(cosine(R))
 
 
 # Right but for some angles: `angles` says which.

@@ -5,6 +5,7 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import Jacobian, draw
+from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, RADIANS_TWICE
 from labkit.judge.row import Row
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
@@ -71,11 +72,6 @@ def _(screws, q):
       carry it => the Jacobian with the product of the joints after each
     adjoint-of-the-inverse: the screws are carried the other way: this is Ad of the
       inverse => the Jacobian with the inverse
-    all-backwards: every joint turns the other way, by -q => the Jacobian at -q
-    degrees: q comes in radians, and is used as degrees => the Jacobian at 180 / pi
-      times q
-    radians-taken-for-degrees: q is in radians already, and is converted from degrees
-      once more => the Jacobian at pi / 180 times q
     columns-reversed: the columns are in the reverse order: joint 1's comes first => the
       right one with its columns reversed
     """
@@ -92,13 +88,10 @@ def _(screws, q):
         "adjoint-of-the-inverse": np.linalg.inv(moved),
     }
     found = {slug: carried(screws, some) for slug, some in motions.items()}
-    return {
-        **found,
-        "all-backwards": lambda: space_jacobian(screws, -q),
-        "degrees": lambda: space_jacobian(screws, np.rad2deg(q)),
-        "radians-taken-for-degrees": lambda: space_jacobian(screws, np.deg2rad(q)),
-        "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1],
-    }
+    return {**found, "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1]}
+
+
+row.of_argument("q", BACKWARDS, DEGREES, RADIANS_TWICE)
 
 
 @row.wrongs

@@ -116,6 +116,20 @@ def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, named):
     assert abs(found - said) <= 4  # BLAS may decide some
 
 
+def test_it_is_the_joint_limits_that_most_walks_from_ready_end_at():
+    (S, M, limits), start = ARM, np.tile(panda.READY_Q, (300, 1))
+    drawn = verify.random_q(panda.load("panda_nohand"), 300, 47)
+    goals, missed = screws.fk_space(S, M, drawn), []
+    for ends in (limits, np.tile([-9.0, 9.0], (7, 1))):
+        q = LOOP.walk(S, M, goals, start, ends)
+        fails = ~jacobian.reached(S, M, goals, q)
+        missed.append(fails.sum())
+        at_an_end = (q[fails, :, None] == ends).any(axis=(1, 2))
+        assert (at_an_end.mean() > 0.8) == (ends is limits)
+    said = re.search(r"misses (\d+) from ready, and (\d+) if the joints", GUIDE)
+    assert np.abs(np.subtract(missed, [int(n) for n in said.groups()])).max() <= 4
+
+
 def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
     (S, M, limits), start = ARM, targets[1][:12]
     middle = limits.mean(axis=1)

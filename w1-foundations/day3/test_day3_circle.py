@@ -65,6 +65,13 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
         free = out_of_reach(radius, np.tile([-9.0, 9.0], (7, 1)))
         assert (free > 1e-3).sum() == (best > 1e-3).sum() == 33
         assert f"miss it by {best.max():.2f} mm" in GUIDE
+        path, q = circle(radius)
+        late = best.argmax() - path[:, 2, 3].argmax()
+        worst = path[best.argmax()]
+        there = screws.fk_space(*ARM[:2], jacobian.solve_ik(*ARM[:2], worst, q, ARM[2]))
+        tilt = np.degrees(np.linalg.norm(jacobian.pose_error(there, worst)[:3]))
+        says = f"is {late * lab.DT:.1f} s after the top, and there the tool tilts by"
+        assert f"{says} {tilt:.1f} degrees" in GUIDE
     assert "(0.366 is in reach, 0.368 is not)" in GUIDE
 
 
@@ -92,6 +99,12 @@ def test_where_the_arm_can_go_the_plain_pseudo_inverse_is_the_better_one(radius)
         assert rate.max() < 0.6
         says = f"{plain.max():.1f} mm off the smaller circle ({damped.max():.1f} with"
         assert says in GUIDE
+
+
+@pytest.mark.parametrize(("share", "grows"), [(0.9, False), (1.1, True)])
+def test_over_2_in_a_step_the_correction_of_an_error_grows(monkeypatch, share, grows):
+    monkeypatch.setattr(lab, "GAIN", share * 2.0 / lab.DT)
+    assert (drawn(lab.EASY, lab.DAMPING)[1].max() > 2.0) == grows
 
 
 @pytest.mark.kit

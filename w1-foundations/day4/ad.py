@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.row import Row
 from robo47 import screws
 from robo47.screws import adjoint, exp_screw, skew
@@ -10,6 +11,7 @@ from robo47.screws import adjoint, exp_screw, skew
 from .states import SIX
 
 row = Row(SIX, truth=screws.ad)
+row.of_argument("V", HALVES_SWAPPED)
 NONE = np.zeros((3, 3))
 
 
@@ -23,8 +25,6 @@ def _(rng):
 def _(V):
     """v-on-top: [v] stands in the upper right; an angular velocity does not change with
       v, so that block is 0 => the matrix with [v] up there
-    halves-swapped: V is read as (v; omega); omega comes first => the matrix of (v;
-      omega)
     v-forgotten: [v] is missing: this turns both halves, and does no more => the matrix
       without [v]
     second-omega-forgotten: the lower right block is empty; a linear velocity is turned,
@@ -45,7 +45,6 @@ def _(V):
     W, U, ONE = skew(V[:3]), skew(V[3:]), np.eye(3)
     blocks = {
         "v-on-top": [[W, U], [NONE, W]],
-        "halves-swapped": [[U, NONE], [W, U]],
         "v-forgotten": [[W, NONE], [NONE, W]],
         "second-omega-forgotten": [[W, NONE], [U, NONE]],
         "v-sign": [[W, NONE], [-U, W]],

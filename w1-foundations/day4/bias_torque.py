@@ -21,28 +21,21 @@ def _(rng):
 
 
 # What that one says of its inside, said of the call: it is right when this is judged.
-@row.wrongs
+@row.wrongs(redone="the torque so")
 def _(J, G, qd, g):
     """base-acceleration-sign: gravity has the wrong sign, as if g were given as -g;
-      inverse_dynamics wants g as it is => the torque so
+      inverse_dynamics wants g as it is
     gravity-forgotten: gravity is missing, as if g were given as 0; it is part of the
-      bias => the torque so
-    gravity-twice: gravity counts twice; inverse_dynamics has it already => the torque
-      so
-    gravity-only: qd is not used: Coriolis and centrifugal forces are missing => the
-      torque so
-    coriolis-twice: Coriolis and centrifugal forces count twice; gravity is right => the
-      torque so
+      bias
+    gravity-twice: gravity counts twice; inverse_dynamics has it already
+    gravity-only: qd is not used: Coriolis and centrifugal forces are missing
+    coriolis-twice: Coriolis and centrifugal forces count twice; gravity is right
     coriolis-half: only half of the Coriolis and centrifugal forces is there; gravity is
-      right => the torque so
-    speed-for-acceleration: qd is given as the acceleration, too; that has to be 0 =>
-      the torque so
+      right
+    speed-for-acceleration: qd is given as the acceleration, too; that has to be 0
     speed-in-place-of-acceleration: qd is given as the acceleration, and 0 as the speed
-      => the torque so
-    acceleration-of-one: the acceleration is 1 for every joint; it has to be 0 => the
-      torque so
+    acceleration-of-one: the acceleration is 1 for every joint; it has to be 0
     damping-added: the damping's 1.0 qd is in it; MuJoCo keeps it apart, and so does 4.8
-      => the torque so
     """
     given = {
         "base-acceleration-sign": (qd, STILL, -g),

@@ -34,30 +34,22 @@ def _(rng):
         yield now.M, now.bias(v) + w, D, v, t + w
 
 
-@row.wrongs
+@row.wrongs(redone="the acceleration with that torque")
 def _(M, bias, damping, qd, tau):
     """damping-forgotten: the damping is missing: the joints' friction takes damping
-      times qd => the acceleration with that torque
-    damping-sign: the damping drives the joints; it has to brake them => the
-      acceleration with that torque
-    bias-forgotten: the bias is missing: without a torque the arm would not fall => the
-      acceleration with that torque
-    bias-sign: the bias is added; the torque has to overcome it before anything moves =>
-      the acceleration with that torque
-    both-signs: bias and damping are added; both take from the motors' torque => the
-      acceleration with that torque
-    bias-and-damping-forgotten: bias and damping are both missing => the acceleration
-      with that torque
+      times qd
+    damping-sign: the damping drives the joints; it has to brake them
+    bias-forgotten: the bias is missing: without a torque the arm would not fall
+    bias-sign: the bias is added; the torque has to overcome it before anything moves
+    both-signs: bias and damping are added; both take from the motors' torque
+    bias-and-damping-forgotten: bias and damping are both missing
     damping-sign-lost: the speed counts without its sign: on a joint that turns
-      backwards the damping pulls backwards, too; it has to brake it => the acceleration
-      with that torque
-    torque-forgotten: the motors' torque is missing: this is how the arm falls => the
-      acceleration with that torque
+      backwards the damping pulls backwards, too; it has to brake it
+    torque-forgotten: the motors' torque is missing: this is how the arm falls
     damping-without-speed: the damping is taken off as it is; it is a torque only when
-      it is multiplied by qd => the acceleration with that torque
+      it is multiplied by qd
     damping-as-one-number: the product damping @ qd is one number, the sum over all
-      joints; each joint has its own friction, damping * qd => the acceleration with
-      that torque
+      joints; each joint has its own friction, damping * qd
     """
     brake = damping * qd
     torques = {

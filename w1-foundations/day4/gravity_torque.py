@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.row import Row
 from robo47.dynamics import gravity_torque
 from robo47.screws import exp_screw, skew
@@ -47,8 +48,6 @@ def _(J, masses, coms_world, g):
       v + c x omega => the torque with v + c x omega
     v-left-out: the velocity of the centre of mass is v + omega x c; here v is missing
       => the torque with omega x c alone
-    rows-swapped: the rows of J are read as (v; omega); omega comes first => the torque
-      with J's halves swapped
     omega-rows-for-v: the upper half of J is used as the velocity; that is omega => the
       torque with omega for v
     all-mass-at-the-last-centre: all mass sits at the last link's centre; each link has
@@ -66,7 +65,6 @@ def _(J, masses, coms_world, g):
         "velocity-of-the-origin": own(lambda J, c: J[3:]),
         "cross-product-sign": gravity_torque(J, masses, -coms_world, g),
         "v-left-out": own(lambda J, c: -skew(c) @ J[:3]),
-        "rows-swapped": gravity_torque(np.roll(J, 3, axis=0), *given),
         "omega-rows-for-v": own(lambda J, c: J[:3]),
         "all-mass-at-the-last-centre": gravity_torque(J, masses, last, g),
         "signs-lost": abs(tau),
@@ -74,18 +72,14 @@ def _(J, masses, coms_world, g):
     }
 
 
-@row.wrongs
+@row.wrongs(redone="the torque with those joints")
 def _(J, masses, coms_world, g):
     """links-not-cut: every joint holds every link; a joint holds those beyond it only
-      => the torque with those joints
-    own-link-only: each joint holds its own link only; it carries all beyond it, too =>
-      the torque with those joints
+    own-link-only: each joint holds its own link only; it carries all beyond it, too
     own-link-left-out: each joint leaves its own link out and holds those beyond it only
-      => the torque with those joints
-    link-before-too: each joint also holds the link that it stands on => the torque with
-      those joints
+    link-before-too: each joint also holds the link that it stands on
     links-on-the-wrong-side: each joint holds the links between it and the base; they do
-      not move with it => the torque with those joints
+      not move with it
     """
     joint, link = np.arange(7), np.arange(7)[:, None]
     held = {
@@ -111,6 +105,7 @@ def centre_not_weighted(J, masses, coms_world, g):
     return tau
 
 
+row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
 row.of_argument("g", *other_gravity("the torque with that gravity"))
 
 

@@ -51,30 +51,24 @@ def passes(
     return np.array([J[:, i] @ felt(np.array(F), i) for i in range(7)])
 
 
-@row.wrongs
+@row.wrongs(redone="the torque so")
 def _(J, G, qd, qdd, g):
     """base-acceleration-sign: the base accelerates the wrong way: to stand still on the
-      ground feels like a lift that starts upwards, against g => the torque so
-    gravity-forgotten: gravity is missing: the acceleration starts at 0 at the base =>
-      the torque so
+      ground feels like a lift that starts upwards, against g
+    gravity-forgotten: gravity is missing: the acceleration starts at 0 at the base
     gravity-twice: gravity counts twice: it is in A from the base on, so the wrench
-      needs no weight => the torque so
+      needs no weight
     speed-sign-lost: the speeds qd are taken without their signs: which way a joint
-      turns counts when another one turns as well => the torque so
-    speed-and-acceleration-swapped: qd and qdd have changed places => the torque so
-    acceleration-ignored: qdd is not used: this is the bias alone => the torque so
-    speed-ignored: qd is not used: Coriolis and centrifugal forces are missing => the
-      torque so
-    gravity-only: neither qd nor qdd is used: this is the torque that holds the arm =>
-      the torque so
-    negative: the sign is wrong: this is what the arm does to the motors => the torque
-      so
+      turns counts when another one turns as well
+    speed-and-acceleration-swapped: qd and qdd have changed places
+    acceleration-ignored: qdd is not used: this is the bias alone
+    speed-ignored: qd is not used: Coriolis and centrifugal forces are missing
+    gravity-only: neither qd nor qdd is used: this is the torque that holds the arm
+    negative: the sign is wrong: this is what the arm does to the motors
     armature-added: the armature's 0.1 qdd is in it; the task is about the links alone
-      => the torque so
-    damping-added: the damping's 1.0 qd is in it; the task is about the links alone =>
-      the torque so
+    damping-added: the damping's 1.0 qd is in it; the task is about the links alone
     armature-and-damping-added: armature and damping are in it, 0.1 qdd and 1.0 qd; the
-      task is about the links alone => the torque so
+      task is about the links alone
     """
     given = {
         "base-acceleration-sign": (qd, qdd, -g),
@@ -102,48 +96,45 @@ def walked(J, G, qd, qdd, g, others):
     return {slug: partial(own, **{"base": lift(g), **x}) for slug, x in others.items()}
 
 
-@row.wrongs
+@row.wrongs(redone="the torque so")
 def _(J, G, qd, qdd, g):
     """bracket-forgotten: the acceleration lacks ad(V) S qd: a joint that is carried
-      round changes its direction => the torque so
-    bracket-sign: in the acceleration ad(V) S qd has the wrong sign => the torque so
+      round changes its direction
+    bracket-sign: in the acceleration ad(V) S qd has the wrong sign
     bracket-twice: in the acceleration ad(V) S qd stands twice; it needs no 2, since the
-      force brings the other half of Coriolis => the torque so
+      force brings the other half of Coriolis
     bracket-without-speed: the acceleration has ad(V) S without qd: a joint at rest
-      would change it, too => the torque so
+      would change it, too
     speed-squared: the acceleration has ad(V) S qd^2; one of the two speeds is in V
-      already => the torque so
+      already
     bracket-not-transposed: the force has ad instead of its transpose: a wrench changes
-      the other way from a twist => the torque so
+      the other way from a twist
     velocity-product-sign: the velocity product, ad(V)^T G V, is added to the force; it
-      is taken off => the torque so
+      is taken off
     acceleration-in-the-velocity-product: the velocity product has G A; what the motion
-      of the link changes is its momentum, G V => the torque so
+      of the link changes is its momentum, G V
     velocity-product-forgotten: the force is G A alone: that the inertia itself moves is
-      missing => the torque so
+      missing
     velocity-of-the-link-before: the force uses V before the link's own joint has been
-      added => the torque so
+      added
     not-summed-back: each motor feels its own link only; it carries all links beyond it,
-      too => the torque so
+      too
     summed-from-the-base: the forces are summed from the base to the tip; a motor feels
-      what is beyond it, so the sum starts at the tip => the torque so
+      what is beyond it, so the sum starts at the tip
     every-link-for-all: each motor feels all seven links; it carries its own and those
-      beyond it only => the torque so
+      beyond it only
     moment-only: each motor feels the moments about the world's origin alone; where its
       axis does not go through that point, the force counts, too: all six numbers of S
-      => the torque so
-    own-link-left-out: each motor feels the links beyond its own, but not its own => the
-      torque so
+    own-link-left-out: each motor feels the links beyond its own, but not its own
     velocities-not-added: the velocity of a link is that of its own joint alone; the
-      joints before move it, too => the torque so
+      joints before move it, too
     accelerations-not-added: the acceleration of a link is that of its own joint alone;
-      the joints before move it, too => the torque so
+      the joints before move it, too
     nothing-added-outwards: V and A start anew at every link; along the arm they add up
-      => the torque so
     gravity-as-omega: the base's acceleration stands in the angular half; a twist is
-      (omega; v) => the torque so
+      (omega; v)
     gravity-at-every-link: gravity is added at the base and again at every link; the sum
-      carries it from the base to all => the torque so
+      carries it from the base to all
     """
     up = lift(g)
     others = {
@@ -175,14 +166,14 @@ def _(J, G, qd, qdd, g):
     return walked(J, G, qd, qdd, g, others)
 
 
-@row.wrongs
+@row.wrongs(redone="the torque so")
 def _(J, G, qd, qdd, g):
     """bracket-not-transposed: the force has ad instead of minus its transpose: a wrench
-      changes the other way from a twist => the torque so
+      changes the other way from a twist
     gravity-at-every-link: gravity is added again at every link; the sum carries it from
-      the base to all => the torque so
+      the base to all
     accelerations-not-added: A is set anew at every link, so what the joints before
-      gave, and gravity, are lost; it adds up, as V does => the torque so
+      gave, and gravity, are lost; it adds up, as V does
     """
     up = lift(g)
     others = {

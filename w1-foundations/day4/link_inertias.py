@@ -7,6 +7,7 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.kinds import Kind
 from labkit.judge.row import Row
 from robo47.dynamics import link_inertias, spatial_inertia
@@ -98,8 +99,6 @@ def _(T_links, masses, coms, inertias):
       Ad(T)^T
     origin-for-com: the mass sits at the link's origin; it sits at its centre of mass =>
       the answer with p alone
-    first-pose-for-all: every link is taken to be where the first one is => the answer
-      with the first pose seven times
     poses-multiplied: the poses are multiplied along the arm; each T of T_links is seen
       from the world already => the answer with the product of the poses up to each link
     last-link-for-all: all seven are link7's: is one array filled again for every link,
@@ -117,7 +116,6 @@ def _(T_links, masses, coms, inertias):
         "pose-inverted": lambda: placed(np.linalg.inv(T_links)),
         "adjoint-not-inverted": Ad @ own @ np.swapaxes(Ad, 1, 2),
         "origin-for-com": lambda: placed(T_links, 0 * coms),
-        "first-pose-for-all": lambda: placed(T_links[[0] * 7]),
         "poses-multiplied": lambda: placed(list(accumulate(T_links, np.matmul))),
         "last-link-for-all": lambda: placed(T_links)[[6] * 7],
         "already-summed": lambda: np.cumsum(placed(T_links)[::-1], axis=0)[::-1],
@@ -134,4 +132,5 @@ for first, whose in FIRST:
     )(lambda T, *body, first=first: link_inertias([first(T), *T[:-1]], *body))
 
 
+row.of_argument("T_links", FIRST_FOR_ALL.called("first-pose-for-all"))
 row.reached_by("spatial_inertia", "in each link's matrix ")

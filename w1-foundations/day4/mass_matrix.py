@@ -5,12 +5,14 @@ from functools import update_wrapper
 import numpy as np
 
 from labkit.judge import Symmetric, draw
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.row import Row
 from robo47.dynamics import mass_matrix
 
 from .states import hinge, states
 
 row = Row(Symmetric((7, 7), "kg m2"))
+row.of_argument("J", HALVES_SWAPPED)
 
 
 @row.inputs
@@ -52,20 +54,19 @@ def _(J, G, armature):
 
 def cut(J, G, armature):
     """columns-not-cut: every joint moves every link; the joints beyond a link do not
-      move it => M with those columns
+      move it
     own-joint-left-out: a link's own joint is left out: the columns are cut one too
-      early => M with those columns
+      early
     next-joint-too: the joint after each link counts for it: the columns are cut one too
-      late => M with those columns
+      late
     columns-cut-on-the-wrong-side: the joints before a link are cut away; it is they
-      that move it => M with those columns
+      that move it
     own-joint-only: only a link's own joint counts for it; all joints before move it,
-      too => M with those columns
+      too
     J-overwritten: only the first joint counts: the columns are set to 0 in J itself,
-      and are gone for the next link. Work on a copy => M with those columns
-    last-link-left-out: the last link is left out: range(n - 1) ends one too early => M
-      with those columns
-    last-link-only: only the last link has a mass here => M with those columns
+      and are gone for the next link. Work on a copy
+    last-link-left-out: the last link is left out: range(n - 1) ends one too early
+    last-link-only: only the last link has a mass here
     """
     joint, link = np.arange(7), np.arange(7)[:, None]
     counts = {
@@ -81,16 +82,15 @@ def cut(J, G, armature):
     return {slug: links(J, G, one) + np.diag(armature) for slug, one in counts.items()}
 
 
-row.wrongs(cut)
+CUT = "M with those columns"
+row.wrongs(cut, CUT)
 forgotten = update_wrapper(lambda J, G, armature: cut(J, G, 0 * armature), cut)
-row.wrongs(forgotten)  # The armature is, too.
+row.wrongs(forgotten, CUT)  # The armature is, too.
 
 
 @row.wrongs
 def _(J, G, armature):
-    """halves-swapped: J and G do not have the same order: omega comes first in both =>
-      M with the halves of G swapped
-    corners-swapped: the corners of G count with the wrong sign. M is symmetric and
+    """corners-swapped: the corners of G count with the wrong sign. M is symmetric and
       positive definite all the same => M with those signs
     corners-dropped: turning and moving are added up separately: what ties them, the
       corners of G, is missing => M without the corners of G
@@ -102,7 +102,6 @@ def _(J, G, armature):
     flip = np.diag([1, 1, 1, -1, -1, -1])
     upper = np.array([1, 1, 1, 0, 0, 0])[:, None]
     given = {
-        "halves-swapped": (np.roll(J, 3, axis=0), G),
         "corners-swapped": (J, flip @ G @ flip),
         "corners-dropped": (J, G * np.kron(np.eye(2), np.ones((3, 3)))),
         "angular-half-only": (upper * J, G),

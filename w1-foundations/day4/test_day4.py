@@ -119,6 +119,24 @@ def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
     assert moved(1.0, 5.0) < 1e-12  # "less than a picometre"
 
 
+@pytest.mark.parametrize(("newtons", "hits"), [(10.0, False), (50.0, True)])
+def test_50_n_drive_the_arm_into_its_limits_and_10_do_not(arm, model, newtons, hits):
+    law = lambda t, q, qd: arm.at(q).gravity_torque  # noqa: E731
+    push = simulate.push_at("attachment_site", [0, 0, 0, 0, newtons, 0])
+    data = simulate.start(model, panda.READY_Q)
+    runs = [simulate.run(model, data, law, seconds, rate=lab.RATE, push=given)
+            for seconds, given in ((0.5, push), (4.5, None))]  # fmt: skip
+    assert (verify.beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
+
+
+def test_without_torque_a_joint_is_at_its_limit_after_a_quarter_of_a_second(model):
+    data = simulate.start(model, panda.READY_Q)
+    while verify.beyond(model.jnt_range, data.qpos[None]) <= 0:
+        mujoco.mj_step(model, data)
+    assert data.time == pytest.approx(0.25, abs=0.01)
+    assert "at a joint limit after a quarter of a second" in SENTENCES
+
+
 def test_the_arm_glides_when_it_is_pushed(arm, model):
     calm = 0 * lab.PUSH
     path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, calm))
@@ -187,6 +205,31 @@ def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_EULERDAMP
     assert off(0.0) < 1e-12  # it brakes with the velocity at the start
     assert off(h) > 1e-3
+
+
+def test_the_inverse_of_M_fits_the_equation_less_well(arm, model):
+    left, rng = np.zeros(2), np.random.default_rng(1)
+    for q in verify.random_q(model, 300, seed=3):
+        M, tau = arm.at(q).M, rng.uniform(-50, 50, 7)
+        for i, qdd in enumerate((np.linalg.solve(M, tau), np.linalg.inv(M) @ tau)):
+            left[i] += np.abs(M.astype(np.longdouble) @ qdd - tau).max()
+    assert left[1] > 1.2 * left[0]  # measured 1.5
+    assert "fits the equation less well" in SENTENCES
+
+
+def test_rk4_asks_four_times_a_step(model):
+    asked = []
+    mujoco.set_mjcb_passive(lambda model, data: asked.append(1))
+    try:
+        for name, times in (("IMPLICITFAST", 1), ("RK4", 4)):
+            model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{name}")
+            mujoco.mj_step(model, mujoco.MjData(model), 10)
+            assert len(asked) == 10 * times
+            asked.clear()
+    finally:
+        mujoco.set_mjcb_passive(None)
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert "costs four times as much" in SENTENCES
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.row import Row
 
 from .joints import ANGLE, ONE, one_gain, seven, wrapped
@@ -16,6 +17,7 @@ def sags_of_one_gain(rng):
 
 
 row = Row(ANGLE, held_out=[one_gain(sags_of_one_gain, "kp is", "KP is")])
+row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
 
 
 @row.inputs
@@ -46,7 +48,6 @@ def _(q_goal, g_at_q, kp):
     goal-scaled-too: the goal is divided by the stiffness as well
     always-below: gravity's sign is lost: where g is negative, the joint rests above its
       goal
-    one-gain-for-all: all joints get the first joint's stiffness; each has its own here
     stiffness-squared: gravity's torque is divided by kp twice: compare the units
     answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
       whole turn is not the same as none, and joint6 goes beyond pi
@@ -61,7 +62,6 @@ def _(q_goal, g_at_q, kp):
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),
         "goal-scaled-too": (q_goal - g_at_q) / kp,
         "always-below": q_goal - np.abs(g_at_q) / kp,
-        "one-gain-for-all": lambda: q_goal - g_at_q / kp[0],
         "stiffness-squared": q_goal - g_at_q / kp**2,
         "answer-wrapped": wrapped(q_goal - g_at_q / kp),
     }

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.row import Row
 
 from .joints import ONE, TORQUE, seven
@@ -10,6 +11,7 @@ from .joints import ONE, TORQUE, seven
 PANDA = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
 
 row = Row(TORQUE)
+row.of_argument("limits", FIRST_FOR_ALL.called("one-limit-for-all"))
 
 
 @row.inputs
@@ -32,8 +34,6 @@ def _(tau, limits):
     sign-lost: a torque at its limit loses its sign
     limits-typed-in: the Panda's 87 and 12 N m are typed in; take them from limits,
       another arm has others
-    one-limit-for-all: all joints get the first motor's limit; the small ones give
-      12 N m
     smallest-limit-for-all: all joints get the smallest limit; each motor has its own
     all-scaled-down: one motor at its limit scales all seven down; the others can still
       give what they are asked for
@@ -48,7 +48,6 @@ def _(tau, limits):
         "never-negative": np.clip(tau, 0.0, limits),
         "sign-lost": np.where(np.abs(tau) > limits, limits, tau),
         "limits-typed-in": np.clip(tau, -PANDA, PANDA),
-        "one-limit-for-all": np.clip(tau, -limits[0], limits[0]),
         "smallest-limit-for-all": np.clip(tau, -limits.min(), limits.min()),
         "all-scaled-down": tau / max(1.0, np.max(np.abs(tau) / limits)),
         "length-bounded": tau * np.minimum(1.0, limits / length),

@@ -3,11 +3,13 @@
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.row import Row
 
 from .joints import ANGLE, ONE, seven
 
 row = Row(ANGLE)
+row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
 
 
 @row.inputs
@@ -33,7 +35,6 @@ def _(tau, q, qd, kp, kd):
     torque-of-the-command: this is the servo's torque if tau were its command, not the
       other way round
     gains-swapped: kp and kd are swapped
-    one-gain-for-all: all joints get the first servo's kp; each has its own
     angle-subtracted: q is subtracted; the command is that far from q, so add it
     stiffness-forgotten: a torque is added to an angle; kp turns one into the other
     """
@@ -46,7 +47,6 @@ def _(tau, q, qd, kp, kd):
         "times-stiffness": q + (tau + kd * qd) * kp,
         "torque-of-the-command": kp * (tau - q) - kd * qd,
         "gains-swapped": q + (tau + kp * qd) / kd,
-        "one-gain-for-all": q + (tau + kd * qd) / kp[0],
         "angle-subtracted": (tau + kd * qd) / kp - q,
         "stiffness-forgotten": q + tau + kd * qd,
     }

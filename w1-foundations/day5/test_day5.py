@@ -163,8 +163,8 @@ def without(part):
         ("springs", 8.7, "without the springs | 8.7"),
         ("Coriolis", 3.1, "without the Coriolis part of bias | 3.1"),
         ("qdd_ref", 7.1, "without qdd_ref | 7.1"),
-        ("damping", 21.7, "without damping qd | 21.7"),
-        ("zeta", 0.15, "kd = omega, so zeta = 0.5 | 0.15"),
+        ("damping", 21.7, r"without damping $d \dot q$ | 21.7"),
+        ("zeta", 0.15, r"$k_d = \omega$, so $\zeta$ = 0.5 | 0.15"),
     ],
 )
 def test_what_each_part_of_the_model_is_worth(bench, part, mrad, row):
@@ -203,7 +203,7 @@ def test_a_model_without_armature_is_off_by_a_quarter_of_a_radian(bench):
 def test_soft_springs_show_what_is_missing(bench):
     law = lambda *args: without("damping")(*args, omega=5.0)  # noqa: E731
     assert swing(bench, law) == pytest.approx(186, abs=1.0)
-    assert "at omega = 5 the row without damping is 186 mrad" in GUIDE
+    assert r"at $\omega$ = 5 the row without damping is 186 mrad" in GUIDE
 
 
 @pytest.mark.kit
@@ -216,6 +216,17 @@ def test_rates_gains_and_integrators_of_the_guides_table(bench):
     ]
     said = ", ".join(f"{mrad:.2f}" for mrad in tracked)
     assert f"5, 10, 20, 40, 100 track within {said} mrad" in GUIDE
+    for rate, missed in ((250, False), (100, True)):
+        curves = {z: decay(bench, lab.equal_springs(10.0, z), 1.0, rate)
+                  for z in (0.5, 1.0, 2.0)}  # fmt: skip
+        off = [np.abs(e.T - lab.error_response(t, 10.0, z)).max()
+               for z, (t, e) in curves.items()]  # fmt: skip
+        assert (max(off) > 0.02) == missed  # the limit of error_dynamics
+    for rate, rests in ((100, True), (50, False)):
+        log = lab.run(
+            *bench, lab.springs, references.hold(lab.READY_Q), 6.0, rate=float(rate)
+        )
+        assert (np.ptp(log.q[-rate:], axis=0).max() < 1e-9) == rests
     assert round(tracked[0] / tracked[2]) == 7
     assert "5 tracks 7 times worse" in (ROOT / SCRIPT).read_text("utf-8")
     model = loops.motors()

@@ -3,11 +3,13 @@
 import numpy as np
 
 from labkit.judge import draw
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.row import Row
 
-from .states import J_CASE, SWAP, TORQUE, model, some, states
+from .states import J_CASE, TORQUE, model, some, states
 
 row = Row(TORQUE)
+row.of_argument("wrench", HALVES_SWAPPED)
 
 
 @row.inputs
@@ -53,8 +55,6 @@ def _(J, wrench, bias, damping, qd, tau_null):
       without tau_null
     null-sign: tau_null is taken away; it is a torque to add => the right one with
       -tau_null
-    halves-swapped: the wrench is read as (force; moment); the moment comes first => the
-      right one with its halves swapped
     """
     push, rub = J.T @ wrench, damping * qd
     rest = bias + rub + tau_null
@@ -71,7 +71,6 @@ def _(J, wrench, bias, damping, qd, tau_null):
         "pinv-for-transpose": np.linalg.pinv(J) @ wrench + rest,
         "null-forgotten": push + bias + rub,
         "null-sign": push + bias + rub - tau_null,
-        "halves-swapped": J.T @ wrench[SWAP] + rest,
     }
 
 

@@ -2,11 +2,13 @@
 
 import numpy as np
 
+from labkit.judge.argument_mistakes import TRANSPOSED
 from labkit.judge.row import Row
 
 from .states import WRENCH, springs
 
 row = Row(WRENCH)
+row.of_argument("D", TRANSPOSED.called("D-transposed"))
 
 
 row.inputs(springs)
@@ -24,8 +26,6 @@ def _(e, V_err, K, D):
     spring-and-damper-swapped: K and D have changed places => D e + K V_err
     diagonal-of-D: only the diagonal of D is used; the six directions are coupled => the
       right one with D's diagonal
-    D-transposed: D is taken from the wrong side, as V_err @ D: its rows belong to the
-      wrench => K e + D^T V_err
     halves-swapped: the halves of the answer are (force; moment); the moment comes first
       => the right one with its halves swapped
     millimetres: the error is put into millimetres; here everything is in metres => the
@@ -42,7 +42,6 @@ def _(e, V_err, K, D):
         "spring-forgotten": D @ V_err,
         "spring-and-damper-swapped": D @ e + K @ V_err,
         "diagonal-of-D": K @ e + np.diag(D) * V_err,
-        "D-transposed": K @ e + V_err @ D,
         "halves-swapped": np.roll(K @ e + D @ V_err, 3),
         "millimetres": K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err,
         "half-a-spring": 0.5 * K @ e + D @ V_err,

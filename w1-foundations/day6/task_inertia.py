@@ -3,12 +3,13 @@
 import numpy as np
 
 from labkit.judge import HeldOut, Symmetric
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from labkit.judge.row import Row
 from robo47.checks import Array
 
-from .states import J_CASE, M_CASE, SWAP, model, states
+from .states import J_CASE, M_CASE, model, states
 
 
 def damped(case: Case) -> Finding | None:
@@ -32,6 +33,7 @@ NEARLY_SINGULAR = HeldOut(
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
 row = Row(Symmetric((6, 6)), unnamed=damped, held_out=[NEARLY_SINGULAR])
+row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
 
 
 @row.inputs
@@ -61,8 +63,6 @@ def _(J, M):
     armature-left-out: the armature is taken out of M; the rotors turn with the joints,
       so somebody who pushes the hand feels them => Lambda of M - 0.1 I
     armature-twice: the armature is added to M; M has it already => Lambda of M + 0.1 I
-    rows-swapped: the rows of J are put in the order (v; omega); here the angular three
-      come first, in J as in every wrench => Lambda of J with its halves swapped
     diagonal-of-M: only the diagonal of M is used; the joints pull at each other =>
       Lambda of M's diagonal
     diagonal-inverted: only the diagonal of J M^-1 J^T is inverted; the six directions
@@ -81,7 +81,6 @@ def _(J, M):
         "M-left-out": np.linalg.inv(J @ J.T),
         "armature-left-out": inertia(J, M - ARMATURE * np.eye(7)),
         "armature-twice": inertia(J, M + ARMATURE * np.eye(7)),
-        "rows-swapped": inertia(J[SWAP], M),
         "diagonal-of-M": inertia(J, np.diag(np.diag(M))),
         "diagonal-inverted": np.diag(1.0 / np.diag(A)),
         "entries-inverted": 1.0 / A,

@@ -1,6 +1,7 @@
 """Day 6 at the table: how hard the soft arm and the stiff one press, and why."""
 
 import re
+from unittest.mock import patch
 
 import mujoco
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script
-from robo47 import contact, panda, scenes, screws, simulate
+from robo47 import contact, panda, scenes, screws, simulate, task_space
 
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
 SENTENCES = " ".join(GUIDE.split())
@@ -172,6 +173,29 @@ def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness():
     assert f"sinks {1e6 * sinks:.0f} µm into the table" in SENTENCES
     assert f"at 400 N/m is {400 * sinks:.3f} N" in SENTENCES
     assert f"only {5 * less:.3f} percent are missing" in SENTENCES
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("mu", [1.0, 0.5, 0.0])
+def test_a_wiping_tip_stays_behind_by_what_friction_takes_of_the_spring(mu):
+    model = scenes.press_table()
+    model.geom_friction[:, 0] = mu
+    if not mu:
+        model.geom_condim[:] = 1
+    arm, q = panda.arm(model), contact.above_table(model, 0.0)
+    goal = arm.at(q).T_world_ee[0, 3] + 0.1
+
+    def spring(e, V_err, K, D):
+        far = goal - 0.05 * max(2.0 - simulated.time, 0.0)  # 50 mm/s, then it waits
+        e[3] = far - arm.at(simulated.qpos[:7]).T_world_ee[0, 3]
+        return task_space.hybrid_wrench(e, V_err, K, D, 20.0)
+
+    simulated = simulate.start(model, q)
+    with patch.object(lab, "spring_wrench", spring):
+        run = simulate.run(model, simulated, lab.soft_hand(arm, q), 4.0)
+    behind = goal - arm.at(run.q[-1]).T_world_ee[0, 3]
+    assert behind == pytest.approx(mu * 20.0 / 400.0, abs=2e-3)  # it creeps
+    assert "stays 50 mm behind its target" in SENTENCES
 
 
 def test_every_mass_sinks_in_by_the_same_amount():

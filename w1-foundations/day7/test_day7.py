@@ -16,7 +16,7 @@ from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
-from robo47 import capstone, jacobian, panda, scenes, se3, simulate, trajectory
+from robo47 import capstone, jacobian, panda, scenes, screws, se3, simulate, trajectory
 from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
@@ -126,6 +126,19 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
     assert four / one == pytest.approx(4.0)
     one, four = (lab.quintic_duration(dq, free, np.full(7, a)) for a in (4.0, 1.0))
     assert four / one == pytest.approx(2.0)
+    arm = panda.arm(panda.load("panda_nohand", drive="torque"))
+
+    def hardest(T):
+        """Return the largest torque of the move of step 2, N m, without friction."""
+        move = (lab.joint_move(lab.READY_Q, lab.GOAL_Q, x * T, T)
+                for x in np.linspace(0.0, 1.0, 50))  # fmt: skip
+        tau = [arm.at(q).M @ qdd + arm.at(q).bias(qd) for q, qd, qdd in move]
+        return np.abs(tau).max()
+
+    one, ten, thousand = hardest(0.5), hardest(5.0), hardest(500.0)
+    assert one > 1.5 * ten
+    assert ten == pytest.approx(thousand, rel=0.02)  # what gravity takes
+    assert says("A torque limit is neither: gravity does not shrink at all")
 
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
@@ -185,6 +198,41 @@ def test_step_7s_sentences():
     assert (lab.A_MAX / DQ).argmin() == alone.argmax() == 1
     assert says("joint7 sets its speed and joint2 its acceleration")
     assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
+
+
+def test_half_as_stiff_the_arm_is_twice_as_far_off():
+    quintic, move = lab.profiles(0.995)["quintic"], (lab.READY_Q, lab.GOAL_Q)
+    off = [moves.follow(*quintic, *move, omega, lab.RATE)[0]
+           for omega in (lab.OMEGA, lab.OMEGA / 2)]  # fmt: skip
+    assert off[1] / off[0] == pytest.approx(2.0, abs=0.15)
+    assert "with 10 the errors are twice as large" in (ROOT / SCRIPT).read_text("utf-8")
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(("rate", "falls"), [(20.0, False), (12.5, True)])
+def test_below_omega_the_controllers_rate_drops_the_cube(rate, falls):
+    assert capstone.pick(capstone.library(), rate=rate).failed == falls
+    assert "at 20 the arm still picks, at 12.5 the cube falls" in (
+        (ROOT / SCRIPT).read_text("utf-8")
+    )
+
+
+def test_a_short_move_overshoots_without_the_triangle():
+    L, v, a = 0.1, 1.0, 2.0
+    t = np.linspace(0.0, v / a, 100)
+    assert (0.5 * a * t**2).max() > 2 * L  # ramped up to v, whatever L is
+    assert max(lab.trapezoid(x, L, v, a)[0] for x in t) <= L
+
+
+def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
+    T0, T1 = np.eye(4), se3.make_T(se3.Rz(np.radians(120)), [1.0, 0.0, 0.0])
+    S = np.array([0.0, 0.0, 1.0, 0.5 / np.sqrt(3.0), -0.5, 0.0])  # about the middle
+    assert_same(screws.exp_screw(S, np.radians(120)), T1, 1e-12)
+    half = screws.exp_screw(S, np.radians(60))
+    assert_same(half[:3, 3], [0.5, -0.5 / np.sqrt(3.0), 0.0], 1e-12)
+    assert se3.is_pose(half)
+    assert_same(lab.straight_pose(T0, T1, 0.5)[:3, 3], [0.5, 0.0, 0.0], 1e-12)
+    assert says("but its origin runs along an arc")
 
 
 def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate():

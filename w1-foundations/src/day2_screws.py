@@ -189,6 +189,14 @@ def how_far_off(lab: Lab, ways: dict, q: np.ndarray, T_ee: np.ndarray) -> None:
         lab.measured(f"hand off at q = 0 with {what}, mm", zero)
 
 
+def lost_motion(lab: Lab, screws: np.ndarray) -> None:
+    """Print how many independent motions the screws of q = 0 span."""
+    rank = np.linalg.matrix_rank(screws)
+    print(f"  The seven screws have rank {rank}; a hand that can move freely needs 6.")
+    lab.measured("independent motions that the seven screws of q = 0 span", rank)
+    print("  Which motion has it lost there? (Day 3 answers.)")
+
+
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
@@ -245,10 +253,7 @@ def main() -> int:
                config="random", seed=SEED)  # fmt: skip
 
     lab.step("7. Side quest: joint1, joint3 and joint5 are one line at q = 0")
-    rank = np.linalg.matrix_rank(screws)
-    print(f"  The seven screws have rank {rank}; a hand that can move freely needs 6.")
-    lab.measured("independent motions that the seven screws of q = 0 span", rank)
-    print("  Which motion has it lost there? (Day 3 answers.)")
+    lost_motion(lab, screws)
     return lab.finish()
 
 

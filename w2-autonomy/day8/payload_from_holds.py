@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Vector
-from labkit.judge.argument_mistakes import Change
+from labkit.judge.argument_mistakes import TRANSPOSED, Change
 from labkit.judge.row import Row
 from robo47.screws import skew
 
@@ -41,8 +41,6 @@ def _(J_site, R_site, extra, g):
       right one with its halves swapped
     R-forgotten: R is not in it: m c is taken to stand in world axes all along => the
       right one with R = I
-    R-transposed: R is transposed: it takes the hand's axes to the world's => the right
-      one with R^T
     holds-averaged: the holds are averaged before they are solved: seven rows are left
       of all, and what the poses tell apart is gone; stack them => the right one from
       the mean
@@ -53,7 +51,7 @@ def _(J_site, R_site, extra, g):
     centre-for-first-moment: the last three are c; asked for is m c, which is what is
       linear => m, then c
     """
-    Y, back = rows(J_site, R_site, g), np.swapaxes(R_site, 1, 2)
+    Y = rows(J_site, R_site, g)
     left = Y.copy()
     left[..., 1:] = np.swapaxes(J_site[:, :3], 1, 2) @ R_site @ skew(g)
     right = solved(Y, extra)
@@ -62,7 +60,6 @@ def _(J_site, R_site, extra, g):
         "moment-sign": solved(rows(J_site, R_site, g, moment=1.0), extra),
         "force-first": solved(rows(J_site, R_site, g, order=SWAP), extra),
         "R-forgotten": solved(rows(J_site, 0 * R_site + np.eye(3), g), extra),
-        "R-transposed": solved(rows(J_site, back, g), extra),
         "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
         "first-hold-only": solved(Y[0], extra[0]),
         "g-turned-after-the-cross": solved(left, extra),
@@ -77,6 +74,7 @@ TYPED_IN = Change(
     "what is found with that gravity",
 )
 row.of_argument("g", TYPED_IN)
+row.of_argument("R_site", TRANSPOSED.called("R-transposed"))
 
 
 @row.right  # A hold at a time, with cross products; then the normal equations.

@@ -1,5 +1,6 @@
 """Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
 
+import copy
 import importlib.util
 import io
 import re
@@ -78,6 +79,10 @@ def test_what_the_arm_hides(data):
     assert hidden[70:].nonzero()[0].tolist() == [0, 1]  # two rotors, and no friction
     assert [rank(Y[:k].reshape(-1, 91)) for k in (8, 9)] == [56, 62]
     assert "Nine states at random, 63 rows" in SENTENCES
+    tipped = copy.copy(model)  # joint1 upright no more: two of m c show as well
+    tipped.opt.gravity[:] = [1.0, 0.3, -9.7]
+    Y = lab.regressor(panda.arm(tipped), secret.anywhere(tipped, lab.SEED, 20))
+    assert rank(Y.reshape(-1, 91)[:, :70]) == 45
 
 
 def test_one_hinge_feels_three_of_ten():
@@ -207,6 +212,17 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert f"the {crossed[0]:.0f} g, it rises by {crossed[4]:.0f}" in SENTENCES
     assert f"the {one[0]:.1f} g are {one[0] - 500:.1f} g wrong" in SENTENCES
     assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
+    loaded, rest = secret.changed(hung, lab.SEED), np.zeros(7)
+    phi = secret.numbers(panda.arm(robot))[:70]  # no error of a fit to cancel
+
+    def still(now):
+        given = now.J_space, now.T_links, rest, rest, arm.gravity
+        return lab.arm_regressor(*given) @ phi
+
+    for row in (one, both):
+        load = row[0] / 1000 * np.append(1.0, row[1:4] / 1000)
+        row[4] = secret.rises(loaded, arm, still, load)
+    assert abs(both[4]) < 0.3 * abs(one[4])
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
 

@@ -4,5 +4,5 @@ from labkit.judge import Robot, Scalar
 from labkit.judge.row import Row
 
 HAND = Robot("panda")
-row = Row(Scalar(), truth=lambda model: 2.0, near=1e-4, fresh=0)
+row = Row(Scalar(), truth=lambda model: 2.0, near=1e-4)
 row.inputs(lambda rng: [(HAND,)])
