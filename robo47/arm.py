@@ -32,7 +32,7 @@ class Arm:
 
     Attributes:
         screws: of the joints at q = 0, (omega; v) in the world, (n, 6).
-        M_home: `T_world_ee` at q = 0, (4, 4).
+        M_home: `T_world_ee` at q = 0, (4, 4); `tool` moves it.
         T_zero: `T_world_link` of each link at q = 0, (n, 4, 4).
         masses: of the links, kg, (n,).
         coms: centres of mass in the links' own frames, metres, (n, 3).
@@ -53,7 +53,7 @@ class Arm:
     gravity: Array = dataclasses.field(default_factory=lambda: np.array(GRAVITY))
 
     def __post_init__(self) -> None:
-        """Check the shapes."""
+        """Check the shapes, and work out what does not depend on q."""
         n = len(self.screws)
         for name, shape in {
             "screws": (n, 6), "M_home": (4, 4), "T_zero": (n, 4, 4), "masses": (n,),
@@ -87,6 +87,15 @@ class Arm:
         if not math.isfinite(q.dot(q)):
             checks.array(q, "q", q.shape)
         return ArmState(self.constants, q)
+
+    def tool(self, T_ee_tool: ArrayLike) -> "Arm":
+        """Return the same arm with another point at its end.
+
+        Args:
+            T_ee_tool: the new end seen from the present one, (4, 4).
+        """
+        M_home = self.M_home @ checks.pose(T_ee_tool, "T_ee_tool")
+        return dataclasses.replace(self, M_home=M_home)
 
     def carrying(self, mass: float, com: ArrayLike, inertia: ArrayLike) -> "Arm":
         """Return the same arm with a body fixed to its last link: a hand, a load.

@@ -3,7 +3,6 @@
 Four numbers place a link's frame on the one before it: Rx(alpha) Tx(a) Rz(theta)
 Tz(d). Other books put the same four in another order, so a table means nothing
 without its convention; Franka publishes the Panda's in this one. Radians, metres.
-A wrong shape or a number that is not finite is a ValueError.
 
 Sources: Craig, *Introduction to Robotics* (2005), section 3.4; *Modern Robotics*,
 Appendix C.
@@ -29,6 +28,9 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
 
     Returns:
         Pose of this link's frame on the one before it, (..., 4, 4) (Craig, eq. 3.6).
+
+    Raises:
+        ValueError: shapes that do not broadcast, or a non-finite number.
     """
     alpha, a, d, theta = (
         checks.array(value, name, ())
@@ -53,6 +55,9 @@ def dh_fk(table: ArrayLike, q: ArrayLike) -> Array:
 
     Returns:
         T_world_flange, (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     table, q = checks.array(table, "table", ()), checks.array(q, "q", ())
     if q.ndim == 0 or table.shape != (q.shape[-1] + 1, 3):

@@ -8,8 +8,7 @@ Three Jacobians map joint speeds to a twist (omega; v), and their names are kept
 - `J_body`: v is the velocity of the hand's own origin, both in the hand's axes.
 
 Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
-metres, float64; leading dimensions broadcast. A wrong shape, a number that is not
-finite, or what is no screw or pose, is a ValueError, in every function.
+metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.fast.ik` and
 `robo47.rotation_log` hold the rest of what is named here.
@@ -42,6 +41,9 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
 
     Returns:
         J_space, (..., 6, n): no unit above, metres below.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or no screw.
     """
     S, q = checks.screws_and_q(screws, q)
     if S.ndim > 2:
@@ -60,6 +62,9 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
 
     Returns:
         J_site, (..., 6, n): what mj_jacSite says, omega above.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J, p = _jacobian(J_space, "J_space"), checks.array(p, "p", (3,))
     v = J[..., 3:, :] - skew(p) @ J[..., :3, :]  # omega x p = -[p] omega
@@ -75,6 +80,9 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
 
     Returns:
         J_body, (..., 6, n) (Modern Robotics, section 5.1.4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
     """
     return adjoint(se3.inverse(T)) @ _jacobian(J_space, "J_space")
 
@@ -92,6 +100,9 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
 
     Returns:
         Torques, N m (forces of slides, N), (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J, F = site_jacobian(J_space, p), checks.array(F, "F", (6,))
     return (F[..., None, :] @ J)[..., 0, :]
@@ -113,7 +124,7 @@ def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
         Step dq, radians, (..., n).
 
     Raises:
-        ValueError: also where J is singular and damping is 0.
+        ValueError: wrong shape, a non-finite number, or a singular J without damping.
     """
     J = _jacobian(J, "J", rows=None)
     e = checks.array(e, "e", J.shape[-2:-1])
@@ -136,6 +147,9 @@ def manipulability(J: ArrayLike) -> Array:
     Returns:
         Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
         "Manipulability of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = _jacobian(J, "J", rows=None)
     # From the singular values: det(J J^T) has only half the digits near 0.
@@ -152,6 +166,9 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
 
     Returns:
         The nearest motion with J dq = 0, (..., n) (Modern Robotics, section 6.3).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = _jacobian(J, "J", rows=None)
     dq = checks.array(dq, "dq", J.shape[-1:])

@@ -1,7 +1,6 @@
 """The way from one pose to another as numbers: a rotation vector and a translation.
 
-Radians, metres; world axes; leading dimensions broadcast. A wrong shape, a number that
-is not finite, or what is no rotation or pose, is a ValueError.
+Radians, metres; world axes; leading dimensions broadcast.
 """
 
 import numpy as np
@@ -25,6 +24,9 @@ def log_rotation(R: ArrayLike) -> Array:
         Rotation vector, radians, length in [0, pi], (..., 3). At exactly pi both signs
         mean the same rotation; the one whose largest entry is positive is returned.
         Rounding decides within 1e-16 of pi.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or R is not a rotation.
     """
     q = se3.R_to_quat(R)
     w, u = q[..., :1], q[..., 1:]
@@ -46,6 +48,9 @@ def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
 
     Returns:
         Error, radians above and metres below, (..., 6).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not poses.
     """
     T, T_goal = checks.pose(T, "T"), checks.pose(T_goal, "T_goal")
     turn = log_rotation(T_goal[..., :3, :3] @ np.swapaxes(T[..., :3, :3], -1, -2))

@@ -9,8 +9,6 @@ omega = 0 and moves along v. Conventions:
 - Space screws stand in the world frame, body screws in the end effector's, both with
   the arm at q = 0, where the end effector's pose is M (`M_home` in code).
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.
-- A wrong shape, a number that is not finite, or what is not the unit vector, screw or
-  pose that a docstring names, is a ValueError, in every function.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
 """
@@ -37,6 +35,9 @@ def skew(w: ArrayLike) -> Array:
     Returns:
         Antisymmetric matrix, (..., 3, 3), in the same unit (Modern Robotics,
         section 3.2.2).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     w = checks.array(w, "w", (3,))
     K = np.zeros((*w.shape, 3))
@@ -57,6 +58,9 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
 
     Returns:
         Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
     """
     axis = checks.unit_vector(axis, "axis")
     return se3.axis_angle(axis, theta)
@@ -71,6 +75,9 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
 
     Returns:
         Screw, (..., 6): no unit; metres (Modern Robotics, section 3.3.2.2).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
     """
     axis = checks.unit_vector(axis, "axis")
     point = checks.array(point, "point", (3,))
@@ -87,6 +94,9 @@ def joint_screws(T_zero: ArrayLike) -> Array:
     Returns:
         Space screws (omega; v), (..., n, 6): the third column of each pose is the
         axis, the last one a point on it.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not poses.
     """
     T_zero = checks.pose(T_zero, "T_zero")
     return screw_axis(T_zero[..., :3, 2], T_zero[..., :3, 3])
@@ -104,6 +114,9 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
 
     Returns:
         Pose, (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or omega of another length.
     """
     S, theta = checks.screws(S, "S"), checks.array(theta, "theta", ())
     K, v = skew(S[..., :3]), S[..., 3:, None]
@@ -127,6 +140,9 @@ def adjoint(T: ArrayLike) -> Array:
 
     Returns:
         Matrix for twists (omega; v), (..., 6, 6).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
     """
     T = checks.pose(T, "T")
     R = T[..., :3, :3]
@@ -147,6 +163,9 @@ def ad(V: ArrayLike) -> Array:
 
     Returns:
         Matrix for twists (omega; v), (..., 6, 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     V = checks.array(V, "V", (6,))
     out = np.zeros((*V.shape, 6))
@@ -168,6 +187,9 @@ def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
     Returns:
         T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.1).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, no screw or not a pose.
     """
     S, q = checks.screws_and_q(screws, q)
     M_home = checks.pose(M_home, "M_home")
@@ -186,6 +208,9 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
 
     Returns:
         Body screws (omega; v), (..., n, 6) (Modern Robotics, section 4.1.3).
+
+    Raises:
+        ValueError: as `fk_space`.
     """
     S = checks.screws(screws, "screws")
     return S @ np.swapaxes(adjoint(se3.inverse(M_home)), -1, -2)
@@ -204,6 +229,9 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
     Returns:
         T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.3).
+
+    Raises:
+        ValueError: as `fk_space`.
     """
     B = checks.screws(body_screws, "body_screws")
     return fk_space(B @ np.swapaxes(adjoint(M_home), -1, -2), M_home, q)

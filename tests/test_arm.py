@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robo47 import dynamics, jacobian, panda, verify
+from robo47 import dynamics, panda, se3, verify
 from robo47.arm import Arm
 
 N = 100
@@ -110,10 +110,24 @@ def test_a_load_can_be_carried_and_the_empty_arm_is_as_before(either_panda):
     T = arm.at(panda.READY_Q).T_links[6]
     loaded = arm.carrying(2.0, [0.0, 0.0, 0.2], np.zeros((3, 3)))
     point = T[:3, :3] @ [0.0, 0.0, 0.2] + T[:3, 3]
-    J_v = jacobian.site_jacobian(arm.at(panda.READY_Q).J_space, point)[3:]
+    T_world_load = se3.make_T(np.eye(3), point)
+    now = loaded.tool(se3.inverse(arm.at(panda.READY_Q).T_world_ee) @ T_world_load)
+    J_v = now.at(panda.READY_Q).J_site[3:]
     weight = J_v.T @ [0.0, 0.0, -2.0 * 9.81]
     assert_same(loaded.at(panda.READY_Q).gravity_torque, before - weight, 1e-12)
     assert_same(arm.at(panda.READY_Q).gravity_torque, before, 0.0)
+
+
+def test_the_tool_moves_the_end_and_nothing_else(either_panda):
+    arm = panda.arm(either_panda)
+    T_ee_tool = se3.make_T(se3.Rx(0.3)[:3, :3], [0.0, 0.01, 0.1034])
+    now, plain = arm.tool(T_ee_tool).at(panda.READY_Q), arm.at(panda.READY_Q)
+    assert_same(now.T_world_ee, plain.T_world_ee @ T_ee_tool, 1e-15)
+    assert_same(now.J_space, plain.J_space, 0.0)
+    assert_same(now.M, plain.M, 0.0)
+    arrow = now.T_world_ee[:3, 3] - plain.T_world_ee[:3, 3]
+    moved = plain.J_site[3:] + np.cross(plain.J_site[:3].T, arrow).T
+    assert_same(now.J_site[3:], moved, 1e-14)
 
 
 @given(arrays(np.float64, 2, elements=st.floats(-3.0, 3.0)))

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.git import GitError, run
-from labkit.check import journal, states
-from labkit.check.journal import Met
+from labkit.check import memory
+from labkit.check.memory import Met
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, writers_of
 from labkit.report.series import Key, Series, float_of
@@ -92,7 +92,7 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
         series: the log's rows, by day, check and metric.
         root: the clone.
     """
-    known = states.known(day)
+    known = memory.known(day)
     passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
     return DayFacts(
@@ -104,7 +104,7 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
         sum(len(task.functions) for task in day.tasks),
         minutes_of(day, root),
         sum(n for task, n in store.hints_given(root).items() if task in ids),
-        [m for m in journal.mistakes_met(journal.read(root), known) if m.task in ids],
+        [m for m in memory.mistakes_met(memory.journal(root), known) if m.task in ids],
         len(known) == len(ids),
         writers_of(day).borrowed,
     )

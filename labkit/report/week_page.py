@@ -5,7 +5,7 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.words import number_of
-from labkit.check.journal import Met
+from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.week_facts import DayFacts, Number
 from labkit.report.week_labs import name_of

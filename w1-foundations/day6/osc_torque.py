@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 
 from .states import J_CASE, SWAP, TORQUE, model, some, states
 
