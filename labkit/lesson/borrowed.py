@@ -6,6 +6,7 @@ gives it back.
 
 import ast
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from robo47.paths import shown
 MARK = "# borrowed from the kit"
 
 
+@cache  # a lab's borrowed function asks at every call, thousands of times
 def kits(file: str, function: str) -> Callable[..., Any]:
     """Return the kit's own function; a borrowed one in a student's file calls it.
 
