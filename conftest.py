@@ -110,7 +110,7 @@ def real_panda() -> Path:
     return folder
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def chromium() -> str:
     """Return a browser's program."""
     names = ("chromium", "chromium-browser", "google-chrome")
@@ -186,11 +186,10 @@ def copy_kit(copy: Path) -> Path:
     """Return a new folder with a copy of the kit, and nothing done in it.
 
     A student's clone holds rows, a worksheet and pictures of their own: `make test`
-    must pass on it as well. What Python compiled comes along: it fits a copy, whose
-    files keep their times.
+    must pass on it as well.
     """
     copy.mkdir()
-    skipped = shutil.ignore_patterns("work", "submissions")
+    skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
     for name in kit_folders():
         shutil.copytree(ROOT / name, copy / name, ignore=skipped)
     day = find_day(1, copy)

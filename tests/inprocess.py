@@ -4,6 +4,7 @@ Questions, replies and judging are the real ones; only the walls are missing.
 """
 
 import contextlib
+import copy
 import functools
 import inspect
 import io
@@ -11,6 +12,7 @@ import sys
 import types
 from pathlib import Path as File
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -20,6 +22,7 @@ from labkit.judge import Robot
 from labkit.judge.ask import Asked
 from labkit.judge.mistake import InTurn
 from labkit.sandbox.sandbox import twice
+from robo47 import panda
 
 
 class InProcess:
@@ -155,9 +158,9 @@ def _describe(error, script):
 
 @contextlib.contextmanager
 def worked_out_once():
-    """Let all files of a day share its questions and what each mistake answers."""
-    make_round, each = tasks.make_round, InTurn.each
-    rounds, answers = {}, {}
+    """Let all files of a day share its questions, each mistake's answers and arms."""
+    make_round, each, make_arm = tasks.make_round, InTurn.each, panda.arm
+    rounds, answers, arms = {}, {}, {}
 
     def asked_anew(task, function, ask, seed):
         key = task, function, id(ask), seed
@@ -181,7 +184,15 @@ def worked_out_once():
             raise answers[key][1]
         return answers[key][1]
 
+    def arm(model):
+        key = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+        mujoco.mj_saveModel(model, None, key)
+        if key.tobytes() not in arms:
+            arms[key.tobytes()] = make_arm(model)
+        return copy.deepcopy(arms[key.tobytes()])
+
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(panda, "arm", arm)
         patch.setattr(tasks, "make_round", asked_anew)
         patch.setattr(tasks, "library_of", functools.cache(tasks.library_of))
         patch.setattr(InTurn, "each", remembered)
