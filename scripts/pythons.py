@@ -1,11 +1,19 @@
-"""Which Pythons this machine has, asked by starting them."""
+"""Which Pythons this machine has, asked by starting them; what set-up says."""
 
 # Old Pythons read this first: no f-strings and no annotations.
+import os
 import shutil
 import subprocess
 import sys
 
 OLDEST = (3, 11)
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def say(text):
+    """Print a line at once, also into a pipe."""
+    print("setup: " + text)
+    sys.stdout.flush()
 
 
 def stop(problem, remedy):

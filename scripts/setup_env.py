@@ -22,8 +22,7 @@ import shutil
 import subprocess
 import sys
 
-from alone import ROOT, alone, say
-from pythons import OLDEST, ask, find_python, stop
+from pythons import OLDEST, ROOT, ask, find_python, say, stop
 
 PYTHON_IN_VENV = os.path.join("Scripts", "python.exe")
 if os.name != "nt":
@@ -227,8 +226,13 @@ def main():
     if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
         newer = find_python()[0]
         sys.exit(subprocess.call([newer, os.path.abspath(__file__)] + sys.argv[1:]))
+    sys.path.insert(0, ROOT)
+    from pathlib import Path
+
+    from labkit.base.store import alone
+
     try:
-        with alone("setup"):
+        with alone("setup", Path(ROOT)):
             bring(os.path.join(ROOT, options.venv), options.extras, options.anew)
     except OSError as error:
         if error.errno != errno.ENOSPC:

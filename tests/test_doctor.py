@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from labkit.setup import doctor, probes
+from labkit.setup import doctor
 from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
@@ -94,7 +94,7 @@ LAB = "w1-foundations/src/day1_transforms.py"
 def test_what_is_wrong_is_told_with_its_repair(
     answers, check, probe, answer, found, remedy
 ):
-    answers({getattr(probes, f"{probe}_PROBE"): (answer, "")})
+    answers({getattr(doctor, f"{probe}_PROBE"): (answer, "")})
     line = getattr(doctor, f"check_{check}")("python")
     assert line.status == "todo"
     assert found in line.found
@@ -102,13 +102,13 @@ def test_what_is_wrong_is_told_with_its_repair(
 
 
 def test_the_back_ends_that_draw_are_named(answers):
-    answers({probes.GL_PROBE: ({"egl": "renders", "osmesa": "no library"}, "")})
+    answers({doctor.GL_PROBE: ({"egl": "renders", "osmesa": "no library"}, "")})
     assert doctor.check_gl("python").found == "drawn with egl"
 
 
 def test_a_mujoco_gl_that_does_not_draw_is_told_with_its_cure(answers, monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "nonsense")
-    answers({probes.GL_PROBE: ({"nonsense": "invalid value"}, "")})
+    answers({doctor.GL_PROBE: ({"nonsense": "invalid value"}, "")})
     line = doctor.check_gl("python")
     assert (line.status, "MUJOCO_GL=nonsense" in line.found) == ("todo", True)
     assert line.remedy == "Unset it: unset MUJOCO_GL"

@@ -48,7 +48,7 @@ def imported(path):
 def test_one_file_knows_where_the_memory_is():
     paths = [*ROOT.glob("labkit/**/*.py"), *ROOT.glob("scripts/*.py")]
     knows = {path.name for path in paths if '".robo47"' in path.read_text("utf-8")}
-    assert knows == {"store.py", "alone.py"}  # old Pythons read the second
+    assert knows == {"store.py"}
 
 
 def test_the_pages_have_one_head():

@@ -10,7 +10,7 @@ import pytest
 from labkit.lesson.day import Metric, find_day
 from labkit.lesson.lab import Lab
 from labkit.log import read_rows
-from labkit.log.header import LINE
+from labkit.log.rows import HEADER as LINE
 from robo47.errors import Robo47Error
 
 SCRIPT = find_day(1).source

@@ -15,9 +15,10 @@ from pathlib import Path
 
 import pytest
 
-from labkit.log import append_row, lock, read_rows
-from labkit.log.header import LINE
+from labkit.base import lock
+from labkit.log import append_row, read_rows
 from labkit.log.logfile import locked
+from labkit.log.rows import HEADER as LINE
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error
 

@@ -11,7 +11,7 @@ import pytest
 
 from conftest import write_week
 from labkit.lesson.day import Metric
-from labkit.log.header import LINE
+from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan
 from labkit.report import page, plot

@@ -34,7 +34,6 @@ def setup(monkeypatch, tmp_path):
     for name in ("pyproject.toml", "constraints.txt"):
         (tmp_path / name).write_text((ROOT / name).read_text("utf-8"), "utf-8")
     monkeypatch.setattr(module, "ROOT", str(tmp_path))
-    monkeypatch.setattr(sys.modules["alone"], "ROOT", str(tmp_path))
     monkeypatch.setattr(module.shutil, "which", lambda name: None)
     module.commands = []
     module.answers = {}
@@ -204,9 +203,9 @@ def test_a_full_disk_is_told(setup, monkeypatch):
 def test_two_at_once_wait_for_each_other(tmp_path):
     script = tmp_path / "hold.py"
     script.write_text(
-        f"import sys, time; sys.path.insert(0, {str(ROOT / 'scripts')!r})\n"
-        f"import alone; alone.ROOT = {str(tmp_path)!r}\n"
-        "with alone.alone('setup'):\n"
+        f"import pathlib, sys; sys.path.insert(0, {str(ROOT)!r})\n"
+        "from labkit.base.store import alone\n"
+        f"with alone('setup', pathlib.Path({str(tmp_path)!r})):\n"
         "    print('in', flush=True); sys.stdin.readline(); print('out', flush=True)\n"
     )
 

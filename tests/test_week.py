@@ -46,7 +46,7 @@ def begun(one_day):
 
 
 def facts(day, **changed):
-    number = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
+    number = Number(SMALL, 1e-15, "pass", 0.5, 2e-15)
     met = [
         Met("1.3", "t-not-negated", "left behind", "It keeps t."),
         Met("1.8", "chain-reversed", "still there"),
@@ -116,7 +116,7 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
         {**row(9, own), "notes": ""},
     )
     found = numbers(day, SMALL, *rows, own=own)
-    assert (found.latest, found.worst, found.kit, found.runs) == (1e-15, 0.3, 2e-15, 2)
+    assert (found.latest, found.worst, found.kit) == (1e-15, 0.3, 2e-15)
     assert found.passed
 
 
@@ -213,7 +213,7 @@ def test_the_page_shows_the_week(day):
 
 
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
-    ran = Number(SMALL, 1e-15, "pass", 0.5, 2e-15, 3)
+    ran = Number(SMALL, 1e-15, "pass", 0.5, 2e-15)
     own = replace(ran, kit=None)
     assert "the kit's here" in week_page.render([facts(day, numbers=[ran, own])], "")
     assert "the kit's here" not in week_page.render([facts(day, numbers=[own])], "")
@@ -234,9 +234,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
     day, tmp_path, width, chromium
 ):
     week = [
-        facts(
-            d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15, 3) for m in d.metrics]
-        )
+        facts(d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15) for m in d.metrics])
         for d in days_of(find_week(1))
     ]
     text = week_page.render(week, "of my log")

@@ -1,15 +1,17 @@
 """The kit's memory on the student's machine: `.robo47/`, which git ignores.
 
-Nothing else reads or writes there but `scripts/alone.py`, which old Pythons run. A
-folder that cannot be written costs the memory and not the answer.
+Nothing else reads or writes there. A folder that cannot be written costs the memory
+and not the answer. The standard library alone: set-up runs it on a bare Python.
 """
 
 import contextlib
 import json
-from collections.abc import Iterable
+import time
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from labkit.base.lock import try_lock
 from robo47.paths import ROOT
 
 
@@ -70,3 +72,19 @@ def replace(path: Path, content: bytes) -> None:
     new = path.with_name(path.name + ".new")
     new.write_bytes(content)
     new.replace(path)
+
+
+@contextlib.contextmanager
+def alone(name: str, root: Path = ROOT) -> Iterator[None]:
+    """Wait until no other process does this; a killed one lets go by itself."""
+    path = path_of(f"{name}.lock", root)
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(OSError):  # no locks here, or nobody may write
+            path.parent.mkdir(exist_ok=True)
+            fd = stack.enter_context(path.open("ab")).fileno()
+            if not try_lock(fd):
+                says = "setup: another run is at it in this folder; waiting ..."
+                print(says, flush=True)
+            while not try_lock(fd):
+                time.sleep(0.2)
+        yield

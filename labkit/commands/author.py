@@ -10,13 +10,12 @@ Exit code: 0 all as it must be, 1 something to fix, 2 could not run.
 
 import os
 import re
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 
 from labkit.author import looks
-from labkit.base import cli
+from labkit.base import cli, processes
 from labkit.commands import docs, notebook
 from labkit.lesson.day import Day, day_numbers, find_day
 from robo47.errors import Robo47Error
@@ -30,15 +29,8 @@ MARKS = "not soak and not browser and not network"
 
 def run(day: Day, *command: str) -> tuple[int, list[str]]:
     """Return the exit code and the lines of a Python command about a day."""
-    done = subprocess.run(
-        [sys.executable, *command],
-        cwd=ROOT,
-        env={**os.environ, "ROBO47_DAY": str(day.number), "COLUMNS": "80"},
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
+    variables = {**os.environ, "ROBO47_DAY": str(day.number), "COLUMNS": "80"}
+    done = processes.run([sys.executable, *command], env=variables, cwd=ROOT)
     return done.returncode, (done.stdout + done.stderr).splitlines()
 
 

@@ -8,7 +8,7 @@ Your file as it was is kept beside it.
 """
 
 from labkit.base import cli
-from labkit.commands.start import free_name
+from labkit.commands.start import rewrite
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import chosen_day, find_task
 from labkit.lesson.originals import require_kits
@@ -28,11 +28,8 @@ def borrow(task_id: str) -> int:
             f"{shown(day.work)} has no function {gone[0]}; put its gap back first: "
             f"make start RESET={task_id}"
         )
-    crlf = b"\r\n" in day.work.read_bytes()
-    kept = free_name(day.work, task_id)
-    kept.write_bytes(day.work.read_bytes())
     text = with_borrowed(text, read_script(day.source), task.functions)
-    day.work.write_text(text, "utf-8", newline="\r\n" if crlf else "\n")
+    kept = rewrite(day.work, text, task_id)
     names = " and ".join(task.functions)
     print(f"task {task_id} borrows {names} from the kit in {shown(day.work)}")
     print(f"your file as it was: {shown(kept)}")

@@ -22,13 +22,12 @@ import math
 import os
 import re
 import shlex
-import subprocess
 import sys
 from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
-from labkit.base import blocks, cli
+from labkit.base import blocks, cli, processes
 from labkit.lesson.day import Day, days_of, find_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
@@ -50,15 +49,8 @@ def output_of(command: str) -> str:
     words = shlex.split(command)
     known = {"python": [sys.executable], "make": ["make", "--no-print-directory"]}
     words[:1] = known[words[0]]
-    done = subprocess.run(
-        words,
-        cwd=_folder_of(words[1]),
-        env={**os.environ, "COLUMNS": "80"},
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
+    variables = {**os.environ, "COLUMNS": "80"}
+    done = processes.run(words, env=variables, cwd=_folder_of(words[1]))
     # A check of a wrong file ends with 1, and that is the output that is wanted.
     if done.returncode not in (0, *([1] if "check_day" in command else [])):
         raise Robo47Error(f"`{command}` failed: {done.stderr.strip()[-300:]}")

@@ -76,7 +76,7 @@ def _differences(
         except LoadError as error:
             raise Robo47Error(not_loaded(script, error.reply)) from None
         for q in qs:
-            poses, problem = poses_of(asker, source, ghost, arm.model, q)
+            poses, problem = poses_of(asker.ask, source, ghost, arm.model, q)
             seen = Seen(q, poses, problem)
             found[q.tobytes()] = compare(ghost, seen, arm.poses_at(q))
             if not asker.alive:

@@ -13,17 +13,17 @@ Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
 import datetime
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from labkit.base import cli, store
 from labkit.base.processes import sweep
 from labkit.base.words import count
 from labkit.fresh import FRESH
-from labkit.fresh.clone import Clone, clone_commit, head_of, set_up
+from labkit.fresh.clone import clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings
-from labkit.lesson.day import Day, chosen_week, days_of
+from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import find_week
 from labkit.report.week_labs import Ran, run_labs
 
@@ -40,13 +40,13 @@ def stopwatch() -> Callable[[str], None]:
     return say
 
 
-def run_week(
-    days: Sequence[Day], clone: Clone, say: Callable[[str], None]
+def compared(
+    running: Iterable[Ran], clone: Path, say: Callable[[str], None]
 ) -> tuple[list[Ran], list[str]]:
-    """Run the labs in the clone; return what became of them, and what is not right."""
+    """Return what became of the labs in the clone, and what is not right."""
     labs, wrong = [], []
-    for ran in run_labs(days, clone.python, clone.environment):
-        found = faults(ran, clone.root)
+    for ran in running:
+        found = faults(ran, clone)
         whose = "your lab" if ran.mine else "the kit's lab"
         say(f"{cli.verdict(not found)}  day {ran.day.number}, {whose}")
         labs.append(ran)
@@ -89,9 +89,9 @@ def main() -> int:
         missing = findings(days, root)
         say(f"cloned {sha[:7]}")
         with cli.busy("setting it up, half a minute at most"):
-            clone = set_up(root, anew=not options.quick)
+            python, environment = set_up(root, anew=not options.quick)
         say("set up" + (" with this environment" if options.quick else ""))
-        labs, wrong = run_week(days, clone, say)
+        labs, wrong = compared(run_labs(days, python, environment), root, say)
     code = verdict(labs, [*missing, *wrong])
     found = {"wrong": len(wrong), "missing": len(missing)}
     when = datetime.date.today().isoformat()  # `make proof` shows it for this commit

@@ -15,9 +15,8 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.words import command, count
 from labkit.log import append_row
-from labkit.log.progress import watched
 from labkit.log.rows import typed
-from labkit.log.scan import Line, scan
+from labkit.log.scan import Line, watched
 from labkit.log.upkeep import came_back, restore, unsaved_rows
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -37,7 +36,7 @@ def main() -> int:
         return show_check(args.file) if args.check else put_back(args.file)
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
-        args.file, sync=True, allow_nonfinite=args.allow_nonfinite, **fields
+        args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
     )
     says = f"{row['check']} {row['metric']} = {row['value']}"
     print(f"added to {shown(args.file)}: {says}")
@@ -52,6 +51,12 @@ def parser() -> argparse.ArgumentParser:
     does.add_argument("--check", action="store_true", help="list every bad line")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
     cli.add_log(it)
+    it.add_argument(
+        "--sync",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="have the row on the disk before returning (default: yes)",
+    )
     it.add_argument(
         "--allow-nonfinite", action="store_true", help="record NaN and infinity"
     )
@@ -90,7 +95,7 @@ def show_check(path: Path) -> int:
     rows, bad = 0, 0
     back = came_back(path)
     notes = []
-    for line in watched(scan(path), path):
+    for line in watched(path):
         rows += line.row is not None
         if line.problem:
             bad += 1

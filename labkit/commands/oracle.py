@@ -38,49 +38,43 @@ CONFIGURATIONS, SEED = 15, 47
 JACOBIANS = 24  # configurations, for the Jacobians
 SAME = 1e-12  # two builds of Pinocchio need not agree to the last bit
 
-# Runs inside .venv-oracle: a file name and configurations in, poses out, as JSON.
-ASK_PINOCCHIO = """
+# Runs inside .venv-oracle: a robot's file and what is asked of it in, answers out.
+ASK = """
 import json, sys
 import numpy as np, pinocchio as pin
-answers = {}
-for entry, (xml, qs) in json.load(sys.stdin).items():
-    model = pin.buildModelFromMJCF(xml)
-    data = model.createData()
-    frames = [f for f in model.frames if f.type in (pin.BODY, pin.OP_FRAME)]
-    poses = {f.name: [] for f in frames if f.name != "universe"}
-    for q in qs:
-        pin.framesForwardKinematics(model, data, np.array(q))
-        for name, rows in poses.items():
-            T = data.oMf[model.getFrameId(name)].homogeneous
-            rows.append(T[:3].ravel().tolist())
-    answers[entry] = {"q": qs, "poses": poses}
-json.dump({"pinocchio": pin.__version__, "entries": answers}, sys.stdout)
-"""
-
-# The same for motions of one entry: mass matrix, torque of a motion, torque at rest.
-ASK_FOR_FORCES = """
-import json, sys
-import numpy as np, pinocchio as pin
-xml, q, qd, qdd = json.load(sys.stdin)
+xml, given = json.load(sys.stdin)
 model = pin.buildModelFromMJCF(xml)
 data = model.createData()
-crba, rnea, bias = [], [], []
-for row in zip(np.array(q), np.array(qd), np.array(qdd)):
+answer = {"pinocchio": pin.__version__, **given}
+%s
+json.dump(answer, sys.stdout)
+"""
+
+ASK_POSES = """
+frames = [f for f in model.frames if f.type in (pin.BODY, pin.OP_FRAME)]
+answer["poses"] = {f.name: [] for f in frames if f.name != "universe"}
+for q in given["q"]:
+    pin.framesForwardKinematics(model, data, np.array(q))
+    for name, rows in answer["poses"].items():
+        T = data.oMf[model.getFrameId(name)].homogeneous
+        rows.append(T[:3].ravel().tolist())
+"""
+
+# Of motions: mass matrix, torque of a motion, torque at rest.
+ASK_FORCES = """
+answer |= {"crba": [], "rnea": [], "bias": []}
+for row in zip(*(np.array(given[name]) for name in ("q", "qd", "qdd"))):
     M = np.triu(pin.crba(model, data, row[0]))
-    crba.append((M + np.triu(M, 1).T).tolist())
-    rnea.append(pin.rnea(model, data, *row).tolist())
-    bias.append(pin.nonLinearEffects(model, data, *row[:2]).tolist())
-answer = {"q": q, "qd": qd, "qdd": qdd, "crba": crba, "rnea": rnea, "bias": bias}
-json.dump({"pinocchio": pin.__version__, "panda_nohand": answer}, sys.stdout)
+    answer["crba"].append((M + np.triu(M, 1).T).tolist())
+    answer["rnea"].append(pin.rnea(model, data, *row).tolist())
+    answer["bias"].append(pin.nonLinearEffects(model, data, *row[:2]).tolist())
 """
 
-# The same for Jacobians, and the textbook's package beside Pinocchio.
-ASK_FOR_JACOBIANS = """
-import json, sys
-import modern_robotics as mr, numpy as np, pinocchio as pin
-xml, frame, q, S, M = json.load(sys.stdin)
-model = pin.buildModelFromMJCF(xml)
-data = model.createData()
+# Pinocchio's, and those of the textbook's package beside it.
+ASK_JACOBIANS = """
+import modern_robotics as mr
+frame, S, M = (answer.pop(name) for name in ("frame", "S", "M"))
+q = np.array(given["q"])
 index, S, M = model.getFrameId(frame), np.array(S).T, np.array(M)
 B = mr.Adjoint(mr.TransInv(M)) @ S
 ask = {
@@ -93,11 +87,10 @@ ask["FKinSpace"] = lambda row: mr.FKinSpace(M, S, row)[:3]
 ask["FKinBody"] = lambda row: mr.FKinBody(M, B, row)[:3]
 ask["JacobianSpace"] = lambda row: mr.JacobianSpace(S, row)
 ask["JacobianBody"] = lambda row: mr.JacobianBody(B, row)
-answers = {
-    name: [(np.round(f(row), 15) + 0.0).ravel().tolist() for row in np.array(q)]
+answer["answers"] = {
+    name: [(np.round(f(row), 15) + 0.0).ravel().tolist() for row in q]
     for name, f in ask.items()
 }
-json.dump({"pinocchio": pin.__version__, "q": q, "answers": answers}, sys.stdout)
 """
 
 
@@ -117,46 +110,43 @@ def oracle_python() -> Path:
     return python
 
 
-def ask() -> dict:
+def ask_for_poses() -> dict:
     """Return Pinocchio's poses of both entries at seeded configurations."""
-    question = {}
+    answers = {}
     for entry in ("panda", "panda_nohand"):
         q = verify.random_q(panda.load(entry), CONFIGURATIONS, SEED)
-        question[entry] = (xml_of(entry), np.round(q, 6).tolist())
-    return answer_to(ASK_PINOCCHIO, question)
+        answers[entry] = ask(ASK_POSES, entry, q=np.round(q, 6).tolist())
+        version = answers[entry].pop("pinocchio")
+    return {"pinocchio": version, "entries": answers}
 
 
 def ask_for_forces() -> dict:
     """Return Pinocchio's dynamics of panda_nohand at seeded motions."""
     q = verify.random_q(panda.load("panda_nohand"), CONFIGURATIONS, SEED)
     rng = np.random.default_rng(SEED)
-    motion = (q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
-    rounded = [np.round(part, 6).tolist() for part in motion]
-    return answer_to(ASK_FOR_FORCES, [xml_of("panda_nohand"), *rounded])
+    motion = {"q": q, "qd": rng.uniform(-2, 2, q.shape)}
+    motion["qdd"] = rng.uniform(-10, 10, q.shape)
+    rounded = {name: np.round(part, 6).tolist() for name, part in motion.items()}
+    answer = ask(ASK_FORCES, "panda_nohand", **rounded)
+    return {"pinocchio": answer.pop("pinocchio"), "panda_nohand": answer}
 
 
 def ask_for_jacobians() -> dict:
     """Return three Jacobians of Pinocchio's and the textbook's, of panda_nohand."""
     model, frame = panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"]
     q = np.round(verify.random_q(model, JACOBIANS, SEED), 6).tolist()
-    arm = (panda.screws(model).tolist(), panda.home_pose(model).tolist())
-    question = [xml_of("panda_nohand"), frame.partition(":")[2], q, *arm]
-    return answer_to(ASK_FOR_JACOBIANS, question)
+    arm = {"S": panda.screws(model).tolist(), "M": panda.home_pose(model).tolist()}
+    return ask(ASK_JACOBIANS, "panda_nohand", q=q, frame=frame.partition(":")[2], **arm)
 
 
-def xml_of(entry: str) -> str:
-    """Return the path of the real Panda's file, the one that Pinocchio reads."""
+def ask(code: str, entry: str, **given: object) -> dict:
+    """Run code where Pinocchio is, with the real Panda; return its answer."""
     folder = files.panda_folder()
     if folder is None:
         raise Robo47Error("no Panda here; run python3 scripts/fetch_menagerie.py first")
-    return str(folder / f"{entry}.xml")
-
-
-def answer_to(script: str, question: object) -> dict:
-    """Run a script where Pinocchio is, and return what it prints."""
     done = subprocess.run(
-        [str(oracle_python()), "-c", script],
-        input=json.dumps(question),
+        [str(oracle_python()), "-c", ASK % code],
+        input=json.dumps([str(folder / f"{entry}.xml"), given]),
         capture_output=True,
         text=True,
         check=False,
@@ -177,7 +167,11 @@ def largest_difference(ours: Any, theirs: Any) -> float:
     return max(largest_difference(ours[name], theirs[name]) for name in ours)
 
 
-ORACLES = {ORACLE: ask, DYNAMICS: ask_for_forces, KINEMATICS: ask_for_jacobians}
+ORACLES = {
+    ORACLE: ask_for_poses,
+    DYNAMICS: ask_for_forces,
+    KINEMATICS: ask_for_jacobians,
+}
 
 
 def main() -> int:

@@ -22,8 +22,7 @@ from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
 from labkit.lesson.week import Week
-from labkit.log.progress import watched
-from labkit.log.scan import scan
+from labkit.log.scan import watched
 from labkit.report import page
 from labkit.report.series import Report, collect, thresholds
 from robo47.errors import Robo47Error
@@ -33,7 +32,7 @@ from robo47.paths import METRICS_CSV, shown
 def main() -> int:
     """Write the report and say where it is."""
     args = parser().parse_args()
-    lines = watched(scan(args.file), args.file)
+    lines = watched(args.file)
     since = args.since.isoformat() if args.since else ""
     days = all_days() if args.day is None else [find_day(args.day)]
     mine = args.file.resolve() == METRICS_CSV.resolve()

@@ -21,8 +21,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from alone import alone  # of scripts/: what set-up waits with as well
-
 from labkit.base import cli, store
 from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
@@ -156,7 +154,7 @@ def main() -> int:
             return verify(root)
         show(files.read_provenance())
         return cli.EXIT_OK
-    with alone("robot"):
+    with store.alone("robot"):
         bring(root)
     return cli.EXIT_OK
 
@@ -170,7 +168,7 @@ def bring(root: Path) -> None:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
         return
-    if files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT"):
+    if files.record_of(root) or os.environ.get("MENAGERIE_ROOT"):
         check_complete(root / files.PANDA)
         show(files.read_provenance())
     else:

@@ -80,14 +80,18 @@ def reset(task_id: str) -> int:
         raise Robo47Error(
             f"{shown(work)} is empty. Delete it, then: make start DAY={day.number}"
         )
-    crlf = b"\r\n" in work.read_bytes()
-    kept = free_name(work, task_id)
-    kept.write_bytes(work.read_bytes())
-    text = put_back(text, starter_of(day), task.functions)
-    work.write_text(text, "utf-8", newline="\r\n" if crlf else "\n")
+    kept = rewrite(work, put_back(text, starter_of(day), task.functions), task_id)
     print(f"task {task_id} is back at its start in {shown(work)}")
     print(f"your file as it was: {shown(kept)}")
     return cli.EXIT_OK
+
+
+def rewrite(work: Path, text: str, why: str) -> Path:
+    """Write a lab anew with its own line ends; return where it is as it was."""
+    before, kept = work.read_bytes(), free_name(work, why)
+    kept.write_bytes(before)
+    work.write_text(text, "utf-8", newline="\r\n" if b"\r\n" in before else "\n")
+    return kept
 
 
 def free_name(work: Path, task_id: str) -> Path:

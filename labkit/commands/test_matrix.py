@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from labkit.base import cli
+from labkit.base import cli, processes
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -56,7 +56,7 @@ def environment(python: str, version: str, mujoco: str) -> Path:
 
 def run(command: list[str]) -> None:
     """Run a quiet command in the clone, or say how it failed."""
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    done = processes.run(command, env=os.environ, cwd=ROOT)
     if done.returncode != 0:
         why = done.stderr[-500:].strip()
         raise Robo47Error(f"`{shlex.join(command)}` failed: {why}")

@@ -11,12 +11,11 @@ it was stays beside it. Without a network, or interrupted, nothing has changed.
 
 import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli
+from labkit.base import cli, processes
 from labkit.commands.start import free_name
 from labkit.update import merge
 from labkit.update.merge import ask
@@ -35,18 +34,18 @@ def main() -> int:
     if not (ROOT / ".git").exists():
         raise Robo47Error("this folder is no git repository; clone the kit instead")
     with cli.busy("fetching"):
-        source = merge.fetch(options.place, options.to)
+        place, commit = merge.fetch(options.place, options.to)
     merge.save_own()
     own = ask("rev-parse", "HEAD")
     with cli.busy("merging"), merge.beside(own) as worktree:
-        taken = merge.merge(worktree, source.commit)
-        found = renew_labs(worktree, own, source.commit)
+        taken = merge.merge(worktree, commit)
+        found = renew_labs(worktree, own, commit)
         if ask("status", "--porcelain", at=worktree):
             ask("add", "-A", at=worktree)
             merge.commit("My labs on the newer kit", worktree)
         copies = keep_copies(found["days"])
         try:
-            merge.take(worktree, source)
+            merge.take(worktree, place)
         except Robo47Error:
             for copy in copies:
                 copy.unlink()
@@ -59,9 +58,7 @@ def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
     """Return what the newer kit's own code did with the labs."""
     command = [sys.executable, "-m", "labkit.update.labs", own, target]
     environment = {**os.environ, "PYTHONPATH": str(worktree), "PYTHONUTF8": "1"}
-    done = subprocess.run(
-        command, cwd=worktree, env=environment, capture_output=True, encoding="utf-8"
-    )
+    done = processes.run(command, env=environment, cwd=worktree)
     if done.returncode:
         why = done.stderr.strip().splitlines()[-1:] or ["it ended early"]
         raise Robo47Error(f"the newer kit stops: {why[0]}. {merge.UNCHANGED}")

@@ -2,8 +2,6 @@
 
 import os
 import sys
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import git, processes
@@ -13,21 +11,6 @@ from robo47.paths import ROOT, menagerie_root
 GIT_SECONDS = 120.0
 # What would lead the clone's Python back to this folder.
 _OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
-
-
-@dataclass(frozen=True)
-class Clone:
-    """A clone that can run labs.
-
-    Attributes:
-        root: its folder.
-        python: runs its labs.
-        environment: with these variables.
-    """
-
-    root: Path
-    python: str
-    environment: Mapping[str, str]
 
 
 def head_of(root: Path = ROOT) -> str:
@@ -54,8 +37,10 @@ def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
     _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
 
 
-def set_up(root: Path, *, anew: bool = True) -> Clone:
-    """Make a clone ready to run; the robot that is on this machine serves it too.
+def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
+    """Make a clone ready to run: its Python, and the variables that it runs with.
+
+    The robot that is on this machine serves it too.
 
     Args:
         root: of the clone.
@@ -70,7 +55,7 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
         environment["MENAGERIE_ROOT"] = str(robot.absolute())
     if not anew:
         environment["PYTHONPATH"] = str(root)
-        return Clone(root, sys.executable, environment)
+        return sys.executable, environment
     setup = [sys.executable, "scripts/setup_env.py"]
     done = processes.run(setup, env=environment, cwd=root)
     if done.returncode != 0:
@@ -81,7 +66,7 @@ def set_up(root: Path, *, anew: bool = True) -> Clone:
     if not robot.is_dir():  # without a network the embedded twin serves
         fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
         processes.run(fetch, env=environment, cwd=root)
-    return Clone(root, python, environment)
+    return python, environment
 
 
 def uncommitted(root: Path = ROOT) -> dict[str, str]:

@@ -1,12 +1,14 @@
 """Gaps of the last commit: files that it lacks, or that would not work in a clone."""
 
 import ast
+import contextlib
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from labkit.base.words import count
 from labkit.fresh.clone import ignored_by, uncommitted
+from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
@@ -52,13 +54,12 @@ def _only_here(
         if here and not there and name not in lacks:
             rule = ignored_by(name, root)
             lacks[name] = f"ignored by git ({rule})" if rule else "not in the commit"
-    for script, module in (
-        m for week in weeks for m in _imports(clone / week / "work")
-    ):
-        for name in (f"{module}.py", f"{module}/__init__.py"):
-            path = script.parent.relative_to(clone) / name
-            if (root / path).is_file() and not (clone / path).is_file():
-                lacks[path.as_posix()] = f"{script.name} imports it; not in the commit"
+    for day in days:
+        script = day.files["script"]
+        own = {script: day.work.read_bytes()} if day.work.is_file() else {}
+        for name in helpers_of(root, script, own):
+            if not (clone / name).is_file():
+                lacks[name] = f"{day.work.name} imports it; not in the commit"
     return lacks
 
 
@@ -111,23 +112,10 @@ def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
         yield name, f"{count(blank, 'place')} still to fill in"
 
 
-def _imports(work: Path) -> Iterator[tuple[Path, str]]:
-    """Yield the modules that the student's files import, by file."""
-    for script, tree in _trees(work):
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom):
-                names = [node.module or ""]
-            else:
-                continue
-            yield from ((script, name.partition(".")[0]) for name in names if name)
-
-
 def _absolute(week: Path, clone: Path) -> Iterator[str]:
     """Yield the lines that name a place which other machines do not have."""
-    for script, tree in _trees(week / "work"):
-        for node in ast.walk(tree):
+    for script in sorted((week / "work").glob("*.py")):
+        for node in _nodes(script):
             if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
                 continue
             text = node.value
@@ -145,9 +133,6 @@ def _line(path: Path, clone: Path, number: int, text: str) -> str:
     return f"{name}, line {number}: {text[:60]!r} is a path of this machine alone"
 
 
-def _trees(work: Path) -> Iterator[tuple[Path, ast.AST]]:
-    for script in sorted(work.glob("*.py")):
-        try:
-            yield script, ast.parse(script.read_bytes())
-        except (SyntaxError, ValueError):  # its lab says so itself
-            continue
+def _nodes(script: Path) -> Iterator[ast.AST]:
+    with contextlib.suppress(SyntaxError, ValueError):  # its lab says so itself
+        yield from ast.walk(ast.parse(script.read_bytes()))

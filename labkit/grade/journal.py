@@ -13,10 +13,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from labkit.base.lock import lock
 from labkit.grade.package import Package
 from labkit.grade.result import Result, from_json
 from labkit.lesson.day import Day
-from labkit.log.lock import lock
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -15,10 +15,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
+from labkit.base.exchange import SCRIPT
 from labkit.lesson.day import Day
 
 MB = 1_000_000
-LIMITS = {"script": MB, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}  # bytes
+# In bytes.
+LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
 HELPERS, PICTURES = 50, 40  # modules beside the script; pictures of the worksheet
 LISTED = 10_000  # entries of work/ that are looked at
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
@@ -39,16 +41,11 @@ class UnreadError(Exception):
 
 @dataclass(frozen=True)
 class Handin:
-    """What a student hands in for a day.
+    """What a student hands in for a day, by path from the top, with "/" in it."""
 
-    Attributes:
-        files: content by path from the top of the clone, with "/" as separator.
-        unread: why a file that is there was not read, by path.
-        pictures: the worksheet's that are there, by path: whether it is the kit's own.
-    """
-
-    files: Mapping[str, bytes] = field(default_factory=dict)
-    unread: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)  # their content
+    unread: Mapping[str, str] = field(default_factory=dict)  # why not, if it is there
+    # The worksheet's that are there: whether it is the kit's own.
     pictures: Mapping[str, bool] = field(default_factory=dict)
 
 

@@ -5,17 +5,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Item:
-    """One line of the day.
+    """One line of the day."""
 
-    Attributes:
-        name: "figure", "definitions", ...
-        status: "passed", "todo" (not there yet) or "wrong" (there, but).
-        message: what to do; "" when passed.
-    """
-
-    name: str
-    status: str = "passed"
-    message: str = ""
+    name: str  # "figure", "definitions", ...
+    status: str = "passed"  # or "todo" (not there yet), "wrong" (there, but)
+    message: str = ""  # what to do; "" when passed
 
     @property
     def passed(self) -> bool:

@@ -14,9 +14,9 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
+from labkit.base import lock
 from labkit.base.words import command, in_words
-from labkit.log import header, lock
-from labkit.log.rows import is_open_quote
+from labkit.log.rows import BOM, HEAD, HEADER, is_open_quote, line_end, wrong_header
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -128,12 +128,12 @@ def _try_append(path: Path, text: str, sync: bool) -> str:
 
 def _continuation(fd: int, path: Path) -> tuple[bytes, bytes, str | None]:
     """Return what to write first, the file's line end, and its last line if cut."""
-    head = read_at(fd, 0, header.LONGEST)
-    if head in (b"", header.BOM):
-        return header.LINE.encode() + b"\n", b"\n", None
-    end = header.line_end(head)
+    head = read_at(fd, 0, HEAD)
+    if head in (b"", BOM):
+        return HEADER.encode() + b"\n", b"\n", None
+    end = line_end(head)
     if end is None:
-        raise CannotAppendError(header.problem(path))
+        raise CannotAppendError(wrong_header(path))
     size, last = _last_byte(fd)
     if last != b"\n":
         time.sleep(MID_WRITE_S)

@@ -1,5 +1,6 @@
-"""A row of the log: its columns, their types and its one line of text."""
+"""A row of the log: its columns, their types and its one line of text; the header."""
 
+import codecs
 import csv
 import datetime
 import difflib
@@ -7,6 +8,9 @@ import math
 import operator
 import re
 from collections.abc import Mapping
+from pathlib import Path
+
+from robo47.paths import shown
 
 COLUMNS = (
     "run_id",
@@ -23,6 +27,9 @@ COLUMNS = (
     "value",
     "notes",
 )
+HEADER = ",".join(COLUMNS)
+BOM = codecs.BOM_UTF8
+HEAD = 4096  # bytes of a log that are looked at for its header, of 98
 INTEGERS = frozenset({"day", "seed", "n_trials", "n_failures"})
 # Python's csv module, and with it many readers, gives up on a longer field.
 LONGEST = 131_072
@@ -35,6 +42,26 @@ _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
 _GUARDED = re.compile("'+[=+@-]")
+
+
+def line_end(head: bytes) -> bytes | None:
+    """Return the line end after a log's header, or None where that is not right.
+
+    Of its first bytes HEAD are enough; no line end yet counts as LF.
+    """
+    rest = head.removeprefix(BOM)
+    tail = rest.removeprefix(HEADER.encode())
+    if tail != rest and tail[:1] in (b"\n", b""):
+        return b"\n"
+    return b"\r\n" if tail != rest and tail[:2] == b"\r\n" else None
+
+
+def wrong_header(path: Path) -> str:
+    """Return what to do about a log whose header `line_end` refused."""
+    return (
+        f"{shown(path)}: line 1 is not the log's header. Put it there in an editor and"
+        f" save as UTF-8 (in a spreadsheet: CSV UTF-8, comma delimited): {HEADER}"
+    )
 
 
 def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:

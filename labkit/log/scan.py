@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from labkit.base.words import count
-from labkit.log import header
 from labkit.log.logfile import CUT
-from labkit.log.rows import COLUMNS, Row, decode
+from labkit.log.rows import BOM, COLUMNS, HEAD, Row, decode, line_end, wrong_header
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -42,6 +41,25 @@ def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
         yield from scan_file(file, path)
 
 
+def watched(path: Path) -> Iterator[Line]:
+    """Yield what `scan` yields, and show what takes over half a second to read."""
+    from tqdm import tqdm
+
+    size = os.path.getsize(path) if path.exists() else 0
+    with tqdm(
+        total=size,
+        unit="B",
+        unit_scale=True,
+        desc="reading",
+        delay=0.5,
+        leave=False,
+        disable=None,
+    ) as bar:
+        for line in scan(path):
+            bar.update(line.size)
+            yield line
+
+
 def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
     """Yield the lines of a log that is open already, as `scan` does.
 
@@ -50,11 +68,11 @@ def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
         path: the log's name; lines that were noted as cut stand beside it.
     """
     chosen = Path(path)
-    head = file.read(header.LONGEST)
-    if head in (b"", header.BOM):
+    head = file.read(HEAD)
+    if head in (b"", BOM):
         return
-    if not header.line_end(head):
-        raise Robo47Error(header.problem(chosen))
+    if not line_end(head):
+        raise Robo47Error(wrong_header(chosen))
     file.seek(0)
     file.readline()
     cut = _known_cuts(chosen)

@@ -15,12 +15,7 @@ Key = tuple[int | None, str, str]  # day, check, metric
 
 
 class Series:
-    """The runs of one check's metric, oldest first, and what they must reach.
-
-    Attributes:
-        rows: all but the kit's own runs.
-        kits: those.
-    """
+    """The runs of one check's metric, oldest first, and what they must reach."""
 
     def __init__(
         self, key: Key, threshold: Metric | None, writers: Writers | None = None
@@ -29,8 +24,8 @@ class Series:
         self.day, self.check, self.metric = key
         self.threshold = threshold
         self.writers = writers or Writers()
-        self.rows: list[Row] = []
-        self.kits: list[Row] = []
+        self.rows: list[Row] = []  # all but
+        self.kits: list[Row] = []  # the kit's own
 
     def add(self, row: Row) -> None:
         """Add a run, under the name of who made it."""
@@ -44,10 +39,9 @@ class Series:
 
     @property
     def status(self) -> str:
-        """What the latest run is worth now.
+        """What the latest run is worth now, as `Writers.judge` has it.
 
-        As `Writers.judge` has it; "open" without a threshold, "kit" where nobody but
-        the kit ran it.
+        "open" without a threshold, "kit" where nobody but the kit ran it.
         """
         if not self.rows:
             return "kit" if self.kits else "none"

@@ -23,23 +23,13 @@ GIT_SECONDS = 10.0
 
 @dataclass(frozen=True)
 class Number:
-    """One number of a day; None where there is no row.
+    """One number of a day; None where there is no row."""
 
-    Attributes:
-        metric: what it must reach.
-        latest: the student's last run.
-        status: what that run is worth now, as `Writers.judge` says.
-        worst: the farthest from the limit's good side that the student logged.
-        kit: the kit's own last run on this machine.
-        runs: how often the student logged it.
-    """
-
-    metric: Metric
-    latest: float | None
-    status: str
-    worst: float | None
-    kit: float | None
-    runs: int
+    metric: Metric  # what it must reach
+    latest: float | None  # the student's last run
+    status: str  # what that run is worth now, as `Writers.judge` says
+    worst: float | None  # the farthest from the limit's good side that they logged
+    kit: float | None  # the kit's own last run on this machine
 
     @property
     def passed(self) -> bool:
@@ -49,34 +39,20 @@ class Number:
 
 @dataclass(frozen=True)
 class DayFacts:
-    """How a day went.
-
-    Attributes:
-        day: from the manifest.
-        numbers: the student's beside the kit's.
-        passed: how many tasks pass; side quests are not counted.
-        tasks: of how many.
-        own: how many of the day's functions are in tasks that pass.
-        functions: of how many.
-        minutes: from the first to the last commit, None where git cannot tell.
-        hints: how many were asked for.
-        met: the named mistakes, in the order they were met.
-        checked: whether `make check` has seen all tasks in the file as it is; what it
-            has not seen does not count as passed.
-        borrowed: ids of the tasks whose functions are borrowed from the kit.
-    """
+    """How a day went."""
 
     day: Day
-    numbers: Sequence[Number]
-    passed: int
-    tasks: int
-    own: int
-    functions: int
-    minutes: int | None
-    hints: int
-    met: Sequence[Met]
+    numbers: Sequence[Number]  # the student's beside the kit's
+    passed: int  # how many tasks pass; side quests are not counted
+    tasks: int  # of how many
+    own: int  # how many of the day's functions are in tasks that pass
+    functions: int  # of how many
+    minutes: int | None  # from the first to the last commit; None: git cannot tell
+    hints: int  # how many were asked for
+    met: Sequence[Met]  # the named mistakes, in the order they were met
+    # Whether `make check` has seen all tasks in the file as it is; else none passed.
     checked: bool = True
-    borrowed: Sequence[str] = ()
+    borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property
     def begun(self) -> bool:
@@ -165,7 +141,6 @@ def _number(metric: Metric, series: Series) -> Number:
         series.writers.judge(metric, mine[-1] if mine else None),
         max(own, key=lambda value: _badness(metric, value), default=None),
         float_of(series.kits[-1]) if series.kits else None,
-        len(own),
     )
 
 

@@ -19,19 +19,12 @@ Key = tuple[str, str]  # of a number: its check and its metric
 
 @dataclass(frozen=True)
 class Ran:
-    """What became of a day's lab.
-
-    Attributes:
-        day: from the manifest.
-        mine: whether the student's file ran, and not the kit's.
-        rows: those it recorded.
-        why: why it did not pass, in a line; "" where it did.
-    """
+    """What became of a day's lab."""
 
     day: Day
-    mine: bool
-    rows: Mapping[Key, Row]
-    why: str
+    mine: bool  # the student's file ran, and not the kit's
+    rows: Mapping[Key, Row]  # those it recorded
+    why: str  # why it did not pass, in a line; "" where it did
 
     @property
     def passed(self) -> bool:

@@ -45,6 +45,7 @@ class Process:
             FaultError: this machine starts no process now.
         """
         self.extras, self.secret = tuple(extras), b""
+        self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
         self._room = MOST_BYTES
         self.memory, self.longest = 1.0, LONGEST_LINE  # GB, bytes
@@ -92,6 +93,7 @@ class Process:
                 from labkit.sandbox import messages  # NumPy, after the start
 
                 raise LoadError(*messages.read([message]) or [stopped(CHANNEL)])
+            self.told = request
         except EndedError as error:
             raise LoadError(error.reply) from None
 

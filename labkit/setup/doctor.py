@@ -1,12 +1,14 @@
 """The doctor's findings: one per thing that the labs need.
 
 Runs on a bare Python, old or broken installs included: the standard library alone, and
-everything that can fail is tried in a process of its own.
+everything that can fail is tried by a probe, code for a process of its own that prints
+one JSON value.
 """
 
 from __future__ import annotations
 
 import functools
+import json
 import os
 import platform
 import re
@@ -15,11 +17,9 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from labkit.setup import probes
-from labkit.setup.probes import ROOT, probe
-
+ROOT = Path(__file__).resolve().parents[2]
 VENV_PYTHON = (
     ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 )
@@ -30,6 +30,59 @@ _STRENGTH = {
     "landlock": "Landlock, good: opens no file of yours, but sees names, sizes",
     "none": "none: student code runs with your rights",
 }
+SECONDS = 60
+
+PYTHON_PROBE = "import json, platform; print(json.dumps(platform.python_version()))"
+VERSIONS_PROBE = """
+import json
+from importlib import metadata
+found = {}
+for name in ("mujoco", "mujoco-core", "numpy"):
+    try:
+        found[name] = metadata.version(name)
+    except metadata.PackageNotFoundError:
+        pass
+print(json.dumps(found))
+"""
+MUJOCO_PROBE = """
+import json, mujoco
+mujoco.mj_forward(m := mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(m))
+print(json.dumps(mujoco.__version__))
+"""
+ROBOT_PROBE = """
+import json
+from robo47 import panda
+from robo47.panda import files as menagerie
+from robo47.paths import menagerie_root
+found = panda.provenance()
+found["loads"] = panda.load("panda_nohand").nq
+folder = menagerie.panda_folder()
+if folder:
+    record = menagerie.read_provenance().get("files")
+    found["files"] = len(record or ())
+    found["changed"] = menagerie.changed_files(folder, record or {})[:3]
+    found["missing"] = menagerie.missing_files(folder)[:3]
+print(json.dumps(found))
+"""
+LESSONS_PROBE = """
+import json
+from labkit.lesson import originals
+from labkit.lesson.day import all_days
+from robo47.paths import shown
+days = all_days()
+others = [shown(day.source) for day in days if not originals.is_kits(day)]
+print(json.dumps({"days": len(days), "others": others}))
+"""
+WALL_PROBE = """
+import json
+from labkit.sandbox.wall import wall
+print(json.dumps(wall().name))
+"""
+GL_PROBE = """
+import json
+from labkit.figures import probe_backends
+print(json.dumps(probe_backends()))
+"""
 
 
 class Line(NamedTuple):
@@ -41,16 +94,44 @@ class Line(NamedTuple):
     remedy: str = ""
 
 
+def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
+    """Run code that prints one JSON value; return it, or None and the last words.
+
+    MUJOCO_GL stops MuJoCo's import where it is wrong: only the look at OpenGL gets it.
+    """
+    kept = dict(os.environ)
+    if not gl:
+        kept.pop("MUJOCO_GL", None)
+    try:
+        done = subprocess.run(
+            [python, "-c", code],
+            cwd=str(ROOT),
+            env=kept,
+            capture_output=True,
+            timeout=SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return None, "no answer after {} s".format(SECONDS)  # noqa: UP032
+    except OSError as error:
+        return None, str(error.strerror)
+    try:
+        return json.loads(done.stdout.decode("utf-8", "replace").splitlines()[-1]), ""
+    except (ValueError, IndexError):
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        return None, said[-1] if said else f"ended with code {done.returncode}"
+
+
 def kit_python() -> str:
     """Return the kit's own interpreter where it starts, else this one."""
-    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), probes.PYTHON_PROBE)[0]:
+    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]:
         return str(VENV_PYTHON)
     return sys.executable
 
 
 def check_python(python: str) -> Line:
     """Python itself, and whether the kit's environment is there."""
-    version = probe(python, probes.PYTHON_PROBE)[0] or platform.python_version()
+    version = probe(python, PYTHON_PROBE)[0] or platform.python_version()
     own = python == str(VENV_PYTHON)
     found = version + (" in .venv" if own else ", no .venv")
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST:
@@ -82,10 +163,10 @@ def check_platform() -> Line:
 
 def check_mujoco(python: str) -> Line:
     """MuJoCo: there, importable, computing; and the upgrade that leaves it broken."""
-    version, why = probe(python, probes.MUJOCO_PROBE)
+    version, why = probe(python, MUJOCO_PROBE)
     if version:
         return Line("good", "MuJoCo", version)
-    installed = probe(python, probes.VERSIONS_PROBE)[0] or {}
+    installed = probe(python, VERSIONS_PROBE)[0] or {}
     if "mujoco" not in installed:
         return Line("todo", "MuJoCo", "not installed", "make setup")
     found = "{} does not work: {}".format(installed["mujoco"], why)
@@ -101,7 +182,7 @@ def check_mujoco(python: str) -> Line:
 
 def check_robot(python: str) -> Line:
     """The Panda: its source, and whether its files are as they were fetched."""
-    found, why = probe(python, probes.ROBOT_PROBE)
+    found, why = probe(python, ROBOT_PROBE)
     if found is None:
         return Line("todo", "robot", why.split("Robo47Error: ")[-1])
     if "files" not in found:
@@ -118,7 +199,7 @@ def check_robot(python: str) -> Line:
 
 def check_lessons(python: str) -> Line:
     """The lab scripts of the lessons: the kit's own, or something saved over them."""
-    found, why = probe(python, probes.LESSONS_PROBE)
+    found, why = probe(python, LESSONS_PROBE)
     if found is None:
         return Line("todo", "lessons", why.split("Robo47Error: ")[-1])
     if found["others"]:
@@ -131,7 +212,7 @@ def check_lessons(python: str) -> Line:
 def check_gl(python: str) -> Line:
     """Which OpenGL back ends really draw."""
     chosen = os.environ.get("MUJOCO_GL", "")
-    found, why = probe(python, probes.GL_PROBE, gl=True)
+    found, why = probe(python, GL_PROBE, gl=True)
     if found is None:
         return Line("note", "pictures", "not tried: " + why)
     draws = [name for name, says in found.items() if says == "renders"]
@@ -150,7 +231,7 @@ def check_gl(python: str) -> Line:
 
 def check_wall(python: str) -> Line:
     """What keeps student code from this machine, which counts for who grades."""
-    found, why = probe(python, probes.WALL_PROBE)
+    found, why = probe(python, WALL_PROBE)
     if found is None:
         return Line("note", "wall", why.split("Error: ")[-1])
     return Line("note" if found == "none" else "good", "wall", _STRENGTH[found])

@@ -3,7 +3,6 @@
 import contextlib
 import shutil
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import git, store
@@ -51,21 +50,10 @@ def commit(message: str, at: Path) -> None:
     ask(*as_whom, *how, at=at)
 
 
-@dataclass(frozen=True)
-class Source:
-    """Where the newer kit comes from.
+def fetch(place: str | None, to: str | None) -> tuple[str, str]:
+    """Bring the newer commits here; return the remote or address, and the commit.
 
-    Attributes:
-        place: a remote's name, or an address.
-        commit: what to bring the clone to.
-    """
-
-    place: str
-    commit: str
-
-
-def fetch(place: str | None, to: str | None) -> Source:
-    """Bring the newer commits here, which changes no file of the clone.
+    No file of the clone changes.
 
     Args:
         place: an address; None is the first of REMOTES that is there.
@@ -81,7 +69,7 @@ def fetch(place: str | None, to: str | None) -> Source:
     deep = ask("rev-parse", "--is-shallow-repository") == "true"
     more = ("--unshallow",) if deep else ()
     ask("fetch", "-q", "--tags", *more, found, to or "HEAD")
-    return Source(found, ask("rev-parse", "FETCH_HEAD^{commit}"))
+    return found, ask("rev-parse", "FETCH_HEAD^{commit}")
 
 
 def save_own() -> None:
@@ -196,14 +184,14 @@ def _keep_rows(worktree: Path, own: str) -> None:
         path.write_text("\n".join([*now, *lost]) + "\n", "utf-8", newline="\n")
 
 
-def take(worktree: Path, source: Source) -> None:
-    """Bring the clone to what the worktree has, in one step of git's.
+def take(worktree: Path, place: str) -> None:
+    """Bring the clone to what the worktree has, in one step, and remember the place.
 
     Raises:
         Robo47Error: a file in the clone is in the way; says which.
     """
     head = ask("rev-parse", "HEAD", at=worktree)
     ask("merge", "-q", "--ff-only", head)
-    if source.place not in REMOTES and source.place not in ask("remote").split():
+    if place not in REMOTES and place not in ask("remote").split():
         known = "kit" in ask("remote").split()
-        ask("remote", *(("set-url",) if known else ("add",)), "kit", source.place)
+        ask("remote", *(("set-url",) if known else ("add",)), "kit", place)
