@@ -205,8 +205,9 @@ def _(S, theta):
 @row.close("rounded-somewhere")  # The velocity summed up in small steps.
 def _(S, theta):
     n = 2000
-    steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
-    return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)
+    angles = (np.arange(n) + 0.5) * theta / n
+    turned = formula(S[:3], n, np.sin(angles).sum(), (1 - np.cos(angles)).sum())
+    return moved(S, theta, turned @ S[3:] * theta / n)
 
 
 @row.wrong("pose-off")  # omega = 0 is asked of its z alone.
