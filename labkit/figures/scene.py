@@ -98,4 +98,4 @@ class Scene:
     ghosts: tuple[Ghost, ...] = ()  # translucent copies
     fast: bool = False  # leave out multisampling, shadows and reflections
     boxes: tuple[Box, ...] = ()  # what else is there
-    robot: str = ""  # the path of an MJCF file, in place of the Panda
+    robot: str = ""  # the path of an MJCF file, instead of the Panda

@@ -6,6 +6,7 @@ gives it back.
 
 import ast
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
+@cache  # a lab's borrowed function asks at every call, thousands of times
 def kits(file: str, function: str) -> Callable[..., Any]:
     """Return the kit's own function; a borrowed one in a student's file calls it.
 

@@ -46,7 +46,7 @@ def opened(text: str) -> str:
 
 
 def run(file: str, names: dict[str, Any]) -> None:
-    """Run a sealed lab in place of its script, given its `__file__` and `globals()`."""
+    """Run a sealed lab instead of its script, given its `__file__` and `globals()`."""
     with open(file, encoding="utf-8") as script:
         text = opened(script.read())
     exec(compile(text.replace("\nimport kit ", "\n# ", 1), file, "exec"), names)

@@ -52,7 +52,7 @@ def jacobian_columns(plan: Plan, q: Array, at_end: bool) -> tuple[Array, Array]:
     if at_end:
         v -= end[:, None, 3]
     (a, b, c), (x, y, z) = omega, v
-    # v = point x omega, written out: np.cross takes ten times as long.
+    # v = point x omega, written out: np.cross takes longer.
     v[0], v[1], v[2] = y * c - z * b, z * a - x * c, x * b - y * a
     for step, at in moved:
         if isinstance(step, Slide):

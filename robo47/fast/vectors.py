@@ -38,7 +38,7 @@ def cross(t: Array, f: Vector) -> Vector:
 
 
 def cross_of(a: Array, b: Array) -> Array:
-    """Return a x b, (..., 3); np.cross takes six times as long on so few numbers."""
+    """Return a x b, (..., 3), without what np.cross checks."""
     (x, y, z), (u, v, w) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 

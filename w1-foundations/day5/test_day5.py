@@ -98,6 +98,33 @@ def test_gains_outside_m_track_and_do_not_decay_as_designed(bench):
     assert "by 0.169 of e0, where those of computed torque differ by 0.0024" in GUIDE
 
 
+@pytest.mark.parametrize(("armature", "creeps"), [(0.1, True), (1.0, False)])
+def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
+    model = loops.motors()
+    model.dof_armature[4:] = armature
+    arm, wrist = panda.arm(model), slice(4, 7)
+    kp, kd = lab.gains(lab.OMEGA, 1.0)
+    M = np.diag(arm.at(lab.READY_Q).M)[wrist]
+    assert (kd / (2.0 * np.sqrt(kp * M)) > 2.5).all() == creeps
+    t, e = decay((model, arm), lab.gains_outside, 0.3, rate=250.0)
+    ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
+                     for x in (0.02, 0.3))  # fmt: skip
+    assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
+    assert "a damping ratio near 3, so they set off fast and creep" in GUIDE
+
+
+def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
+    servos = panda.load("panda_nohand")
+    arm, (_, limits) = panda.arm(servos), simulate.limits(servos)
+    law = lab.equal_springs()
+    loop = lambda t, q, qd: lab.saturate(law(arm, q, qd, raised_cosine(t)), limits)  # noqa: E731
+    push = lambda model, data: np.abs(data.actuator_force) / limits  # noqa: E731
+    start = simulate.start(servos, lab.READY_Q)
+    log = simulate.run(servos, start, loop, 2.0, rate=lab.RATE, watch=push)
+    assert np.mean(np.array(log.seen) > 0.999) > 0.985
+    assert f"the swing is followed within {swing_error(log):.0f} mrad" in GUIDE
+
+
 def test_the_error_curves_at_500_hz(bench):
     off = []
     for zeta in (0.5, 1.0, 2.0):

@@ -56,6 +56,9 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     light = np.diag(lab.task_inertia(J, M - 0.1 * np.eye(7)))[3:]
     said = "without armature it would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
     assert said in SENTENCES
+    free = inv(right)[:, 3]  # how a hand that nobody holds accelerates for 1 N
+    assert free[5] / free[3] == pytest.approx(1 / 3, abs=0.02)
+    assert "it also goes along z, a third as far, and turns" in SENTENCES
     rotors = 1.0 - light / np.diag(right)[3:]  # "an eighth to a quarter"
     assert_same([rotors.min(), rotors.max()], [1 / 8, 1 / 4], 6e-3)
 
@@ -205,6 +208,31 @@ def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
+
+
+SIGNS = {
+    "e": {"spring_wrench": lambda e, V, K, D: -K @ e + D @ V},
+    "V_err": {"spring_wrench": lambda e, V, K, D: K @ e - D @ V},
+    "pinv": {
+        "impedance_torque": lambda J, F, b, d, qd, idle: pinv(J) @ F + b + d * qd + idle
+    },
+}
+
+
+@pytest.mark.parametrize("named", SIGNS)
+def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
+    motors, named
+):
+    model, arm = motors
+    with patch.dict(vars(lab), SIGNS[named]):
+        law = lab.soft_hand(arm, lab.READY_Q)
+        run = simulate.run(model, simulate.start(model, lab.READY_Q + 0.02), law, 1.0)
+    away = arm.at(run.q[-1]).T_world_ee - arm.at(lab.READY_Q).T_world_ee
+    assert (np.linalg.norm(away[:3, 3]) > 0.3) == (named != "pinv")
+    if named == "pinv":
+        theirs = lambda J, L, b, drift, acc: pinv(J) @ L @ (acc - drift) + b  # noqa: E731
+        assert circled(motors, osc_torque=theirs)[0] > 300.0
+    assert "`V_err` or `acc`; on the circle also $J^+$ for $J^T$" in SENTENCES
 
 
 def test_a_position_read_after_a_step_is_one_step_old(motors):

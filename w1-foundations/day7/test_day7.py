@@ -2,7 +2,7 @@
 
 import importlib.util
 import re
-from unittest.mock import MagicMock
+from unittest.mock import MagicMock, patch
 
 import numpy as np
 import pytest
@@ -16,7 +16,17 @@ from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
-from robo47 import capstone, jacobian, panda, scenes, screws, se3, simulate, trajectory
+from robo47 import (
+    capstone,
+    jacobian,
+    panda,
+    scenes,
+    screws,
+    se3,
+    simulate,
+    trajectory,
+    verify,
+)
 from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
@@ -174,6 +184,23 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
 def test_the_hand_weighs_what_the_guide_says():
     mass = panda.hand_inertia(panda.load("panda"))[0]
     assert says(f"The hand with its fingers is {mass:.2f} kg more")
+
+
+def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
+    model, named = panda.load("panda"), row_of(DAY, "carry").named
+    q = verify.random_q(panda.load("panda_nohand"), 50, lab.SEED)
+    ways = {way.slug: way.code for way in named}
+
+    def off(slug, speed):
+        with patch("numpy.random.default_rng") as rng:
+            rng.return_value.uniform.return_value = np.full(q.shape, speed)
+            return np.abs(moves.carried(model, ways[slug], q, lab.SEED)).max()
+
+    for slug in ("only-the-second-moved", "no-parallel-axes"):
+        assert off(slug, 0.0) < 1e-12 < 0.001 < off(slug, 1.0) < 0.1
+    for slug in ("first-centre-kept", "not-divided-by-the-mass"):
+        assert off(slug, 0.0) > 0.5
+    assert says("its inertia, which only speed shows")
 
 
 def followed(scaling, seconds, rate=lab.RATE):

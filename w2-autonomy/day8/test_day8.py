@@ -46,7 +46,13 @@ def data():
 @pytest.fixture(scope="module")
 def printed():
     """Return what the lab prints, 80 columns wide at most."""
-    with patch("sys.argv", ["lab", "--no-log"]), redirect_stdout(io.StringIO()) as out:
+    told = {"how many of 70 numbers show: links": "43",
+            "grams off, of 500: one from either side": "43"}  # fmt: skip
+    with (
+        patch("sys.argv", ["lab", "--no-log"]),
+        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
+        redirect_stdout(io.StringIO()) as out,
+    ):
         assert lab.main() == 0
     assert all(len(line) <= 80 for line in out.getvalue().splitlines())
     return out.getvalue()
@@ -83,6 +89,23 @@ def test_what_the_arm_hides(data):
     tipped.opt.gravity[:] = [1.0, 0.3, -9.7]
     Y = lab.regressor(panda.arm(tipped), secret.anywhere(tipped, lab.SEED, 20))
     assert rank(Y.reshape(-1, 91)[:, :70]) == 45
+
+
+def test_without_a_cut_the_rank_is_near_91_and_parameters_are_huge(data):
+    Y, tau, fast = data["excited"]
+    tau = tau + noises(lab.SEED)[1]
+    for rtol, huge in ((lab.RTOL, False), (0.0, True)):
+        assert (lab.identifiable(Y[fast], rtol)[0] >= 89) == huge
+        assert (np.abs(lab.fit(Y[fast], tau[fast], rtol)).max() > 1e11) == huge
+    assert "a rank near 91, and parameters of 1e12 | nothing was cut" in SENTENCES
+
+
+def test_two_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
+    sheet = (ROOT / "w2-autonomy/docs/day8.md").read_text("utf-8")
+    assert "you predicted 43, measured 43: how many of 70 numbers show" in printed
+    assert "you predicted 43, measured 43.25: grams off, of 500: one" in printed
+    for row in ("how many of 70 numbers show: links", "grams off, of 500: one from"):
+        assert f"| {row}" in sheet
 
 
 def test_one_hinge_feels_three_of_ten():
@@ -227,6 +250,18 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert abs(both[4]) < 0.3 * abs(one[4])
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
+
+
+def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
+    Y, tau, fast = data["excited"]
+    Y, tau = Y[fast], (tau + noises(lab.SEED)[1])[fast]
+    phi, true = lab.fit(Y, tau, lab.RTOL), secret.numbers(panda.arm(robot))
+    hidden = np.linalg.svd(Y, full_matrices=False)[2][62:]
+    other = phi + hidden.T @ (hidden @ (true - phi))  # that part from the truth
+    assert_same(Y @ other, Y @ phi, 1e-11)
+    least = [min(map(lab.least_pseudo, p[:70].reshape(7, 10))) for p in (phi, other)]
+    assert least[0] < -1.0 < -0.01 < least[1]
+    assert "what is wrong is what no torque shows" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():

@@ -237,6 +237,7 @@ def main() -> int:
     for p, name in ((70, "links"), (91, "with motors")):
         rank, condition = identifiable(Y[..., :p].reshape(-1, p), RTOL)
         print(f"  {name}: {rank} of {p} show, condition {condition:.0f}")
+        lab.measured(f"how many of {p} numbers show: {name}", rank)
 
     lab.step("3. A robot that nobody knows: five fits to its torques, N m")
     fast, truth = np.abs(new.qd) > SLOW, secret.torques(robot, new)
@@ -251,10 +252,9 @@ def main() -> int:
     still = lambda now: arm_regressor(now.J_space, now.T_links, *rest) @ phi[:70]  # noqa: E731
     for name, (m, *h) in weighings(robot, loaded, arm).items():
         x, y, z = 1000 * np.array(h) / max(m, 1e-9)
-        up = 1000 * secret.rises(loaded, arm, still, (m, *h))
-        print(
-            f"  {name:25}{1000 * m:6.1f} g at {x:4.1f} {y:5.1f} {z:5.1f} mm{up:8.1f} mm"
-        )
+        grams, up = 1000 * m, 1000 * secret.rises(loaded, arm, still, (m, *h))
+        print(f"  {name:25}{grams:6.1f} g at {x:4.1f} {y:5.1f} {z:5.1f} mm{up:8.1f} mm")
+        lab.measured(f"grams off, of 500: {name}", abs(grams - 1000 * LOAD))
     lab.record("payload_g", 1000 * (m - LOAD), label="the last, g off", seed=SEED)
 
     lab.step("5. Side quest: can a body have these ten numbers?")
