@@ -33,7 +33,7 @@ from labkit.base.exchange import (
 )
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
-from labkit.sandbox.process import LOAD_SECONDS, Process
+from labkit.sandbox.process import Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
@@ -50,6 +50,7 @@ class Sandbox:
         """Take the first process, or start it: it loads while the caller prepares."""
         self._warm: Process | None = warm or Process()
         self._kept: Process | None = None  # with a file that may be asked more
+        self._odd = False  # a file that could be loaded before, and once more not
         self._sessions: list[Session] = []
 
     def __enter__(self) -> "Sandbox":
@@ -121,7 +122,7 @@ class Sandbox:
                     continue
                 if not rounds.ended:
                     ends.pop_all()
-                    self._kept = process
+                    self._keep(process)
             rounds.fill(needs or {})
 
     def session(
@@ -167,9 +168,10 @@ class Sandbox:
 
     def _keep(self, process: Process) -> None:
         """Take a process whose file may be asked more."""
-        if self._kept:
-            self._kept.close()
-        self._kept = process
+        if self._kept or self._odd:
+            process.close()
+        else:
+            self._kept = process
 
     def _again(self, request: dict[str, Any]) -> Process | None:
         """Return the process that was kept with its file loaded anew, if it is that."""
@@ -183,9 +185,10 @@ class Sandbox:
             told = {"added": request["added"], "keep": request["keep"], "models": more}
             process.ask([{"function": "", "args": [], "again": told}])
             with contextlib.suppress(EndedError, FaultError):
-                process.next(LOAD_SECONDS)
+                process.next(CALL_SECONDS)
                 process.told = {**request, "models": had["models"] + more}
                 return process
+            self._odd = True
         process.close()
         return None
 
