@@ -110,7 +110,7 @@ def real_panda() -> Path:
     return folder
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def chromium() -> str:
     """Return a browser's program."""
     names = ("chromium", "chromium-browser", "google-chrome")

@@ -113,10 +113,9 @@ def told(day: Day, entry: Entry) -> dict[str, Verdict]:
     script = entry.path or day.source
     if entry.code:  # what else stands in the complete lab is right, and not asked again
         day = _without_needs(day)
-    return {
-        task: inprocess.verdicts(day, script, task, instead=entry.code)[task]
-        for task in entry.tasks
-    }
+    only = entry.tasks[0] if len(entry.tasks) == 1 else None
+    found = inprocess.verdicts(day, script, only, instead=entry.code)
+    return {task: found[task] for task in entry.tasks}
 
 
 @functools.cache

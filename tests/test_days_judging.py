@@ -2,6 +2,7 @@
 
 import contextlib
 
+import inprocess
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -24,6 +25,12 @@ pytestmark = pytest.mark.kit
 def rows(day):
     """Return (function, its questions, slugs that are one thing) of a day."""
     return [(name, row.ask, row.alike) for name, row in rows_of(day).items()]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _once():
+    with inprocess.worked_out_once():
+        yield
 
 
 ALIKE = {(d.number, name): alike for d in days() for name, _, alike in rows(d)}

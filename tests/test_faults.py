@@ -23,7 +23,8 @@ from labkit.grade.grader import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, fingerprint
 from labkit.grade.roster import Student
-from labkit.handin import check_deliverables, handin
+from labkit.handin import handin
+from labkit.handin.deliverables import check_deliverables
 from labkit.sandbox import process, sandbox, wall
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox

@@ -20,7 +20,7 @@ from labkit.grade.pull import pull_all
 from labkit.grade.result import Mark, Result, counted
 from labkit.grade.roster import Student
 from labkit.grade.sheet import Graded
-from labkit.handin import item_names
+from labkit.handin.deliverables import item_names
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 

@@ -38,7 +38,8 @@ from labkit.grade.pull import OURS, pull_all
 from labkit.grade.result import Mark, Result, from_json, ungraded
 from labkit.grade.roster import Student, file_names, find_students
 from labkit.grade.sheet import Graded, plain
-from labkit.handin import check_deliverables, handin, item_names
+from labkit.handin import handin
+from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.handin import Handin
 from labkit.judge import Verdict
 from labkit.lesson.day import all_days, find_day

@@ -1,8 +1,12 @@
-"""Who may import whom: an arrow that points up is a fault, whatever it is good for."""
+"""The house: who may import whom, and how far a reader follows a check through it."""
 
 import ast
+import re
+
+import pytest
 
 from conftest import ROOT
+from labkit.lesson.day import find_task
 
 # From the ground up: a room may import its own, and rooms that stand before it.
 FLOORS = [
@@ -66,3 +70,24 @@ def test_every_arrow_points_down():
             if there in FLOORS and FLOORS.index(there) > here and name not in FACES:
                 up.append(f"{name}: {other}")
     assert up == []
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    ("task", "right", "wrong", "files", "switches"),
+    [
+        ("1.4", "w, x, y, z = quat", "x, y, z, w = quat", 34, 220),
+        ("5.1", "return kp * e + kd * ed", "return kp * e - kd * ed", 36, 220),
+    ],
+)
+def test_a_check_that_names_a_mistake_is_short_to_follow(
+    run, student, task, right, wrong, files, switches
+):
+    source = find_task(task)[0].source
+    file = student(source.read_text("utf-8").replace(right, wrong, 1), source.name)
+    script, how = ROOT / "scripts" / "check_day.py", ("--task", task, "--file", file)
+    done = run("tests/switches.py", script, *how)
+    assert "WRONG" in done.stdout
+    found = re.search(r"(\d+) files, (\d+) switches", done.stderr)
+    assert int(found[1]) <= files
+    assert int(found[2]) <= switches

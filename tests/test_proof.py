@@ -1,5 +1,6 @@
 """A page to show: what is theirs, run again, and nothing from outside gets a say."""
 
+import functools
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -134,6 +135,7 @@ def test_nothing_from_outside_becomes_a_tag():
     assert seen.words.count("<script>") >= 7
 
 
+@functools.cache
 def a_pick():
     return capstone.pick(capstone.library())
 

@@ -86,3 +86,17 @@ def test_a_table_is_made_once_per_question_and_nobody_spoils_it_for_the_others()
 )
 def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
     assert np.allclose(change.change(np.arange(1.0, 7.0)), used)
+
+
+def test_one_mistake_can_be_made_in_two_ways():
+    row = Row(Scalar())
+
+    @row.wrongs
+    def _(x):
+        """doubled: it is there twice
+        doubled 2: it is added once more
+        """
+        return {"doubled": 2 * x, "doubled 2": x + x}
+
+    assert [way.slug for way in row.named] == ["doubled", "doubled"]
+    assert [way.code(3) for way in row.named] == [6, 6]

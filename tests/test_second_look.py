@@ -9,9 +9,9 @@ import pytest
 from labkit.check.lab_run import rehearse
 from labkit.check.source import old_names
 from labkit.check.tasks import check_tasks
-from labkit.lesson.borrowed import MARK, borrowed_tasks, with_borrowed
+from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.starter import make_starter, read_script
+from labkit.lesson.starter import BORROWED, borrowed_tasks, make_starter, read_script
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 
@@ -108,7 +108,7 @@ class TestTheLabWithAFilesFunctions:
 class TestBorrowing:
     def test_is_marked_counts_as_not_passed_and_lets_one_go_on(self, check):
         code = with_borrowed(XYZW, REFERENCE, ["quat_to_R"])
-        assert MARK in code
+        assert BORROWED in code
         verdicts = check(code)
         assert verdicts["1.4"].mistake == "borrowed"
         assert "make start RESET=1.4" in verdicts["1.4"].message

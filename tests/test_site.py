@@ -48,33 +48,36 @@ class Quiet(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-@pytest.fixture
-def browse(request, chromium, served):
-    """Open a page of the site; what goes wrong in it is kept."""
+@pytest.fixture(scope="module")
+def launched(chromium):
+    """Open browsers, one for all tests that give it the same arguments."""
     playwright = pytest.importorskip("playwright.sync_api")
     with playwright.sync_playwright() as play:
-        drawing = ["--use-gl=angle", "--use-angle=swiftshader"]
-        arguments = getattr(request, "param", drawing)
-        browser = play.chromium.launch(
-            executable_path=chromium, args=[*arguments, "--no-sandbox"]
-        )
-        page = browser.new_page()
-        page.problems = []
-        page.on("pageerror", lambda error: page.problems.append(str(error)))
+        launch = functools.partial(play.chromium.launch, executable_path=chromium)
+        yield functools.cache(lambda *given: launch(args=[*given, "--no-sandbox"]))
 
-        def abroad(request):
-            if not request.url.startswith((served, "data:", "blob:")):
-                page.problems.append(f"asks {request.url}")
 
-        page.on("request", abroad)
+@pytest.fixture
+def browse(request, launched, served):
+    """Open a page of the site; what goes wrong in it is kept."""
+    drawing = ["--use-gl=angle", "--use-angle=swiftshader"]
+    page = launched(*getattr(request, "param", drawing)).new_page()
+    page.problems = []
+    page.on("pageerror", lambda error: page.problems.append(str(error)))
 
-        def go(path, width=1280, **more):
-            page.set_viewport_size({"width": width, "height": 900})
-            page.goto(f"{served}/{path}", **more)
-            return page
+    def abroad(request):
+        if not request.url.startswith((served, "data:", "blob:")):
+            page.problems.append(f"asks {request.url}")
 
-        yield go
-        browser.close()
+    page.on("request", abroad)
+
+    def go(path, width=1280, **more):
+        page.set_viewport_size({"width": width, "height": 900})
+        page.goto(f"{served}/{path}", **more)
+        return page
+
+    yield go
+    page.close()
 
 
 def test_a_page_with_a_lost_link_or_a_foreign_script_is_named(tmp_path):

@@ -152,7 +152,7 @@ def test_a_clip_of_a_file_that_is_not_there_is_one_line(run, tmp_path):
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone):
-    from labkit.handin import check_deliverables
+    from labkit.handin.deliverables import check_deliverables
     from labkit.lesson.day import find_day
 
     need(importlib.util.find_spec("PIL") is not None, "Pillow: make figures")

@@ -30,13 +30,14 @@ SHARE = Metric("right", "share", min=0.95)
 
 
 @pytest.fixture
-def day(one_day):
-    return find_day(1, one_day)
+def day():
+    return find_day(1)
 
 
 @pytest.fixture
-def begun(day):
-    """Begin the day with the kit's solution, in a file of one's own."""
+def begun(one_day):
+    """Begin the day with the kit's solution, in a file of one's own, in a copy."""
+    day = find_day(1, one_day)
     day.work.parent.mkdir()
     for name in ("kit.py", day.script):
         text = day.source.with_name(name).read_text("utf-8")
@@ -167,7 +168,8 @@ def commit(clone, path, when):
         subprocess.run(["git", *step], cwd=clone, env=environment, check=True)
 
 
-def test_the_minutes_of_a_day_are_those_between_its_commits(clone, day):
+def test_the_minutes_of_a_day_are_those_between_its_commits(clone):
+    day = find_day(1, clone)
     subprocess.run(["git", "init", "-q"], cwd=clone, check=True)
     script, sheet = (
         f"w1-foundations/work/{day.script}",
@@ -284,7 +286,8 @@ def test_without_its_marks_a_retrospective_is_left_alone(begun, diary, text):
     assert diary.read_bytes() == text
 
 
-def test_nobodys_numbers_are_written_nowhere(day):
+def test_nobodys_numbers_are_written_nowhere(one_day):
+    day = find_day(1, one_day)
     file = day.folder / "docs" / "RETRO_w1.md"
     file.write_bytes(BEFORE + AFTER)
     assert week_retro.fill([facts(day)]) == []

@@ -25,7 +25,9 @@ def visible(text: object, length: int = LENGTH) -> str:
         unassigned code points as "?", no space at either end.
     """
     whole = str(text)
-    shown = "".join(map(_one, whole[: 2 * length + 2])).strip()
+    kept = whole[: 2 * length + 2]
+    plain = kept.isascii() and kept.isprintable()  # as most are
+    shown = (kept if plain else "".join(map(_one, kept))).strip()
     if len(shown) <= length and len(whole) <= 2 * length + 2:
         return shown
     return shown[:length] + "..."

@@ -69,14 +69,13 @@ def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
 
 
 def kits_own(day: Day, tasks: Iterable[Task]) -> str:
-    """Return code that puts the kit's own functions of some tasks below a file.
+    """Return code that puts the functions below a file that it borrows.
 
-    No other function of the kit comes with them: what the file's own ask of these may
-    pass, and they could call whatever is there.
+    No other function of the kit comes with them: the file's own could call it and pass.
 
     Args:
         day: whose complete lab has them; "" is returned where it is not there.
-        tasks: that a file borrows.
+        tasks: that the file borrows.
     """
     names = [name for task in tasks for name in task.functions]
     if not names or not day.source.is_file():

@@ -22,8 +22,8 @@ from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
-from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
+from labkit.lesson.starter import borrowed_tasks
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
@@ -99,7 +99,11 @@ class _Check:
     def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
         """Take what `check_tasks` takes."""
         self.day, self.script, self.sandbox, self.seed = day, script, sandbox, seed
-        self.source = self.added = self.renamed = ""
+        there = script.is_file()  # the sandbox refuses what is none
+        self.source = script.read_text("utf-8", errors="replace") if there else ""
+        self.borrowed = borrowed_tasks(day, self.source)
+        self.renamed = old_names(day, self.source)
+        self.added = self.renamed + kits_own(day, self.borrowed)
 
     def first_look(self, tasks: Sequence[Task]) -> dict[str, TaskResult]:
         """Return a result per task, by id.
@@ -107,14 +111,10 @@ class _Check:
         Raises:
             LoadError: the file does not load.
         """
-        borrowed = borrowed_tasks(self.day, self._text())
-        self.renamed = old_names(self.day, self._text())
-        self.added = self.renamed + kits_own(self.day, borrowed)
         rounds = self._ask(tasks, self.added)
-        self.source = self._text()
         results: dict[str, TaskResult] = {}
         for task in tasks:
-            if task in borrowed:
+            if task in self.borrowed:
                 results[task.id] = TaskResult(task, _borrowed(task))
                 continue
             found = self._result(task, rounds[task.id])
@@ -174,13 +174,7 @@ class _Check:
             says = right_when(asked, verdict.wrong_calls, names, session.ask)
         return replace(verdict, message=f"{verdict.message} {says}".strip())
 
-    def _text(self) -> str:
-        """Return the student's file as text; what is no file has none."""
-        if not self.script.is_file():
-            return ""
-        return self.script.read_text("utf-8", errors="replace")
-
-    def _ask(self, tasks: Sequence[Task], added: str = "") -> dict[str, list[Asked]]:
+    def _ask(self, tasks: Sequence[Task], added: str) -> dict[str, list[Asked]]:
         """Return the questions to some tasks' functions with their replies."""
         rounds = rounds_of(self.day, tasks, self.seed)
         self.sandbox.run(

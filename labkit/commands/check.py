@@ -72,7 +72,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
         memory.remember(key, results)
     items = lab
     if not options.task:
-        from labkit.handin import check_deliverables
+        from labkit.handin.deliverables import check_deliverables
 
         items += check_deliverables(day, tasks_pass=done)
     found = report.Report(day, results, items)

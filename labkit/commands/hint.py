@@ -37,7 +37,7 @@ def show_deliverable(day: Day, name: str) -> int:
     Raises:
         Robo47Error: the day has nothing of that name.
     """
-    from labkit.handin import check_deliverables
+    from labkit.handin.deliverables import check_deliverables
 
     left, _ = check(day, None)
     required = [task for task in left if not task.optional]

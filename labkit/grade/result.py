@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from labkit.handin import item_names
+from labkit.handin.deliverables import item_names
 from labkit.lesson.day import Day
 
 UNGRADED = "ungraded"  # the status of a task that nobody could look at

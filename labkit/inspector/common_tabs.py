@@ -2,10 +2,10 @@
 
 import math
 import secrets
-from collections.abc import Callable
 
 import mujoco
 import numpy as np
+import viser
 
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
@@ -25,15 +25,18 @@ ABOUT = (
 )
 
 
-def mover(page: Page, i: int) -> Callable[[float], None]:
-    """Return what sets one number of the configuration and leaves the others."""
+def joint_slider(
+    page: Page, joint: str, i: int, unit: str = "rad"
+) -> viser.GuiSliderHandle[float]:
+    """Add a slider that moves one joint, the i-th number of the configuration."""
 
-    def set_joint(value: float) -> None:
+    def move(value: float) -> None:
         q = page.q
         q[i] = value
         page.move(q)
 
-    return set_joint
+    low, high = page.arm.limits(joint)
+    return page.slider(joint, low, high, float(page.q[i]), move, unit=unit)
 
 
 class Joints(Tab):
@@ -47,12 +50,9 @@ class Joints(Tab):
         slides = page.model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
         self.units = ["m" if slide else "" for slide in slides]
         self.sliders = [
-            page.slider(
-                joint, *page.arm.limits(joint), float(page.q[i]), mover(page, i),
-                unit=self.units[i],
-            )
+            joint_slider(page, joint, i, self.units[i])
             for i, joint in enumerate(page.arm.joints)
-        ]  # fmt: skip
+        ]
         self.box = page.gui.add_text("q", "")
         page.host.listen(self.box, self.type)
         self.exact = page.html()
@@ -123,10 +123,7 @@ class Chain(Tab):
             if step.joint
         }
         self.sliders = {
-            joint: page.slider(
-                joint, *page.arm.limits(joint), float(page.q[i]), mover(page, i)
-            )
-            for joint, i in self.place.items()
+            joint: joint_slider(page, joint, i) for joint, i in self.place.items()
         }
 
     def press(self, name: str) -> None:

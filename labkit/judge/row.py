@@ -133,8 +133,8 @@ class Row:
         """Take the mistakes of one function that returns {slug: answer}.
 
         Its docstring has a line of each, "slug: sentence => what to call the answer";
-        an indented line goes on with the one above. An answer that costs much, or may
-        stop, is a function without arguments.
+        an indented line goes on with the one above; "slug 2" is another way to make the
+        mistake. What costs much, or may stop, is a function without arguments.
 
         Args:
             code: the function; None to give the others.
@@ -150,7 +150,8 @@ class Row:
             one = entry_of(table, slug, said.keys())
             update_wrapper(one, code, (), ())  # its arguments' names
             says, _, called = line.partition(" => ")
-            self.wrong(slug, says, called or redone, hidden.get(slug, ""))(one)
+            name = slug.partition(" ")[0]
+            self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
         return code
 
     def close(self, slug: str) -> Any:

@@ -6,18 +6,18 @@ gives it back.
 
 import ast
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from labkit.lesson import folder
-from labkit.lesson.day import Day, Task, day_of
-from labkit.lesson.starter import function_lines
+from labkit.lesson.day import day_of
+from labkit.lesson.starter import BORROWED, function_lines
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-MARK = "# borrowed from the kit"
 
-
+@cache  # a lab's borrowed function asks at every call, thousands of times
 def kits(file: str, function: str) -> Callable[..., Any]:
     """Return the kit's own function; a borrowed one in a student's file calls it.
 
@@ -32,17 +32,6 @@ def kits(file: str, function: str) -> Callable[..., Any]:
         )
     found: Callable[..., Any] = getattr(folder.lab(day), function)
     return found
-
-
-def borrowed_tasks(day: Day, text: str) -> list[Task]:
-    """Return the tasks of which a student's file borrows a function."""
-    if MARK not in text:
-        return []
-    return [
-        task
-        for task in day.tasks
-        if any(MARK in "\n".join(function_lines(text, f)[2]) for f in task.functions)
-    ]
 
 
 def with_borrowed(text: str, complete: str, functions: Iterable[str]) -> str:
@@ -60,7 +49,7 @@ def with_borrowed(text: str, complete: str, functions: Iterable[str]) -> str:
         head = complete.splitlines()[node.lineno - 1 : node.body[0].end_lineno]
         given = ", ".join(arg.arg for arg in node.args.args)
         body = [
-            f"    {MARK}; your own function gives it back",
+            f"    {BORROWED}; your own function gives it back",
             "    from labkit.lesson.borrowed import kits",
             "",
             f'    return kits(__file__, "{name}")({given})',

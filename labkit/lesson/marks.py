@@ -6,8 +6,8 @@ from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 
-from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Metric
+from labkit.lesson.starter import borrowed_tasks
 from labkit.log.rows import Row
 
 _FILE = re.compile(r"\bfile ([0-9a-f]{8})$")

@@ -10,12 +10,14 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from labkit.lesson.day import Day, Task
 from labkit.lesson.sealed import opened
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 _MARKER = re.compile(r"^(?P<indent>\s*)# (?P<end>end)?region\b\s*(?P<task>\S*)\s*$")
 _DEF = re.compile(r"^def (?P<name>\w+)\(")
+BORROWED = "# borrowed from the kit"  # in a function that is not the student's own
 
 
 @dataclass(frozen=True)
@@ -141,6 +143,17 @@ def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
         lines[start:end] = gap
         text = "\n".join(lines) + "\n"
     return text
+
+
+def borrowed_tasks(day: Day, text: str) -> list[Task]:
+    """Return the tasks of which a student's file borrows a function."""
+    if BORROWED not in text:
+        return []
+
+    def borrows(function: str) -> bool:
+        return BORROWED in "\n".join(function_lines(text, function)[2])
+
+    return [task for task in day.tasks if any(map(borrows, task.functions))]
 
 
 def read_script(path: Path) -> str:

@@ -191,6 +191,12 @@ class ArmState:
         return (self._S @ to_end).T
 
     @lazy
+    def G(self) -> Array:
+        """Inertias of the links about the world's origin, (n, 6, 6)."""
+        n = len(self.q)
+        return (self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
+
+    @lazy
     def _P(self) -> Array:
         """Pseudo-inertias of the links about the world's origin, (n, 4, 4)."""
         return self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)

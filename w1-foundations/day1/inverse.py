@@ -54,16 +54,14 @@ def _(T):
     t-not-negated: R is right and t is in the right axes, but it points there, not back
       => the right one with t reversed
     t-kept: R is right, but t is still the old one => the right one with t kept
-    t-turned-forwards: R is right, but t is turned by R itself, not by what undoes R =>
-      the right one with t turned by R
+    t-turned-forwards: R is right, but t is turned by R itself, not by what undoes R
     R-kept: the translation is right, but R is still the old one: the turn is not undone
       => the right one with R kept
     R-kept-t-negated: only t is negated: that undoes a plain move, but here the turn
       stays => the right one with t only negated
     R-kept-t-turned-forwards: R is not undone, neither as the new rotation nor where it
       turns t
-    all-signs: every entry is negated; that undoes an addition, not a transform => its
-      negative
+    all-signs: every entry is negated; that undoes an addition, not a transform
     minus-R: R and t are only negated: -R is a mirror image (det R = -1), and it undoes
       nothing => the right one made of -R and -t
     """

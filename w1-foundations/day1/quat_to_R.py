@@ -69,8 +69,7 @@ def _(quat):
       wrong way round => the right one read as y, z, w, x
     z-before-x: x, y and z are read in the order z, y, x => the right one read as w, z,
       y, x
-    half-angle: it turns by half the angle: w is the cosine of half the angle => the
-      turn by half of it
+    half-angle: it turns by half the angle: w is the cosine of half the angle
     factor-two-missing: the products are there, but the factor 2 in front of them is
       missing => the right formula without the 2
     divided-by-length-squared: the quaternion is divided by its squared length; the

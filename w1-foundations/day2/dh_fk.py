@@ -46,13 +46,11 @@ def _(table, q):
     flange-turned: the eighth row is turned by the last joint's angle again; the flange
       does not turn => the product with q[6] twice
     theta-one-row-late: theta is one row late: the first row is joint1's, and gets q[0]
-      => the product with 0 first
     theta-one-row-early: theta is one row early: the first row is joint1's, and gets
       q[0] => the product with q[1] first
     product-reversed: the links stand in the reverse order: the one nearest to the base
       belongs on the left => the product in reverse
-    multiplied-by-entries: the links are multiplied entry by entry, not as matrices =>
-      the product by entries
+    multiplied-by-entries: the links are multiplied entry by entry, not as matrices
     last-link-only: only the last row counts: what the others do is overwritten => the
       eighth link alone
     flange-typed-in: the eighth row is typed in as Franka's; with another table it is

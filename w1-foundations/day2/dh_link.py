@@ -49,8 +49,7 @@ def _(alpha, a, d, theta):
       about z; it comes before it => the right one with that order
     d-along-the-old-z: the rotation is right, but d is moved along the z axis before the
       turn about x => the right one with that order
-    order-of-moves: the four moves are right, but not their order => the product in that
-      order
+    order-of-moves: the four moves are right, but not their order
     """
     orders = {
         "standard-formula": "zZXx",

@@ -43,10 +43,8 @@ def rodrigues(axis, theta):
 def _(axis, theta):
     """turns-backwards: it turns the other way: the sine's term has the wrong sign =>
       the rotation by -theta
-    minus-square: the last term is subtracted: lengths grow (det R is far from 1) => the
-      formula with that minus
+    minus-square: the last term is subtracted: lengths grow (det R is far from 1)
     square-missing: the term with K K is missing: I + sin K holds for tiny angles only
-      => the formula without it
     sine-term-missing: the term with K itself is missing, so turning by theta and -theta
       is the same => the formula without it
     identity-missing: the identity is missing: at theta = 0 a rotation leaves everything
@@ -65,8 +63,7 @@ def _(axis, theta):
       for ever => the series cut there
     cosine-before-identity: before the identity stands the cosine; that goes with axis
       axis^T, and I itself with K K => the formula with cos I
-    theta-for-sine: before K stands theta; it has to be its sine => the formula with
-      theta K
+    theta-for-sine: before K stands theta; it has to be its sine
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -89,8 +86,7 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """squared-by-entries: K * K squares each entry; K K is a product of matrices => the
-      formula with K * K
+    """squared-by-entries: K * K squares each entry; K K is a product of matrices
     exp-by-entries: np.exp works on each entry; the exponential of a matrix is a series
       of products => np.exp of [axis] theta
     bracket-of-a-dyad: the last term is (1 - cos) times axis axis^T; that goes with cos

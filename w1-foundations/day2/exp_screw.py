@@ -105,10 +105,8 @@ def _(S, theta):
       sign => the right one with that sign
     travel-sign-of-KK: R is right, but in the translation the term with K K has the
       wrong sign => the right one with that sign
-    travel-without-K: R is right, but in the translation the term with K is missing =>
-      the right one without it
+    travel-without-K: R is right, but in the translation the term with K is missing
     travel-without-KK: R is right, but in the translation the term with K K is missing
-      => the right one without it
     travel-K-for-KK: R is right, but in the last term of the translation stands K, not K
       K => the right one with K there
     """
@@ -134,12 +132,10 @@ def _(S, theta):
     """R-times-v: R is right, but the translation is R v: a velocity has to be summed up
       on the way => the right one with R v
     R-times-theta-v: R is right, but the translation is theta R v: the direction of v
-      turns on the way, it is not turned all the way from the start => the right one
-      with theta R v
+      turns on the way, it is not turned all the way from the start
     travel-on-a-line: R is right, but the translation is theta v, a straight line; a
       screw's path bends => the right one with theta v
-    travel-is-v: R is right, but the translation is v itself, whatever theta is => the
-      right one with v
+    travel-is-v: R is right, but the translation is v itself, whatever theta is
     travel-turned: R is right, but the translation is turned by R once more => the right
       one with R t
     travel-over-theta: R is right, but in the translation theta is missing: the whole of
@@ -209,8 +205,9 @@ def _(S, theta):
 @row.close("rounded-somewhere")  # The velocity summed up in small steps.
 def _(S, theta):
     n = 2000
-    steps = [rodrigues(S[:3], (k + 0.5) * theta / n) for k in range(n)]
-    return moved(S, theta, np.sum(steps, axis=0) @ S[3:] * theta / n)
+    angles = (np.arange(n) + 0.5) * theta / n
+    turned = formula(S[:3], n, np.sin(angles).sum(), (1 - np.cos(angles)).sum())
+    return moved(S, theta, turned @ S[3:] * theta / n)
 
 
 @row.wrong("pose-off")  # omega = 0 is asked of its z alone.

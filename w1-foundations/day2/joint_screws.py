@@ -29,13 +29,10 @@ def _(T_zero):
       like from the world stands in a column => the answer with the third row
     axis-local-z: the axis is (0, 0, 1) for every joint: that is z in the link's own
       frame; the screw needs it seen from the world => the answer with (0, 0, 1)
-    axis-x-column: the axis is the links' x; the Panda's joints turn about their z =>
-      the answer with x
-    axis-y-column: the axis is the links' y; the Panda's joints turn about their z =>
-      the answer with y
+    axis-x-column: the axis is the links' x; the Panda's joints turn about their z
+    axis-y-column: the axis is the links' y; the Panda's joints turn about their z
     point-is-local-pos: the point is each link's place on the one before, in that one's
-      axes, as the file has it; the screw needs it seen from the world => the answer
-      with those points
+      axes, as the file has it; the screw needs it seen from the world
     all-local: axis and point are each link's on the one before; the screw needs both
       seen from the world => the answer from those poses
     poses-multiplied: the poses are multiplied along the arm; they are in the world

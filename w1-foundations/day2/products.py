@@ -77,22 +77,19 @@ def _in_the_product(row, form):
           M seven times, not M => that product
         multiplied-by-entries: the exponentials are multiplied entry by entry, not as
           matrices => the product by entries
+        multiplied-by-entries 2: the exponentials are multiplied entry by entry, not as
+          matrices => the product by entries, from the identity on
         """
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
+        by_entries = np.prod(factors, axis=0)
         return {
             "product-reversed": lambda: form(screws[::-1], M, q[::-1]),
             "M-twice": lambda: M @ space(screws, M, q),
             "M-in-the-loop": reduce(np.matmul, beside_M),
-            "multiplied-by-entries": with_M(form, np.prod(factors, axis=0), M),
+            "multiplied-by-entries": with_M(form, by_entries, M),
+            "multiplied-by-entries 2": with_M(form, np.eye(4) * by_entries, M),
         }
-
-    @row.wrong
-    def multiplied_by_entries(screws, M, q):
-        """the exponentials are multiplied entry by entry, not as matrices => the
-        product by entries, from the identity on"""
-        factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
-        return with_M(form, np.eye(4) * np.prod(factors, axis=0), M)
 
     @row.wrong
     def exponentials_summed(screws, M, q):
@@ -109,8 +106,7 @@ def _in_q(row, form):
         """negative-angles-left-out: joints with a negative angle do not move => the
           pose with 0 for each of them
         angles-added-up: each joint is given the sum of all angles up to its own; its
-          exponential needs its own alone, since the product carries the others => the
-          pose with those sums
+          exponential needs its own alone, since the product carries the others
         """
         used = {
             "negative-angles-left-out": np.maximum(q, 0.0),
@@ -126,11 +122,9 @@ def _in_M(row, form):
     def _(screws, M, q):
         """M-forgotten: M is missing: the motions are right, but they have to act on
           where the hand is at q = 0 => the product without M
-        M-inverted: M is inverted; it maps hand coordinates to the world as it is => the
-          product with the inverse of M
+        M-inverted: M is inverted; it maps hand coordinates to the world as it is
         M-twice: M is there twice, side by side => the product with M M for M
-        M-rotation-missing: M's rotation is missing; only its translation is there =>
-          the product without it
+        M-rotation-missing: M's rotation is missing; only its translation is there
         M-turned-back: M's rotation is transposed => the product with that M
         """
         used = {

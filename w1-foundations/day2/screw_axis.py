@@ -37,6 +37,10 @@ def _(axis, point):
       of length 1, and it comes so => the right one so divided
     axis-reversed: the whole screw is negated: it turns about the same line, the other
       way => the screw of -axis
+    product-by-entries: v is omega times the point entry by entry; a cross product mixes
+      the entries => (omega; -omega * point)
+    product-by-entries 2: v is omega times the point entry by entry; a cross product
+      mixes the entries => (omega; omega * point)
     omega-reversed: v is right, but omega is -axis => the right one with omega negated
     """
     right, v = screw_axis(axis, point), np.cross(point, axis)
@@ -50,16 +54,10 @@ def _(axis, point):
         "twist-order-and-sign": np.append(-v, axis),
         "divided-by-its-length": right / np.linalg.norm(right),
         "axis-reversed": -right,
+        "product-by-entries": np.append(axis, -axis * point),
+        "product-by-entries 2": np.append(axis, axis * point),
         "omega-reversed": np.append(-axis, v),
     }
-
-
-for sign, minus in ((-1, "-"), (1, "")):
-    row.wrong(
-        "product-by-entries",
-        "v is omega times the point entry by entry; a cross product mixes the entries",
-        f"(omega; {minus}omega * point)",
-    )(lambda axis, point, sign=sign: np.append(axis, sign * axis * point))
 
 
 @row.close("rounded")  # Rounded for reading.

@@ -26,8 +26,7 @@ def _(w):
       transpose => the right one with every sign a plus
     outer-product: this is w times w transposed, which does a projection, not a cross
       product => that product
-    on-the-diagonal: w stands on the diagonal; w x p has no part of w along w => the
-      diagonal matrix
+    on-the-diagonal: w stands on the diagonal; w x p has no part of w along w
     ones-on-diagonal: the diagonal is 1; it has to be 0, since w x w is 0 => the right
       one plus the identity
     made-unit: w is divided by its length first; the cross product is as long as w says

@@ -42,10 +42,8 @@ def _(J, e, damping):
     damping-not-squared: the damping is not squared => the step with damping I
     damping-dropped: there is no damping in it: this is the plain pseudo-inverse, which
       is huge near a singularity => the step of the pseudo-inverse
-    damping-doubled: the damping is multiplied by 2, not by itself => the step with 2
-      damping I
-    damping-halved: half of the squared damping is added, not all of it => the step with
-      half of it
+    damping-doubled: the damping is multiplied by 2, not by itself
+    damping-halved: half of the squared damping is added, not all of it
     damping-everywhere: damping^2 is added to every entry of J J^T; it belongs on the
       diagonal only => the step with damping^2 in every entry
     transpose-only: this is J^T e: the inverse is missing, so the step has the wrong
@@ -56,14 +54,11 @@ def _(J, e, damping):
       the directions near a singularity most => the plain step over 1 + damping^2
     damping-squared-twice: the damping is squared twice: its fourth power is added =>
       the step with damping^4 I
-    damping-fixed: the damping is 0.05 whatever the argument says => the step with
-      damping 0.05
+    damping-fixed: the damping is 0.05 whatever the argument says
     damping-added-to-the-values: the damping is added to each singular value s, 1 / (s +
-      damping); the formula makes s / (s^2 + damping^2) of it => the step with 1 / (s +
-      damping)
+      damping); the formula makes s / (s^2 + damping^2) of it
     singular-value-missing: the weights are 1 / (s^2 + damping^2) for the singular
-      values s: J^T in front puts one more s above => the step with 1 / (s^2 +
-      damping^2)
+      values s: J^T in front puts one more s above
     """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)
     along = U.T @ e  # the singular directions of the hand

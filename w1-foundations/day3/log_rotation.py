@@ -138,10 +138,8 @@ def _(R):
       R - R^T: no turn is 0 / 0 in it, and near pi it divides noise by nearly 0 => that
       formula, with its NaN,
     nan-at-0: NaN comes back where R is the identity: there it is divided by a sine of 0
-      => the right one with NaN there
     arccosine-beyond-1: NaN comes back where rounding makes (trace - 1) / 2 a bit more
       than 1, or less than -1: the arccosine has no answer there. atan2 always has one
-      => the right one with NaN there
     """
     angle = np.arccos(cosine(R))
     no_turn = cosine(R) > 0 and not vee(R).any()

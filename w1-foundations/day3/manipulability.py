@@ -44,16 +44,14 @@ def _(J):
       the root of det(J^T J)
     smallest-singular-value: this is the smallest singular value alone; the product of
       all six is asked for => the smallest singular value
-    largest-singular-value: this is the largest singular value, the norm of J => the
-      largest singular value
+    largest-singular-value: this is the largest singular value, the norm of J
     sum-of-singular-values: the singular values are added; they have to be multiplied =>
       the sum of the singular values
     trace: this comes from the trace, which is the sum; the determinant is asked for =>
       the root of the trace
     inverse-condition: this is the smallest singular value over the largest one, another
       measure => the inverse of the condition number
-    square-part: this is the determinant of the first six columns; joint 7 counts too =>
-      the determinant of six columns
+    square-part: this is the determinant of the first six columns; joint 7 counts too
     position-only: only the three v rows of J are used; the rotation counts too => the
       root of det(J J^T) of three rows
     diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all

@@ -54,12 +54,11 @@ def _(rng):
     return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
 
 
-@row.wrongs
+@row.wrongs(hidden={"one-direction-only": "its J have rank 6"})
 def _(J, dq):
     """transpose-for-pseudo-inverse: J^T stands where J^+ belongs: I - J^T J is no
       projector, and the hand feels it => dq - J^T J dq
     felt-part: this is the part that the hand does feel, J^+ J dq; the rest is asked for
-      => J^+ J dq
     unchanged: dq comes back as it was => dq itself
     added: the part that the hand feels is added; it has to be taken away => dq + J^+ J
       dq
@@ -67,11 +66,14 @@ def _(J, dq):
       not feel => zeros
     normalised: its length is made 1; the part of dq that the hand does not feel has a
       length of its own => the right one over its length
+    one-direction-only: only the last right singular vector is kept. Where J is
+      singular, there are more motions that the hand does not feel => dq along that
+      vector
     position-only: only the three v rows of J are used: the hand stays where it is, but
       it turns => the projector of three rows
     """
     felt = pinv(J) @ (J @ dq)
-    left = dq - felt
+    left, last = dq - felt, np.linalg.svd(J)[2][-1]
     return {
         "transpose-for-pseudo-inverse": dq - J.T @ (J @ dq),
         "felt-part": felt,
@@ -79,6 +81,7 @@ def _(J, dq):
         "added": dq + felt,
         "nothing-left": np.zeros(7),
         "normalised": left / np.linalg.norm(left),
+        "one-direction-only": (last @ dq) * last,
         "position-only": dq - pinv(J[3:]) @ (J[3:] @ dq),
     }
 
@@ -90,14 +93,6 @@ for damping in (0.05, 0.1, 0.01):
         "motion stays",
         "the projector with damping",
     )(lambda J, dq, damping=damping: dq - dls_step(J, J @ dq, damping))
-
-
-@row.wrong(hidden="its J have rank 6")
-def one_direction_only(J, dq):
-    """only the last right singular vector is kept. Where J is singular, there are more
-    motions that the hand does not feel => dq along that vector"""
-    v = np.linalg.svd(J)[2][-1]
-    return (v @ dq) * v
 
 
 @row.wrong("felt")  # Joint 7 alone moves, as in the docstring.

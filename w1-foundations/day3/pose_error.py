@@ -70,8 +70,7 @@ def _(T, T_goal):
       rotation that leads from one to the other => the difference of the two logs
     euler-difference: roll, pitch and yaw are subtracted: their difference is no
       rotation that leads from one to the other => the difference of those angles
-    rotations-multiplied: this is log(R_goal R): one of the two has to be undone => the
-      error with log(R_goal R)
+    rotations-multiplied: this is log(R_goal R): one of the two has to be undone
     """
     R, goal, way = T[:3, :3], T_goal[:3, :3], T_goal[:3, 3] - T[:3, 3]
     rotations = {
@@ -94,8 +93,7 @@ def _(T, T_goal):
     goal-position-for-translation: the lower half is where the goal is, not how far it
       is => the error with p_goal
     screw-for-translation: the lower half is the translation of T_goal T^-1, which is
-      p_goal - R p with the rotation between them as R; here it is p_goal - p => the
-      error with that translation
+      p_goal - R p with the rotation between them as R; here it is p_goal - p
     """
     p, goal, turn = T[:3, 3], T_goal[:3, 3], pose_error(T, T_goal)[:3]
     translations = {

@@ -71,8 +71,7 @@ def _(screws, q):
       carry it => the Jacobian with the product of the joints after each
     adjoint-of-the-inverse: the screws are carried the other way: this is Ad of the
       inverse => the Jacobian with the inverse
-    columns-reversed: the columns are in the reverse order: joint 1's comes first => the
-      right one with its columns reversed
+    columns-reversed: the columns are in the reverse order: joint 1's comes first
     """
     alone, moved = [np.eye(4), *exp_screw(screws, q)], products(screws, q)
     after = accumulate([np.eye(4), *alone[:0:-1]], on_the_left)
@@ -97,8 +96,7 @@ row.of_argument("q", BACKWARDS, DEGREES, RADIANS_TWICE)
 def _(screws, q):
     """bracket-top-right: in the adjoint, [p] R stands top right; with (omega; v) it
       stands bottom left => the Jacobian with that adjoint
-    bracket-after-R: in the adjoint, R [p] stands where [p] R belongs => the Jacobian
-      with that adjoint
+    bracket-after-R: in the adjoint, R [p] stands where [p] R belongs
     rotation-only: the screws are only rotated; where the joints have moved to is left
       out ([p] R is missing in the adjoint) => the Jacobian with R alone
     translation-only: the screws are only translated; the rotation R is left out of the

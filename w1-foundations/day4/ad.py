@@ -24,15 +24,13 @@ def _(rng):
 def _(V):
     """v-on-top: [v] stands in the upper right; an angular velocity does not change with
       v, so that block is 0 => the matrix with [v] up there
-    v-forgotten: [v] is missing: this turns both halves, and does no more => the matrix
-      without [v]
+    v-forgotten: [v] is missing: this turns both halves, and does no more
     second-omega-forgotten: the lower right block is empty; a linear velocity is turned,
       too => the matrix with 0 there
     v-sign: [v] has the wrong sign: ad(V) V is not 0 => the matrix with -[v]
     v-in-both-corners: [v] stands in both corners; the upper right one is 0 => the
       matrix with [v] twice
-    v-last: the lower right block is [v]; both on the diagonal are [omega] => the matrix
-      with [omega] and [v] on the diagonal
+    v-last: the lower right block is [v]; both on the diagonal are [omega]
     identity-added: the identity is added; ad(V) is what changes in a second, and for V
       = 0 nothing does => the matrix plus the identity
     product-for-v: the lower left block is [v] [omega]; a product like this, [p] R,

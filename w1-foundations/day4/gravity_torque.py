@@ -54,8 +54,7 @@ def _(J, masses, coms_world, g):
       one of its own => the torque with that centre for all
     signs-lost: no torque is negative here: a motor has to pull the other way as well =>
       the right torque without its signs
-    mass-forgotten: the masses are missing: every link counts as 1 kg => the torque with
-      1 kg each
+    mass-forgotten: the masses are missing: every link counts as 1 kg
     """
     given = masses, coms_world, g
     tau, own = gravity_torque(J, *given), partial(torque, J, *given)

@@ -135,6 +135,12 @@ def _(J, G, qd, qdd, g):
       (omega; v)
     gravity-at-every-link: gravity is added at the base and again at every link; the sum
       carries it from the base to all
+    bracket-not-transposed 2: the force has ad instead of minus its transpose: a wrench
+      changes the other way from a twist
+    gravity-at-every-link 2: gravity is added again at every link; the sum carries it
+      from the base to all
+    accelerations-not-added 2: A is set anew at every link, so what the joints before
+      gave, and gravity, are lost; it adds up, as V does
     """
     up = lift(g)
     others = {
@@ -163,26 +169,13 @@ def _(J, G, qd, qdd, g):
         "gravity-as-omega": {"base": np.roll(up, 3)},
         "gravity-at-every-link": {"turned": lambda X, S, speed: X @ S * speed + up},
     }
-    return walked(J, G, qd, qdd, g, others)
-
-
-@row.wrongs(redone="the torque so")
-def _(J, G, qd, qdd, g):
-    """bracket-not-transposed: the force has ad instead of minus its transpose: a wrench
-      changes the other way from a twist
-    gravity-at-every-link: gravity is added again at every link; the sum carries it from
-      the base to all
-    accelerations-not-added: A is set anew at every link, so what the joints before
-      gave, and gravity, are lost; it adds up, as V does
-    """
-    up = lift(g)
-    others = {
-        "bracket-not-transposed": {"swing": lambda V, A, G, own: ad(V) @ G @ V},
-        "gravity-at-every-link": {
+    others |= {
+        "bracket-not-transposed 2": {"swing": lambda V, A, G, own: ad(V) @ G @ V},
+        "gravity-at-every-link 2": {
             "base": 0 * up,
-            "turned": lambda X, S, speed: X @ S * speed + up,
+            **others["gravity-at-every-link"],
         },
-        "accelerations-not-added": {"base": 0.0, "A_before": 0.0},
+        "accelerations-not-added 2": {"base": 0.0, "A_before": 0.0},
     }
     return walked(J, G, qd, qdd, g, others)
 

@@ -97,8 +97,7 @@ def _(T_links, masses, coms, inertias):
       take a twist from the world to the link => the answer with the inverse of T, which
       is Ad(T)^T G Ad(T),
     adjoint-not-inverted: this is Ad(T) G Ad(T)^T; G takes a twist to a momentum, so
-      what stands on its right has to take a twist from the world to the link => Ad(T) G
-      Ad(T)^T
+      what stands on its right has to take a twist from the world to the link
     origin-for-com: the mass sits at the link's origin; it sits at its centre of mass =>
       the answer with p alone
     poses-multiplied: the poses are multiplied along the arm; each T of T_links is seen

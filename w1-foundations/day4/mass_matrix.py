@@ -38,8 +38,7 @@ def _(J, G, armature):
       => M with seven times the armature
     mirrored-with-the-diagonal: M and its transpose are added, so the diagonal counts
       twice => M with twice its diagonal
-    inverse-returned: this is the inverse of M: small where the arm is heavy => the
-      inverse of M
+    inverse-returned: this is the inverse of M: small where the arm is heavy
     """
     M, links_alone = mass_matrix(J, G, armature), mass_matrix(J, G, 0.0)
     return {

@@ -41,11 +41,9 @@ def _(m, c, I):
       the product of two matrices is @ => the matrix with * there
     mass-forgotten-in-the-parallel-axis: the top left block adds [c] [c]^T without the
       mass => the matrix without m there
-    own-inertia-forgotten: the body's own inertia I is missing: this is a point mass =>
-      that of a point mass
+    own-inertia-forgotten: the body's own inertia I is missing: this is a point mass
     products-of-inertia-sign: the entries of I off its diagonal have the wrong sign; I
-      is the matrix that it has to be, and is added as it is => the matrix with those
-      signs
+      is the matrix that it has to be, and is added as it is
     diagonal-of-I: only the diagonal of I is used; the other entries are 0 along a
       body's own axes, and these are the world's => the matrix with the rest of I as 0
     """

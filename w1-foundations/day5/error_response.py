@@ -64,6 +64,8 @@ def _(rng):
 @row.wrongs
 def _(t, omega, zeta):
     """one-formula-for-all: zeta is not looked at: this is critical damping, every time
+    one-formula-for-all 2: zeta only stretches time: this is the formula of zeta = 1 for
+      every zeta, and under 1 it does not swing
     envelope-alone: this is the envelope, e^(-zeta omega t); the error starts at rest,
       and this curve starts with a slope
     envelope-of-omega: this is e^(-omega t), whatever zeta is; the error starts at rest,
@@ -77,19 +79,13 @@ def _(t, omega, zeta):
     """
     return {
         "one-formula-for-all": (1.0 + omega * t) * np.exp(-omega * t),
+        "one-formula-for-all 2": (1 + zeta * omega * t) * np.exp(-zeta * omega * t),
         "envelope-alone": np.exp(-zeta * omega * t),
         "envelope-of-omega": np.exp(-omega * t),
         "half-the-damping": error_response(t, omega, zeta / 2.0),
         "output-in-place-of-error": 1.0 - error_response(t, omega, zeta),
         "omega-in-turns": error_response(t, 2.0 * np.pi * omega, zeta),
     }
-
-
-@row.wrong
-def one_formula_for_all(t, omega, zeta):
-    """zeta only stretches time: this is the formula of zeta = 1 for every zeta, and
-    under 1 it does not swing"""
-    return (1.0 + zeta * omega * t) * np.exp(-zeta * omega * t)
 
 
 @row.wrongs(hidden=HIDDEN)

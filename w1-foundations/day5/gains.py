@@ -26,9 +26,13 @@ def _(omega, zeta):
     swapped: kp and kd are swapped
     root-of-omega: kd has the square root of omega in it, as if omega were kp already
     kd-with-omega-squared: kd has omega squared in it: compare the units, kd is in 1/s
+    omega-in-turns: omega is taken for turns per second and multiplied by 2 pi; it comes
+      in rad/s
     zeta-squared-in-kp: kp has zeta in it; damping changes kd alone
     """
+    turns = 2.0 * np.pi * omega
     return {
+        "omega-in-turns": np.array([turns**2, 2.0 * zeta * turns]),
         "two-forgotten": np.array([omega**2, zeta * omega]),
         "kp-is-omega": np.array([omega, 2.0 * zeta * omega]),
         "kd-is-omega": np.array([omega**2, omega]),
@@ -38,13 +42,6 @@ def _(omega, zeta):
         "kd-with-omega-squared": np.array([omega**2, 2.0 * zeta * omega**2]),
         "zeta-squared-in-kp": np.array([(zeta * omega) ** 2, 2.0 * zeta * omega]),
     }
-
-
-@row.wrong
-def omega_in_turns(omega, zeta):
-    """omega is taken for turns per second and multiplied by 2 pi; it comes in rad/s"""
-    omega = 2.0 * np.pi * omega
-    return np.array([omega**2, 2.0 * zeta * omega])
 
 
 @row.right  # A plain list.

@@ -94,6 +94,8 @@ def _(e, ed, integral, ki, dt, clamp):
     never-grows: the integral never changes: this call's error is not added to it
     trapezoid-of-the-error: ed is in the area, as the mean of this error and the one
       before; this call's area is e dt
+    trapezoid-of-the-error 2: ed is in the area, as the mean of this error and the next;
+      this call's area is e dt
     """
     sums = {
         "dt-forgotten": integral + e,
@@ -104,6 +106,7 @@ def _(e, ed, integral, ki, dt, clamp):
         "starts-anew": e * dt,
         "never-grows": integral,
         "trapezoid-of-the-error": integral + (e - ed * dt / 2) * dt,
+        "trapezoid-of-the-error 2": integral + (e + ed * dt / 2) * dt,
     }
     return {slug: np.clip(new, -clamp, clamp) for slug, new in sums.items()}
 
@@ -128,12 +131,17 @@ def _(e, ed, integral, ki, dt, clamp):
       joint's integral has that bound for itself
     term-clamped: ki times the integral is clamped; clamp is the bound of the integral
       itself
+    old-sum-clamped 2: the old sum and e dt are clamped one by one, and then added:
+      clamp the new sum
+    frozen-at-the-limit 2: an integral at its limit stays there for ever; an error of
+      the other sign must be able to unwind it
+    clamped-on-one-side 2: the integral is bounded below and not above
     """
-    step, new = e * dt, integral + e * dt
+    step, new, old = e * dt, integral + e * dt, np.clip(integral, -clamp, clamp)
     length = max(np.linalg.norm(new), 1e-12)
     return {
         "not-clamped": new,
-        "old-sum-clamped": np.clip(integral, -clamp, clamp) + step,
+        "old-sum-clamped": old + step,
         "error-clamped": integral + np.clip(e, -clamp, clamp) * dt,
         "step-clamped": integral + np.clip(step, -clamp, clamp),
         "frozen-at-the-limit": np.where(np.abs(new) > clamp, integral, new),
@@ -142,27 +150,9 @@ def _(e, ed, integral, ki, dt, clamp):
         "never-negative": np.clip(new, 0.0, clamp),
         "clamped-as-a-vector": new * min(1.0, clamp / length),
         "term-clamped": np.clip(ki * new, -clamp, clamp) / ki,
-    }
-
-
-@summed
-def _(e, ed, integral, ki, dt, clamp):
-    """old-sum-clamped: the old sum and e dt are clamped one by one, and then added:
-      clamp the new sum
-    frozen-at-the-limit: an integral at its limit stays there for ever; an error of the
-      other sign must be able to unwind it
-    clamped-on-one-side: the integral is bounded below and not above
-    trapezoid-of-the-error: ed is in the area, as the mean of this error and the next;
-      this call's area is e dt
-    """
-    step, stays = e * dt, np.abs(integral) >= clamp
-    mean = integral + (e + ed * dt / 2) * dt
-    both = np.clip(integral, -clamp, clamp) + np.clip(step, -clamp, clamp)
-    return {
-        "old-sum-clamped": both,
-        "frozen-at-the-limit": np.where(stays, integral, integral + step),
-        "clamped-on-one-side": np.maximum(integral + step, -clamp),
-        "trapezoid-of-the-error": np.clip(mean, -clamp, clamp),
+        "old-sum-clamped 2": old + np.clip(step, -clamp, clamp),
+        "frozen-at-the-limit 2": np.where(np.abs(integral) >= clamp, integral, new),
+        "clamped-on-one-side 2": np.maximum(new, -clamp),
     }
 
 

@@ -65,8 +65,7 @@ def _(tau, limits):
     first-limit-typed-in: all joints get 87 N m, typed in; take each motor's own from
       limits
     all-positive: every torque has lost its sign; a motor turns both ways
-    first-joint-only: only joint1 is limited; every motor has a limit => the right one
-      with joint1
+    first-joint-only: only joint1 is limited; every motor has a limit
     """
     right, over = np.clip(tau, -limits, limits), np.abs(tau) > limits
     return {

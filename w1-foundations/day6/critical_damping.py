@@ -53,17 +53,26 @@ def _(K, Lambda):
       sqrt(K)
     factor-two: there is a 2 too many: the two orders are the 2 already => twice the
       right one
-    factor-two-missing: half of it is missing: the two orders are added, not averaged =>
-      half of the right one
-    K-not-rooted: K is used as it is; its square root belongs there => the right one
-      with K for its root
+    factor-two-missing: half of it is missing: the two orders are added, not averaged
+    K-not-rooted: K is used as it is; its square root belongs there
     root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
       Lambda))
+    one-order-only 2: the product of the two roots is taken in one order, twice; with
+      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
+    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
+      => L sqrt(K) + sqrt(K) L^T
+    entries-square-rooted: np.sqrt takes the root of every entry of Lambda, NaN where it
+      is negative; the root of a matrix is the one that, times itself, is the matrix =>
+      the right one with np.sqrt(Lambda)
     no-roots: the square roots are missing: this grows with K, where a damping grows
       with its root => Lambda K + K Lambda
     """
-    k, half = np.sqrt(K), root(Lambda)
+    k, half, entries = np.sqrt(K), root(Lambda), np.sqrt(Lambda)
+    low = np.linalg.cholesky(Lambda) * k
     return {
+        "one-order-only 2": 2.0 * k[:, None] * half,
+        "cholesky": low + low.T,
+        "entries-square-rooted": entries @ np.diag(k) + np.diag(k) @ entries,
         "Lambda-ignored": np.diag(2.0 * k),
         "another-design": by_modes(K, Lambda),
         "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
@@ -79,19 +88,19 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there => the
-      right one with Lambda for its root
+    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there
     entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
-      a matrix is the one that, times itself, is the matrix => the right one with
-      np.sqrt(Lambda)
+      a matrix is the one that, times itself, is the matrix
     eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
       columns, so the root is V diag V^T => the right one with V^T diag V
     eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
       diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
     cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
-      => the right one with the Cholesky factor
-    root-of-inverse: the root is that of Lambda's inverse => the right one with the
-      inverse root
+    root-of-inverse: the root is that of Lambda's inverse
+    entries-square-rooted 2: the root is taken of the size of every entry of Lambda; the
+      root of a matrix is the one that, times itself, is the matrix => the right one
+      with np.sqrt(abs(Lambda))
+    eigenvectors-transposed 2: the last transpose is missing: the root is V diag V^T
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {
@@ -101,40 +110,10 @@ def _(K, Lambda):
         "eigenvalues-not-rooted-back": np.diag(np.sqrt(values)),
         "cholesky": np.linalg.cholesky(Lambda),
         "root-of-inverse": np.linalg.inv(root(Lambda)),
+        "entries-square-rooted 2": np.sqrt(np.abs(Lambda)),
+        "eigenvectors-transposed 2": V @ np.diag(np.sqrt(values)) @ V,
     }
     return {slug: total(one, np.sqrt(K)) for slug, one in roots.items()}
-
-
-@row.wrongs
-def _(K, Lambda):
-    """entries-square-rooted: the root is taken of the size of every entry of Lambda;
-      the root of a matrix is the one that, times itself, is the matrix => the right
-      one with np.sqrt(abs(Lambda))
-    one-order-only: the product of the two roots is taken in one order, twice; with
-      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
-    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is
-      Lambda => L sqrt(K) + sqrt(K) L^T
-    eigenvectors-transposed: the last transpose is missing: the root is V diag V^T =>
-      the right one with V diag V
-    """
-    k = np.sqrt(K)
-    values, V = np.linalg.eigh(Lambda)
-    half = np.linalg.cholesky(Lambda) * k
-    return {
-        "entries-square-rooted": total(np.sqrt(np.abs(Lambda)), k),
-        "one-order-only": 2.0 * k[:, None] * root(Lambda),
-        "cholesky": half + half.T,
-        "eigenvectors-transposed": total(V @ np.diag(np.sqrt(values)) @ V, k),
-    }
-
-
-@row.wrong
-def entries_square_rooted(K, Lambda):
-    """np.sqrt takes the root of every entry of Lambda, NaN where it is negative; the
-    root of a matrix is the one that, times itself, is the matrix => the right one with
-    np.sqrt(Lambda)"""
-    half = np.sqrt(Lambda)
-    return half @ np.diag(np.sqrt(K)) + np.diag(np.sqrt(K)) @ half
 
 
 @row.right  # The root by Newton's iteration (Denman and Beavers).

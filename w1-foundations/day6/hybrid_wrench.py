@@ -34,8 +34,7 @@ def _(e, V_err, K, D, force):
       down => the right one with +force
     spring-left-in: the spring along z is still there, and the force comes on top of it:
       the push then depends on how high the hand is => the right one with K e along z
-    damper-left-out: along z the damper is gone with the spring; it stays => the right
-      one without it
+    damper-left-out: along z the damper is gone with the spring; it stays
     damper-sign: the damper drives the hand on: V_err is the target's twist minus the
       hand's, so it is added => the right one with -D V_err
     moment-in-place-of-force: entry 2 is replaced: that is the moment about z; forces

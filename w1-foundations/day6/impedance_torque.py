@@ -50,8 +50,7 @@ def _(J, wrench, bias, damping, qd, tau_null):
       J^T F
     pinv-for-transpose: pinv(J) takes the wrench to the joints; pushes go to torques
       with J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
-    null-forgotten: tau_null is missing: nothing holds the elbow back => the right one
-      without tau_null
+    null-forgotten: tau_null is missing: nothing holds the elbow back
     null-sign: tau_null is taken away; it is a torque to add => the right one with
       -tau_null
     """

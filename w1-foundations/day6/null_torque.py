@@ -60,11 +60,9 @@ def _(J, M, Lambda, tau):
     added: the part that the hand feels is added, so it feels it twice => the right one
       with a plus
     negative: every sign is wrong: tau is taken away from the part that the hand feels
-      => minus the right one
     M-left-out: M is missing: J tau is no acceleration of the hand, tau has to become
       one of the joints first => tau - J^T Lambda J tau
-    M-not-inverted: M multiplies tau; torques become accelerations through M^-1 => the
-      right one with M for M^-1
+    M-not-inverted: M multiplies tau; torques become accelerations through M^-1
     Lambda-left-out: Lambda is missing: the hand's acceleration is used as if it were a
       push => the right one with Lambda = I
     Lambda-inverted: Lambda is inverted => the right one with Lambda^-1

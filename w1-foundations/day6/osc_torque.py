@@ -36,8 +36,7 @@ def _(J, Lambda, bias, drift, acc):
       to it is not made up for => the right one without bias
     bias-sign: bias is taken away; your torques have to hold it, so it is added => the
       right one with -bias
-    Lambda-left-out: Lambda is missing: an acceleration is used as if it were a push =>
-      the right one with Lambda = I
+    Lambda-left-out: Lambda is missing: an acceleration is used as if it were a push
     Lambda-inverted: Lambda is inverted: a heavy hand would get a small push => the
       right one with Lambda^-1
     Lambda-by-entries: only the diagonal of Lambda is used; the six directions are

@@ -43,6 +43,8 @@ def _(force, k, surface):
       surface - force // k
     docstrings-numbers: k is 400, as in the docstring, whatever it is given => surface -
       force / 400
+    docstrings-numbers 2: the surface is at 0.42, as in the docstring, whatever it is
+      given => 0.42 - force / k
     half-a-depth: half of the depth is missing: force is k times depth, its half belongs
       to energy => surface - force / (2 k)
     never-below-zero: a height below 0 is not returned; a soft spring has to be pulled
@@ -61,17 +63,11 @@ def _(force, k, surface):
         "surface-only": surface,
         "whole-metres": surface - force // k,
         "docstrings-numbers": surface - force / 400.0,
+        "docstrings-numbers 2": 0.42 - force / k,
         "half-a-depth": surface - 0.5 * force / k,
         "never-below-zero": max(surface - force / k, 0.0),
         "newtons-as-weight": surface - force / 9.81 / k,
     }
-
-
-@row.wrong
-def docstrings_numbers(force, k, surface):
-    """the surface is at 0.42, as in the docstring, whatever it is given => 0.42 - force
-    / k"""
-    return 0.42 - force / k
 
 
 @row.right  # With NumPy, as an array of no axes.

@@ -56,20 +56,17 @@ def _(J_space, qd, p):
       ad(V) S qd; the acceleration of the point p is another thing: the linear half is
       to be converted => the sum alone
     no-centripetal: the part omega x (velocity of p) is missing: a point on a circle
-      accelerates towards its centre though the speed is steady => the right one
-      without it
+      accelerates towards its centre though the speed is steady
     no-alpha-cross-p: the angular acceleration is not converted to the point: alpha x p
       is missing => the right one without it
     velocity-of-origin: omega is crossed with v, the velocity of the point at the
       world's origin; p itself moves at v + omega x p => the right one with v there
-    v-forgotten: the velocity of p is taken to be omega x p alone; v belongs to it =>
-      the right one without v
+    v-forgotten: the velocity of p is taken to be omega x p alone; v belongs to it
     coriolis-twice: omega x v counts twice: ad(V) S has it already, and 2 omega x v
       belongs to accelerations measured in the moving frame => the right one with
       another omega x v
     ad-swapped: V and S have changed places, or the twists are summed from the tip:
-      ad(S) V is minus ad(V) S, and a joint is carried by those before it => the right
-      one with ad(S) V
+      ad(S) V is minus ad(V) S, and a joint is carried by those before it
     ad-transposed: ad(V) is transposed: that one is for wrenches, screws take it as it
       is => the right one with ad(V)^T
     ad-half: ad(V) lacks its lower left block [v] => the right one without it

@@ -26,6 +26,8 @@ def _(e, V_err, K, D):
     spring-and-damper-swapped: K and D have changed places => D e + K V_err
     diagonal-of-D: only the diagonal of D is used; the six directions are coupled => the
       right one with D's diagonal
+    diagonal-of-D 2: only the diagonals of K and D are used; the six directions are
+      coupled => the right one with their diagonals
     halves-swapped: the halves of the answer are (force; moment); the moment comes first
       => the right one with its halves swapped
     millimetres: the error is put into millimetres; here everything is in metres => the
@@ -42,18 +44,12 @@ def _(e, V_err, K, D):
         "spring-forgotten": D @ V_err,
         "spring-and-damper-swapped": D @ e + K @ V_err,
         "diagonal-of-D": K @ e + np.diag(D) * V_err,
+        "diagonal-of-D 2": np.diag(K) * e + np.diag(D) * V_err,
         "halves-swapped": np.roll(K @ e + D @ V_err, 3),
         "millimetres": K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err,
         "half-a-spring": 0.5 * K @ e + D @ V_err,
         "diagonal-of-K": np.diag(K) * e + D @ V_err,
     }
-
-
-@row.wrong("diagonal-of-D")
-def both_diagonals(e, V_err, K, D):
-    """only the diagonals of K and D are used; the six directions are coupled => the
-    right one with their diagonals"""
-    return np.diag(K) * e + np.diag(D) * V_err
 
 
 @row.right  # From the left: K is symmetric.

@@ -50,8 +50,7 @@ def _(m1, c1, I1, m2, c2, I2):
       centre => the answer about the origin
     only-the-second-moved: only the second body's inertia is moved; the first one's
       centre is not the common one either => the answer with only the second moved
-    only-the-first-moved: only the first body's inertia is moved => the answer with only
-      the first moved
+    only-the-first-moved: only the first body's inertia is moved
     about-the-first-centre: the inertia is about the first body's centre; it belongs to
       the common one => the answer about the first centre
     distance-of-the-two: the distance between the two centres is used for both; each
@@ -88,8 +87,7 @@ def _(m1, c1, I1, m2, c2, I2):
       taken off => the answer with a minus
     along-the-way-too: the term d.d I alone resists a turn about the line between the
       centres too; d d^T has to come off => the answer without d d^T
-    only-the-dyad: d d^T alone is what comes off; d.d I is missing => the answer with d
-      d^T
+    only-the-dyad: d d^T alone is what comes off; d.d I is missing
     dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
     distance-not-squared: the theorem takes the distance squared => the answer with |d|
     """
@@ -110,12 +108,9 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """plain-mean: the common centre is half way; the heavier body counts for more =>
       the answer with the plain mean
-    weights-swapped: the centre is nearer to the lighter body: the masses are swapped =>
-      the answer with the masses swapped
-    not-divided-by-the-mass: the sum of m c is not divided by the mass => the answer
-      with the sum of m c
-    first-centre-kept: the centre of mass stays that of the first body => the answer
-      with the first centre
+    weights-swapped: the centre is nearer to the lighter body: the masses are swapped
+    not-divided-by-the-mass: the sum of m c is not divided by the mass
+    first-centre-kept: the centre of mass stays that of the first body
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
@@ -130,12 +125,10 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """by-rows: the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes
       first => the answer with the six by rows
-    xy-last: the last three are in the order yz, xz, xy; xy comes first => the answer
-      with yz, xz, xy
+    xy-last: the last three are in the order yz, xz, xy; xy comes first
     products-negated: the last three have the other sign: here they are entries of the
       matrix => the answer with the signs of xy, xz, yz turned
-    mass-of-the-first: the mass is that of the first body alone => the answer with the
-      first mass
+    mass-of-the-first: the mass is that of the first body alone
     inertia-of-one: the first body's own inertia I1 is missing => the answer without I1
     """
     right = carry(m1, c1, I1, m2, c2, I2)

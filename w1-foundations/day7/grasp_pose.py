@@ -68,16 +68,13 @@ def _(T_world_cube, above):
 @row.wrongs
 def _(T_world_cube, above):
     """tool-up: the tool looks up: its z axis has to point down => the pose with z up
-    about-y: the tool is turned over about y: at yaw 0 its x points backwards => the
-      pose turned over about y
+    about-y: the tool is turned over about y: at yaw 0 its x points backwards
     left-handed: turning only z over makes a mirror image: the determinant is -1 => the
       pose with diag(1, 1, -1)
     height-subtracted: the tool is below the cube: above counts up, and the tool's own z
       points down => the pose below the cube
-    height-forgotten: the tool is in the cube's centre: above is not added => the pose
-      at the cube's centre
-    place-forgotten: the tool is over the world's origin: the cube's place is missing =>
-      the pose over the origin
+    height-forgotten: the tool is in the cube's centre: above is not added
+    place-forgotten: the tool is over the world's origin: the cube's place is missing
     """
     right = grasp_pose(T_world_cube, above)
     own = right @ np.diag([1.0, -1.0, -1.0, 1.0])

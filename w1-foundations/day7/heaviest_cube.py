@@ -24,8 +24,7 @@ def _(grip, mu, acceleration):
       it needs more => the mass at rest
     acceleration-sign: the acceleration is taken off gravity; upwards it comes on top =>
       the mass with g - a
-    gravity-forgotten: gravity is missing: at rest nothing would have to be lifted =>
-      the mass without gravity
+    gravity-forgotten: gravity is missing: at rest nothing would have to be lifted
     weight-for-mass: this is the force in newtons; the mass is that force over g + a =>
       the friction's force
     friction-forgotten: friction does not count; without mu nothing is lifted => the
@@ -33,9 +32,10 @@ def _(grip, mu, acceleration):
     divided-by-friction: the friction mu stands below the line; more friction lifts more
       => the mass with 1 / mu
     gravity-negative: gravity has the wrong sign here: its z is -9.81, and it pulls down
-      => the mass with -9.81
     acceleration-without-sign: the acceleration's sign is lost: downwards, it takes
       weight off the fingers => the mass with |a|
+    acceleration-without-sign 2: an acceleration downwards does not count; it takes
+      weight off the fingers => the mass with max(a, 0)
     """
     return {
         "one-finger": mu * grip / (G + acceleration),
@@ -47,14 +47,8 @@ def _(grip, mu, acceleration):
         "divided-by-friction": 2 * grip / (mu * (G + acceleration)),
         "gravity-negative": 2 * mu * grip / (acceleration - G),
         "acceleration-without-sign": 2 * mu * grip / (G + abs(acceleration)),
+        "acceleration-without-sign 2": 2 * mu * grip / (G + max(acceleration, 0.0)),
     }
-
-
-@row.wrong
-def acceleration_without_sign(grip, mu, acceleration):
-    """an acceleration downwards does not count; it takes weight off the fingers => the
-    mass with max(a, 0)"""
-    return 2 * mu * grip / (G + max(acceleration, 0.0))
 
 
 for g in (9.8, 10, 9.80665):

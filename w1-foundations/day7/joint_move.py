@@ -31,8 +31,7 @@ def wrapped(angles):
 def _(q0, q1, t, T):
     """start-everywhere: the start q0 is added to the speed and the acceleration too; it
       does not move => the answer with q0 in every row
-    start-forgotten: the way is there, but not where it starts: q0 is missing => the
-      answer without q0
+    start-forgotten: the way is there, but not where it starts: q0 is missing
     goal-for-way: the goal q1 stands where the way from q0 to q1 belongs: it ends at q0
       + q1 => the answer with q1 for the way
     way-reversed: the way points from q1 to q0: it moves away from the goal => the

@@ -58,8 +58,7 @@ def _(dq, v_max, a_max):
       so this breaks the speed limit by a quarter => the duration with 1.5
     average-speed: the time dq / v would do for a move that is always at its top speed;
       this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15 => the
-      duration with 8/15
+    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15
     peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
       little earlier, where its derivative is 0 => the duration with 5.625
     peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
@@ -77,8 +76,7 @@ def _(dq, v_max, a_max):
 
 @row.wrongs
 def _(dq, v_max, a_max):
-    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others => the
-      cubic's duration
+    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others
     limits-of-different-joints: the longest way is divided by the smallest limit of all;
       way and limit have to be those of one joint => max(dq) over min(a_max) for the
       acceleration
@@ -97,22 +95,28 @@ def _(dq, v_max, a_max):
     longest-way: it takes the joint with the longest way; one with a lower limit may
       need more => the duration of the joint with the longest way
     one-limit-for-all: the first joint's limits are used for all; each joint has its own
-      => the duration with joint1's limits
-    speed-only: only the speed limits count; a short move breaks the acceleration's =>
-      the duration by speed
+    speed-only: only the speed limits count; a short move breaks the acceleration's
     acceleration-only: only the acceleration limits count; a long move breaks the
       speed's => the duration by acceleration
-    root-forgotten: acceleration falls with T squared, so T is a square root => the
-      duration without the root
+    root-forgotten: acceleration falls with T squared, so T is a square root
     added-up: the two durations are added; the longer one keeps both limits => the sum
       of the two
+    peak-of-the-cubic 2: 6 is the cubic's peak acceleration; the quintic's is where the
+      derivative of its acceleration is 0 => the duration with 6
+    shorter-of-two 2: each joint takes the shorter of its two durations; both limits
+      count
+    fastest-joint 2: it takes the joint that needs least, for the speed and for the
+      acceleration; all the others break their limits => the larger of the two minima
+    one-limit-for-all 2: the lowest limits are used for all; each joint has its own
+    ways-signed: the ways' signs are still in it: the root of a negative one is NaN,
+      which max passes over in silence => the duration with signed ways
     forwards-only: a joint that moves backwards counts as one that is ready before it
       starts: the way's sign is still in it => the duration with signed ways
     """
     each, i = seconds(dq, v_max, a_max), np.argmax(np.abs(dq))
     by_speed, by_acceleration = each
     longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
-    lowest = v_max.min(), a_max.min()
+    lowest, signed = (v_max.min(), a_max.min()), 10 / np.sqrt(3) * dq / a_max
     return {
         "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
         "limits-of-different-joints": max(by_speed.max(), longest),
@@ -128,36 +132,13 @@ def _(dq, v_max, a_max):
         "acceleration-only": by_acceleration.max(),
         "root-forgotten": max(by_speed.max(), (by_acceleration**2).max()),
         "added-up": each.max(axis=1).sum(),
+        "peak-of-the-cubic 2": seconds(dq, v_max, a_max, acceleration=6.0).max(),
+        "shorter-of-two 2": each.min(axis=0).max(),
+        "fastest-joint 2": each.min(axis=1).max(),
+        "one-limit-for-all 2": seconds(dq, *lowest).max(),
+        "ways-signed": max((15 / 8 * dq / v_max).max(), np.sqrt(signed).max()),
         "forwards-only": max((np.sign(dq) * by_speed).max(), by_acceleration.max()),
     }
-
-
-@row.wrongs
-def _(dq, v_max, a_max):
-    """peak-of-the-cubic: 6 is the cubic's peak acceleration; the quintic's is where the
-      derivative of its acceleration is 0 => the duration with 6
-    shorter-of-two: each joint takes the shorter of its two durations; both limits count
-      => the shorter of the two
-    fastest-joint: it takes the joint that needs least, for the speed and for the
-      acceleration; all the others break their limits => the larger of the two minima
-    one-limit-for-all: the lowest limits are used for all; each joint has its own =>
-      the duration with the lowest limits
-    """
-    each = seconds(dq, v_max, a_max)
-    return {
-        "peak-of-the-cubic": seconds(dq, v_max, a_max, acceleration=6.0).max(),
-        "shorter-of-two": each.min(axis=0).max(),
-        "fastest-joint": each.min(axis=1).max(),
-        "one-limit-for-all": seconds(dq, v_max.min(), a_max.min()).max(),
-    }
-
-
-@row.wrong
-def ways_signed(dq, v_max, a_max):
-    """the ways' signs are still in it: the root of a negative one is NaN, which max
-    passes over in silence => the duration with signed ways"""
-    by_speed = 15 / 8 * dq / v_max
-    return max(by_speed.max(), np.sqrt(10 / np.sqrt(3) * dq / a_max).max())
 
 
 @row.right  # Joint by joint.

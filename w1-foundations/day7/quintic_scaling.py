@@ -79,8 +79,7 @@ def _(t, T):
       the quintic with 6 and 10 swapped
     sign-of-15: the factor 15 has the wrong sign: s(T) is 31 => the quintic with +15
     sd-and-sdd-not-divided: each of sd and sdd is the derivative with respect to x = t /
-      T; with respect to t, each derivative divides by T once more => the answer with
-      derivatives with respect to x
+      T; with respect to t, each derivative divides by T once more
     t-for-x: the time itself stands where t / T belongs, so T does not count => the
       quintic of t
     not-clipped: after the end (and before the start) the polynomial goes on: at 1.25 T
@@ -121,8 +120,9 @@ def _(t, T):
       of t
     only-s-clipped: s stops at the end, but sd and sdd go on: it says that it moves and
       stands => the answer without the ends of sd and sdd
-    order: the order is s, sd, sdd; here the derivatives are swapped => the order s,
-      sdd, sd
+    order: the order is s, sd, sdd; here the derivatives are swapped
+    t-for-x 2: the time itself stands where t / T belongs => the quintic of t
+    order 2: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
     """
     right = quintic_scaling(t, T)
     return {
@@ -135,17 +135,8 @@ def _(t, T):
             right[0], polynomial(QUINTIC, t / T, T)[1:]
         ),
         "order": right[[0, 2, 1]],
-    }
-
-
-@row.wrongs
-def _(t, T):
-    """t-for-x: the time itself stands where t / T belongs => the quintic of t
-    order: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
-    """
-    return {
-        "t-for-x": polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T),
-        "order": quintic_scaling(t, T)[::-1],
+        "t-for-x 2": polynomial(QUINTIC, np.clip(t, 0.0, 1.0), T),
+        "order 2": right[::-1],
     }
 
 

@@ -109,8 +109,7 @@ def _(t, L, v, a):
     """braking-overshoots: the last piece comes from beyond the end: what is left has to
       be taken off L => the profile with a plus in the last piece
     half-forgotten: the way of a ramp is a t^2 / 2, not a t^2 => the profile with a t^2
-    ramps-way-forgotten: the cruise starts at 0; it has to start where the ramp ended =>
-      the cruise from 0
+    ramps-way-forgotten: the cruise starts at 0; it has to start where the ramp ended
     ramp-at-full-speed: the cruise counts the ramp as if it had been at full speed all
       the time => the cruise with v t
     """
@@ -135,16 +134,11 @@ def _(t, L, v, a):
       / v + 2 v / a
     braking-accelerates: while it slows down the acceleration is negative => the profile
       with +a at the end
-    half-forgotten: in the first piece, the way of a ramp is a t^2 / 2, not a t^2 => the
-      profile with a t^2
-    does-not-stop: after the end it goes on with -a, backwards => the profile without
-      its end
-    does-not-wait: before the start it is on the ramp already => the profile without its
-      start
-    does-not-wait-or-stop: before the start and after the end the ramps go on => the
-      profile without its ends
-    order: the order is position, speed, acceleration; here it runs backwards => the
-      order acceleration, speed, position
+    half-forgotten: in the first piece, the way of a ramp is a t^2 / 2, not a t^2
+    does-not-stop: after the end it goes on with -a, backwards
+    does-not-wait: before the start it is on the ramp already
+    does-not-wait-or-stop: before the start and after the end the ramps go on
+    order: the order is position, speed, acceleration; here it runs backwards
     """
     top, ramp, T = timing(L, v, a)
     left, right = T - t, trapezoid(t, L, v, a)
