@@ -141,7 +141,7 @@ def main() -> int:
     parser.add_argument("--verify", action="store_true", help="hash every file again")
     parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
-    if options.daily and asked_today():
+    if options.daily and store.read_text(ASKED) == str(datetime.date.today()):
         return cli.EXIT_OK
     root = menagerie_root()
     if options.show or options.verify:
@@ -170,8 +170,3 @@ def bring(root: Path) -> None:
         show(files.read_provenance())
     else:
         show(adopt(root))
-
-
-def asked_today() -> bool:
-    """Return whether no source answered today."""
-    return store.read_text(ASKED) == str(datetime.date.today())

@@ -14,12 +14,16 @@ _OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
 
 
 def head_of(root: Path = ROOT) -> str:
-    """Return the hash of the last commit."""
+    """Return the hash of the last commit; Robo47Error where there is none."""
     return _git("rev-parse", "--verify", "HEAD", folder=root).strip()
 
 
 def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
-    """Clone a commit into a new folder: nothing comes along that is not in it."""
+    """Clone a commit into a new folder: nothing comes along that is not in it.
+
+    Raises:
+        Robo47Error: git cannot; says why in git's words.
+    """
     _git("clone", "--quiet", "--no-checkout", str(root), str(into), folder=into.parent)
     _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
 
