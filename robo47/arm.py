@@ -6,9 +6,8 @@ once; a loop needs them for one configuration, a thousand times in a row, and fa
     now = arm.at(q)
     tau = now.M @ qdd + now.bias(qd) + arm.damping * qd
 
-Conventions as in
-`robo47.dynamics`: (omega; v), world axes about the world's origin, SI units; M holds
-the armature. Pure NumPy; `robo47.panda.arm(model)` makes one of a model.
+Conventions as in `robo47.dynamics`: (omega; v), world axes about the world's origin, SI
+units; M holds the armature. Pure NumPy; `robo47.panda.arm(model)` makes one of a model.
 """
 
 import dataclasses

@@ -168,10 +168,7 @@ def bias_torque(J: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Arra
     Inverse dynamics with qdd = 0. MuJoCo calls it qfrc_bias.
 
     Args:
-        J: space Jacobian, (..., 6, n).
-        G: inertias of the links about the world's origin, (..., n, 6, 6).
-        qd: joint velocities, rad/s, (..., n).
-        g: gravity, m/s^2, (3,).
+        J, G, qd, g: as in `inverse_dynamics`.
 
     Returns:
         Torque, N m, (..., n).
@@ -214,9 +211,7 @@ def energy(
     Args:
         M: mass matrix, kg m^2, (..., n, n).
         qd: joint velocities, rad/s, (..., n).
-        masses: kg, (n,).
-        coms_world: centres of mass in the world, metres, (..., n, 3).
-        g: gravity, m/s^2, (3,).
+        masses, coms_world, g: as in `gravity_torque`.
 
     Returns:
         (kinetic, potential) in joules, (..., 2); potential is 0 at the origin.

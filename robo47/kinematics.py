@@ -17,10 +17,12 @@ with every joint's own axis. A link's factor is fixed; a joint's factor is
 (MuJoCo documentation, Computation chapter, "Kinematics").
 
 A frame is named "body:link4"; the bare name serves where only one object has it.
+A wrong shape, a number that is not finite, or a quaternion of length 0 is a ValueError.
 Units: metres, radians, quaternions (w, x, y, z).
 """
 
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -134,9 +136,6 @@ def fk(chain: Chain, qpos: ArrayLike) -> Array:
 
     Returns:
         T_world_frame, (..., 4, 4).
-
-    Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
     """
     return evaluate(chain.plan, _configurations(qpos, chain.nq))[chain.frame]
 
@@ -150,9 +149,6 @@ def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:
 
     Returns:
         {"body:link1": T_world_link1, ..., "site:NAME": ...}, each (..., 4, 4).
-
-    Raises:
-        ValueError: as `fk`.
     """
     return evaluate(_plan_all(model), _configurations(qpos, model.nq))
 
@@ -170,13 +166,13 @@ def _plan_all(model: mujoco.MjModel) -> Plan:
     ends = [Cursor(plan)]
     for body in range(model.nbody):
         if body:
-            ends.append(ends[model.body_parentid[body]].branch())
+            ends.append(copy(ends[model.body_parentid[body]]))
             _add_link(ends[body], _link(model, body))
         if name := model.body(body).name:
             ends[body].mark(f"body:{name}")
     for i in range(model.nsite):
         if name := model.site(i).name:
-            end = ends[model.site_bodyid[i]].branch()
+            end = copy(ends[model.site_bodyid[i]])
             end.fixed(_offset(model.site_pos[i], model.site_quat[i]))
             end.mark(f"site:{name}")
     return plan

@@ -22,7 +22,8 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
-from robo47.fast import exponentials
+from robo47.fast.chains import evaluate
+from robo47.fast.exponentials import END, plan_of
 from robo47.fast.vectors import cross_of
 
 
@@ -194,7 +195,7 @@ def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     S, q = checks.screws_and_q(screws, q)
     M_home = checks.pose(M_home, "M_home")
     if S.ndim == M_home.ndim == 2:
-        return exponentials.end_poses(S, M_home, q)
+        return evaluate(plan_of(S, M_home), q)[END]
     steps = [exp_screw(S[..., i, :], q[..., i]) for i in range(S.shape[-2])]
     return functools.reduce(np.matmul, steps) @ M_home
 
@@ -203,8 +204,7 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
     """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
 
     Args:
-        screws: space screws (omega; v), (..., n, 6).
-        M_home: `T_world_ee` at q = 0, (..., 4, 4).
+        screws, M_home: as in `fk_space`.
 
     Returns:
         Body screws (omega; v), (..., n, 6) (Modern Robotics, section 4.1.3).
@@ -224,8 +224,7 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
     Args:
         body_screws: body screws (omega; v), (..., n, 6).
-        M_home: `T_world_ee` at q = 0, (..., 4, 4).
-        q: joint angles in radians (metres for slides), (..., n).
+        M_home, q: as in `fk_space`.
 
     Returns:
         T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.3).

@@ -141,12 +141,12 @@ def quat_to_R(q_wxyz: ArrayLike) -> Array:
     w, x, y, z = np.moveaxis(
         checks.unit(checks.array(q_wxyz, "q_wxyz", (4,)), "q_wxyz"), -1, 0
     )
-    rows = [
+    rows = np.array([
         [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    ])  # fmt: skip
+    return np.ascontiguousarray(np.moveaxis(rows, (0, 1), (-2, -1)))
 
 
 def R_to_quat(R: ArrayLike) -> Array:
@@ -169,13 +169,13 @@ def R_to_quat(R: ArrayLike) -> Array:
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(R, (-2, -1), (0, 1))
     # Row k is 4 q_k times the whole quaternion; its k-th entry, 4 q_k^2, says how
     # well conditioned that row is.
-    rows = [
+    rows = np.array([
         [1 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
         [zy - yz, 1 + xx - yy - zz, yx + xy, xz + zx],
         [xz - zx, yx + xy, 1 - xx + yy - zz, zy + yz],
         [yx - xy, xz + zx, zy + yz, 1 - xx - yy + zz],
-    ]
-    table = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    ])  # fmt: skip
+    table = np.moveaxis(rows, (0, 1), (-2, -1))
     best = np.argmax(np.diagonal(table, axis1=-2, axis2=-1), axis=-1)
     q = np.take_along_axis(table, best[..., None, None], axis=-2)[..., 0, :]
     q /= np.linalg.norm(q, axis=-1, keepdims=True)

@@ -74,7 +74,7 @@ def osc_torque(
     J: ArrayLike,
     Lambda: ArrayLike,
     bias: ArrayLike,
-    site_bias: ArrayLike,
+    drift: ArrayLike,
     acc: ArrayLike,
 ) -> Array:
     """Return the torque that gives the hand a wanted acceleration.
@@ -86,7 +86,7 @@ def osc_torque(
         J: site Jacobian, (..., m, n).
         Lambda: task inertia, (..., m, m).
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
-        site_bias: Jdot qd, as `site_bias` returns it, (..., m).
+        drift: Jdot qd, as `site_bias` returns it, (..., m).
         acc: wanted (angular; linear) acceleration in rad/s2 and m/s2, (..., m).
 
     Returns:
@@ -95,7 +95,7 @@ def osc_torque(
     J = checks.array(J, "J", ("m", "n"))
     m, n = J.shape[-2:]
     Lambda = checks.array(Lambda, "Lambda", (m, m))
-    left = checks.array(acc, "acc", (m,)) - checks.array(site_bias, "site_bias", (m,))
+    left = checks.array(acc, "acc", (m,)) - checks.array(drift, "drift", (m,))
     return times(_T(J), times(Lambda, left)) + checks.array(bias, "bias", (n,))
 
 

@@ -38,7 +38,7 @@ class InProcess:
             again = self._ask(second, exchange.question, [])
             exchange.reply = twice(exchange.reply, again)
 
-    def session(self, script, robots, library, added="", limits=None):
+    def session(self, script, robots, library, added="", limits=None, brief=False):
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)

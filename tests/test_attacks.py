@@ -6,6 +6,7 @@ What each wall keeps out once the guard is switched off is in test_walls.py.
 import importlib.util
 import os
 import py_compile
+import re
 import textwrap
 import time
 import tracemalloc
@@ -13,16 +14,21 @@ import tracemalloc
 import pytest
 
 from labkit.base.exchange import Question
+from labkit.check.source import kits_own
 from labkit.check.tasks import check_tasks
+from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.starter import make_starter
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.messages import library_of
+from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT
 
 pytestmark = pytest.mark.kit
 UNCHECKED = py_compile.PycInvalidationMode.UNCHECKED_HASH
 DAY = find_day(1)
 REFERENCE = DAY.source.read_text("utf-8")
+DEF = re.compile(r"(?:\W*exec\(\W)?def (\w+)")
 
 
 def attack(line, after=""):
@@ -380,6 +386,91 @@ class TestHugeNumbers:
     def test_and_codings_that_no_text_has_are_said_in_a_line(self, check, coding):
         verdicts = check(f"# coding: {coding}\n{REFERENCE}")
         assert {verdict.mistake for verdict in verdicts.values()} == {"does-not-load"}
+
+
+class TestAFile:
+    """What takes long to read is refused unread, or read once."""
+
+    @pytest.mark.parametrize("more", ["def f(): 0\n", "(lambda: 0)\n", "f() < 1\n"])
+    def test_of_thousands_of_definitions_is_too_large(self, student, more):
+        script = student(more * 20_000)
+        with sandbox.Sandbox() as box, pytest.raises(Robo47Error, match="100 kB"):
+            check_tasks(DAY, script, box)
+
+    @pytest.mark.parametrize("deep", ["-" * 1_400 + "1", "[" * 90 + "]" * 90])
+    def test_that_goes_deep_is_not_followed(self, check, deep):
+        starter = make_starter(REFERENCE, "starter", 1)
+        gap = 'raise NotImplementedError("task 1.1: write make_T")'
+        assert gap in starter
+        code = starter.replace(gap, f"raise NotImplementedError({deep})")
+        assert check(code)["1.1"].mistake == "unwritten"
+
+    def test_is_compiled_once(self, ask):
+        (reply,) = ask("""
+            import sys
+            def f(): return 10.0 * len(sys.seen) + len(set(map(id, sys.seen)))
+            sys.seen = [*getattr(sys, "seen", []), f.__code__]
+        """)
+        assert (reply.value, reply.again) == (11, 21)
+
+    def test_that_prints_without_end_is_not_asked_on_and_on(self, ask):
+        code = """
+            n = 0
+            def f():
+                global n
+                n += 1
+                try:
+                    print("x" * 30_000_000)
+                except RuntimeError:
+                    return 1.0
+            def g(): return float(n)
+        """
+        *asked, last = [*[Question("1.1", "f", ())] * 3, Question("1.2", "g", ())]
+        *flood, count = ask(code, *asked, last)
+        assert {(one.kind, one.error) for one in flood} == {
+            ("RuntimeError", "it prints more than 20 MB")
+        }
+        assert count.value == 1
+
+
+class TestABorrowedFunction:
+    """The kit's own stands in the file of whoever borrows it, and nothing beside it."""
+
+    def borrowed(self, others):
+        starter = make_starter(REFERENCE, "starter", 1)
+        return with_borrowed(starter, REFERENCE, ["make_T"]) + "".join(
+            f"\ndef {name}(*a): return {others.format(name=name)}(*a)\n"
+            for task in DAY.tasks[1:]
+            for name in task.functions
+        )
+
+    @pytest.mark.parametrize(
+        "others",
+        [
+            "_kits[{name!r}]",
+            "make_T.__globals__['_kits'][{name!r}]",
+            "__import__('sys')._getframe(1).f_globals['{name}_kits']",
+        ],
+    )
+    def test_hands_out_no_other(self, check, others):
+        verdicts = check(self.borrowed(others))
+        assert verdicts["1.1"].mistake == "borrowed"
+        assert {"passed"}.isdisjoint(verdict.status for verdict in verdicts.values())
+
+    def test_works_for_what_builds_on_it(self, check):
+        verdicts = check(with_borrowed(REFERENCE, REFERENCE, ["make_T", "link_T"]))
+        found = {id: verdict.status for id, verdict in verdicts.items()}
+        assert [id for id, status in found.items() if status != "passed"] == [
+            "1.1",
+            "1.5",
+        ]
+
+    def test_brings_no_line_of_another_task(self):
+        for day in all_days():
+            for task in day.tasks:
+                lines = kits_own(day, [task]).replace("\\n", "\n").splitlines()
+                brought = [found[1] for ln in lines if (found := DEF.match(ln))]
+                assert sorted(brought) == sorted(task.functions)
 
 
 class TestAForgedMessage:

@@ -12,6 +12,7 @@ from conftest import days
 from labkit.base.exchange import Exchange, Question
 from labkit.judge.ask import stacked
 from labkit.judge.compare import difference, matches, off_by, parts
+from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
@@ -33,6 +34,16 @@ ROWS = [
 ]
 WITH_TRUTH = [row for row in ROWS if row.values[2].truth]
 every = pytest.mark.parametrize(("number", "name", "ask"), WITH_TRUTH)
+
+
+@every
+def test_the_library_gives_all_questions_at_once_what_it_gives_each(number, name, ask):
+    held_out = zip(round_of(ask).held_out, ask.held_out, strict=True)
+    rounds = [some for some, held in held_out if not (held.truth or held.mistaken)]
+    for exchanges in (round_of(ask).main, round_of(ask).fresh, *rounds):
+        columns = stacked(exchanges)
+        each = parts(InTurn(ask.truth.function)(*columns))
+        assert off_by(ask.kinds, parts(ask.truth(*columns)), each) < 1e-14
 
 
 def one_thing(number, name, slug, other):

@@ -53,7 +53,7 @@ EXPECTED = {
     "binary": (0, "1.1 does-not-load", "not in UTF-8"),
     "no git": (ALL, "", ""),
     "corrupt git": (ALL, "", ""),
-    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB, at most 1 MB is looked at"),
+    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB, at most 100 kB is looked at"),
     "link loop": (0, "1.1 does-not-load", "no file" if WINDOWS else "behind a link"),
     "uncommitted": (ALL, "", ""),
     "git with a program": (ALL, "", ""),
@@ -279,6 +279,12 @@ class TestTheRoster:
         assert found["nobody"]["error"] == "there is no such folder"
         assert found["../.."]["error"] == "''../..' is no name of a folder"
         assert found["nobody"]["1.1"] == "ungraded"
+
+    @pytest.mark.parametrize("out", ["", "/proc/nowhere/grades.csv"])
+    def test_is_written_nowhere_but_in_a_file(self, small, out):
+        done = grade(*small, "--out", out)
+        assert done.returncode == 2
+        assert len(done.stderr.splitlines()) == 1
 
     def test_is_refused_in_a_line_where_it_is_wrong(self, small):
         (small[0] / "roster.csv").write_bytes(b"name,git\nAda,x\n")

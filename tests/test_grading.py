@@ -27,7 +27,6 @@ from make_class import (
 )
 
 from labkit.base import git
-from labkit.base.processes import sweep
 from labkit.check.tasks import TaskResult
 from labkit.grade import charts, child, classroom, engine, overview, people, similar
 from labkit.grade import grader as graders
@@ -103,7 +102,7 @@ class TestWhatIsRead:
         with (clone / SCRIPT).open("wb") as file:
             file.truncate(handin.LIMITS["script"] + 1)
         assert read().files == {}
-        assert "at most 1 MB is looked at" in read().unread[SCRIPT]
+        assert "at most 100 kB is looked at" in read().unread[SCRIPT]
 
     @links
     @pytest.mark.parametrize("linked", [SCRIPT, f"{WEEK}/work", WEEK])
@@ -241,15 +240,16 @@ class TestTheGrader:
         self, tmp_path, monkeypatch
     ):
         monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-        names = ("robo47-grader-a", "robo47-grader-b", "thesis-grader-c")
-        old, new, other = (tmp_path / name for name in names)
-        for folder in (old, new, other):
+        names = ("robo47-grader-a", "robo47-commit-a", "robo47-grader-b", "robo47-c")
+        old, commit, new, other = (tmp_path / name for name in names)
+        for folder in (old, commit, new, other):
             folder.mkdir()
             (folder / "x.py").write_text("")
-        for folder in (old, other):
+        for folder in (old, commit, other):
             os.utime(folder, (1_000_000_000, 1_000_000_000))
-        sweep(graders.FOLDER, graders.LEFT_BEHIND)
-        assert [old.exists(), new.exists(), other.exists()] == [False, True, True]
+        with engine.local(1):
+            assert [*map(Path.exists, (old, commit))] == [False, False]
+            assert [*map(Path.exists, (new, other))] == [True, True]
 
     def test_shows_what_was_refused_though_the_code_caught_it(self):
         curious = "try: open('/etc/shadow')\n    except OSError: pass"
@@ -490,6 +490,11 @@ class TestNames:
         long, ana = find_students(tmp_path)
         assert "no name of a folder here" in long.problem
         assert (ana.problem, collect(long, DAY).problem) == ("", long.problem)
+
+    def test_whose_address_no_program_can_be_given_are_said_so(self, tmp_path):
+        (tmp_path / "roster.csv").write_text("folder,git\na,https://x/a\0b\n")
+        (one,) = find_students(tmp_path)
+        assert "is no git URL" in one.problem
 
 
 class TestPulling:

@@ -1,9 +1,11 @@
 """What comes back from a student's file, and what that file may import."""
 
+import contextlib
+
 import numpy as np
 import pytest
 
-from labkit.base.exchange import Limits, LoadError, Path, Question
+from labkit.base.exchange import Exchange, Limits, LoadError, Path, Question
 from labkit.judge import Robot
 from labkit.sandbox import messages, process, sandbox
 from robo47.errors import Robo47Error
@@ -411,6 +413,53 @@ class TestASession:
     def test_says_why_the_file_does_not_load(self, student):
         with sandbox.Sandbox() as box, pytest.raises(LoadError, match="division"):
             box.session(student("1 / 0"))
+
+    def test_that_is_brief_asks_the_process_that_has_the_file(
+        self, student, monkeypatch
+    ):
+        """Anew, with more robots and more code, and never with less of the kit's."""
+        code = """
+            import sys
+            from robo47 import panda
+            sys.loads = getattr(sys, "loads", 0) + 1  # in one process they add up
+            calls = 0
+            def f(*robots):
+                global calls
+                calls += 1
+                return float(1000 * panda.load("panda").nq + 10 * sys.loads + calls)
+        """
+        started, begin = [], process.Process.__init__
+        monkeypatch.setattr(
+            process.Process,
+            "__init__",
+            lambda self, *a: (started.append(self), begin(self, *a))[1],
+        )
+        script, hand = student(code), Robot("panda")
+        asked = Exchange(Question("1.6", "f", (Robot(), hand)))
+        more = "\n\ndef g(robot): return float(robot.nq)\n"
+        with sandbox.Sandbox() as box:
+            box.run(script, [asked])
+            assert asked.reply.value == asked.reply.again - 10 == 9011
+            for added, name, expected in (("", "f", 9031), (more, "g", 9)):
+                with contextlib.closing(
+                    box.session(script, [hand], added=added, brief=True)
+                ) as session:
+                    (reply,) = session.ask([Question("", name, (hand,))])
+                assert reply.value == expected
+            assert len(started) == 1
+            box.run(script, [once := Exchange(Question("1.6", "g", (hand,)))])
+            assert once.reply.kind == "missing"
+            assert len(started) == 2
+
+    def test_that_ended_is_not_asked_again(self, student):
+        with sandbox.Sandbox() as box:
+            script = student(self.CODE)
+            box.run(script, [Exchange(Question("1.1", "f", (1.0,)))])
+            session = box.session(script, brief=True)
+            assert session.ask([Question("", "loop", ())], 0.3)[0].kind == "stopped"
+            session.close()
+            other = box.session(script, brief=True)
+            assert other.ask([Question("", "f", (1.0,))])[0].value == 2
 
     def test_ends_with_its_sandbox(self, student):
         with sandbox.Sandbox() as box:

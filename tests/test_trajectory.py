@@ -236,8 +236,11 @@ def test_a_trapezoid_is_ruckigs_trajectory_without_a_jerk_limit(L):
 
 def test_the_quintic_is_slower_than_ruckig_which_has_the_jerk_limits_to_use():
     jerk = [7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0]
-    shortest = ruckig_move(MOVE, jerk).duration
+    move = ruckig_move(MOVE, jerk)
+    shortest = move.duration
     assert shortest == pytest.approx(0.79085, abs=5e-6)
+    shares = np.array(move.at_time(shortest / 3)[0]) / MOVE
+    assert np.ptp(shares) > 0.01  # its joints leave the straight line in joint space
     assert shortest < trajectory.quintic_duration(MOVE, SPEED_LIMITS, ACC_LIMITS)
 
 

@@ -13,7 +13,7 @@ import pytest
 from test_report import MEASURE, dom
 
 from labkit.base import store
-from labkit.check.journal import Met
+from labkit.check.memory import Met
 from labkit.lesson.day import Metric, days_of, find_day
 from labkit.lesson.marks import Writers, file_mark, marks_of
 from labkit.lesson.week import find_week

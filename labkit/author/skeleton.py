@@ -20,6 +20,7 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     """Write a day's skeleton, and its week's where that is new; return the files.
 
     Args:
+        number: of the day.
         week: its week's folder, "w2-autonomy", or the number of one that is there.
         name: of its script, "identification" for src/dayN_identification.py.
     """

@@ -69,7 +69,13 @@ def add_log(it: argparse.ArgumentParser) -> None:
 
 
 def paint(text: str, mood: str, stream: TextIO | None = None) -> str:
-    """Return text in colour where wanted; its mood is "good", "bad" or "note"."""
+    """Return text in colour, or as it is where no colour is wanted.
+
+    Args:
+        text: a verdict, such as "PASS" or "to do".
+        mood: "good", "bad" or "note".
+        stream: where it will be printed; standard output by default.
+    """
     if not wants_colour(stream or sys.stdout):
         return text
     return f"\x1b[{_PAINT[mood]}m{text}\x1b[0m"
@@ -133,7 +139,8 @@ def print_nowhere() -> None:
 def run(main: Callable[[], int]) -> None:
     """Run a command's `main` and exit with its code, never with a traceback.
 
-    The code: 0 all well, 1 something to fix, 2 could not run.
+    Args:
+        main: returns the exit code: 0 all well, 1 something to fix, 2 could not run.
     """
     warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
     try:

@@ -6,6 +6,9 @@ from typing import Any
 
 NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 MOST = 10  # entries of any list in a reply
+# Bytes of a student's file, ten times as many as the longest lab has: to compile a
+# megabyte of functions of one name takes half a minute.
+SCRIPT = 100_000
 CHANNEL = "it wrote into the checker's own channel"
 
 

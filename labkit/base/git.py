@@ -68,11 +68,13 @@ class History:
 def read_history(
     clone: Path, wanted: Iterable[str], *, own: bool = False, at: str = "HEAD"
 ) -> History:
-    """Return the last commit of a clone, or the one `at`, with the hashes of files.
+    """Return the last commit of a clone.
 
     Args:
         clone: the student's folder; a repository around it does not count.
+        wanted: paths whose hashes to return.
         own: it is the reader's own, which may be a linked worktree.
+        at: another commit to look at.
 
     Raises:
         GitError: git is not there, or takes too long.
@@ -99,7 +101,11 @@ def read_history(
 
 
 def before(clone: Path, moment: int) -> tuple[str, int]:
-    """Return the last commit up to a moment, seconds since 1970, by committers' clocks.
+    """Return the last commit up to a moment, by the committers' clocks.
+
+    Args:
+        clone: a student's folder.
+        moment: seconds since 1970.
 
     Returns:
         Its hash, "" where there is none, and how many commits of HEAD came later. What
@@ -120,7 +126,10 @@ def before(clone: Path, moment: int) -> tuple[str, int]:
 def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]]:
     """Return plain files of a commit: hash and bytes of each, by path.
 
-    A name that ends with "/" means what is right below it.
+    Args:
+        clone: a student's folder.
+        commit: its hash.
+        names: paths; one that ends with "/" means what is right below it.
     """
     git = _repository(clone, own=False)
     listing = ("ls-tree", "-lz", "--full-tree", commit, "--")
@@ -151,7 +160,12 @@ def short_sha(folder: Path) -> str:
 def too_much(folder: Path, commit: str) -> str:
     """Return why a commit of our own clone is not to be checked out; "" where it is.
 
-    One that is not there yet writes nothing. GitError: git is not there, or too slow.
+    Args:
+        folder: the clone.
+        commit: its name; one that is not there yet writes nothing.
+
+    Raises:
+        GitError: git is not there, or takes too long.
     """
     where: dict[str, Any] = {"folder": folder, "seconds": SECONDS}
     # A line of git's on a file with a name of 300 letters has 400.
@@ -187,6 +201,8 @@ def run_bytes(
     """Run git and return what became of it; all that it started ends with it.
 
     Args:
+        arguments: after `git`.
+        folder: where.
         seconds: the limit.
         say: its standard input.
         largest: bytes of a file that it writes, and of what it says (Linux).

@@ -68,7 +68,9 @@ def page(title: str, about: str, *parts: str, style: str = "", policy: str = "")
     """Return a whole page: no script runs in it even if escaping failed somewhere.
 
     Args:
-        about: a line under the heading, which is the window's title too.
+        title: of the window, and its heading.
+        about: a line under the heading.
+        parts: the rest.
         style: CSS of this page besides what all have.
         policy: what this page may load besides, "; script-src ...".
     """
@@ -106,6 +108,7 @@ def table(
         head: cells of its first row.
         rows: the others, each a <tr>.
         kind: classes of the box around it.
+        below: what the box holds besides.
     """
     inner = "".join(rows)
     return f'<div class="{kind}"><table><tr>{head}</tr>{inner}</table>{below}</div>'

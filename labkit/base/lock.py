@@ -51,12 +51,18 @@ else:
 
 
 def lock(fd: int, patience: float | None = None) -> bool:
-    """Wait until this process alone holds an open file; False where there are no locks.
+    """Wait until this process alone holds the file.
 
-    There, appends that come one at a time still arrive whole.
+    Args:
+        fd: an open file.
+        patience: seconds to wait; None is PATIENCE_S.
+
+    Returns:
+        Whether it does; False where the file system has no locks. There, appends that
+        come one at a time still arrive whole.
 
     Raises:
-        TimeoutError: somebody else has held it for `patience` seconds, PATIENCE_S.
+        TimeoutError: somebody else has held it for so long.
     """
     seconds = PATIENCE_S if patience is None else patience
     deadline = time.monotonic() + seconds

@@ -14,10 +14,15 @@ _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
 
 
 def visible(text: object, length: int = LENGTH) -> str:
-    """Return anything's text as one harmless line of so many characters.
+    """Return text as one harmless line.
 
-    Controls, format characters and line breaks become spaces, unpaired surrogates and
-    unassigned code points "?"; "..." stands for the rest.
+    Args:
+        text: anything; what is no string is put into words by `str`.
+        length: characters to keep; "..." stands for the rest.
+
+    Returns:
+        Controls, format characters and line breaks as spaces, unpaired surrogates and
+        unassigned code points as "?", no space at either end.
     """
     whole = str(text)
     shown = "".join(map(_one, whole[: 2 * length + 2])).strip()

@@ -141,7 +141,8 @@ def behind_wall(
         budget: of calls and seconds.
     """
     added = old_names(day, script.read_text("utf-8", "replace"))
-    session = sandbox.session(script, ROBOTS, library_of(day), added, limits=day.limits)
+    library = library_of(day)
+    session = sandbox.session(script, ROBOTS, library, added, day.limits, brief=True)
     return {
         name: _asked(session, task.id, getattr(lab, name), budget)
         for task in day.tasks

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from labkit.check import states
+from labkit.check import memory
 from labkit.check.tasks import check_tasks
 from labkit.lesson.day import Day, days_of, find_day, started_day
 from labkit.lesson.week import Week, weeks
@@ -104,11 +104,11 @@ def statuses(day: Day) -> dict[str, str]:
 
     The checker is asked where its last word is not on the file as it is.
     """
-    found = states.known(day)
+    found = memory.known(day)
     if len(found) < len(day.tasks):
-        key = states.key_of(day)
+        key = memory.key_of(day)
         with Sandbox() as sandbox:
-            found = states.remember(key, check_tasks(day, day.work, sandbox))
+            found = memory.remember(key, check_tasks(day, day.work, sandbox))
     return {task.id: found.get(task.id, "to do") for task in day.tasks}
 
 

@@ -5,10 +5,11 @@ import difflib
 import re
 from collections.abc import Iterable
 from functools import lru_cache
+from itertools import chain
 
 from labkit.lesson import folder
 from labkit.lesson.day import Day, Task
-from labkit.lesson.starter import read_script
+from labkit.lesson.starter import function_lines, read_script
 
 
 def arguments(source: str, function: str) -> tuple[str, ...]:
@@ -50,10 +51,12 @@ def renamed(source: str, function: str) -> str:
 
 
 def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
-    """Return code that puts the kit's own functions of some tasks below a file.
+    """Return code that puts functions of the complete lab below a file.
+
+    The whole lab comes with it, so nothing that is answered then may pass.
 
     Args:
-        day: whose complete lab has them; "" is returned where it is not there.
+        day: whose complete lab it is; "" is returned where it is not there.
         tasks: whose functions.
     """
     names = [name for task in tasks for name in task.functions]
@@ -63,6 +66,24 @@ def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
     lines = [f"_kits = {{'__name__': 'kits_lab'}}; exec({text!r}, _kits)"]
     lines += [f"{name} = _kits[{name!r}]" for name in names]
     return "\n\n" + "\n".join(lines) + "\n"
+
+
+def kits_own(day: Day, tasks: Iterable[Task]) -> str:
+    """Return code that puts the kit's own functions of some tasks below a file.
+
+    No other function of the kit comes with them: what the file's own ask of these may
+    pass, and they could call whatever is there.
+
+    Args:
+        day: whose complete lab has them; "" is returned where it is not there.
+        tasks: that a file borrows.
+    """
+    names = [name for task in tasks for name in task.functions]
+    if not names or not day.source.is_file():
+        return ""
+    text = read_script(day.source)
+    own = "\n".join(chain.from_iterable(function_lines(text, n)[2] for n in names))
+    return f"\n\nexec({own!r}, globals())\n"
 
 
 def old_names(day: Day, text: str) -> str:
@@ -91,4 +112,5 @@ def _functions(source: str) -> dict[str, ast.FunctionDef]:
 
 
 def _is_gap(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Raise) and "NotImplementedError" in ast.dump(node)
+    names = (n.id for n in ast.walk(node) if isinstance(n, ast.Name))  # no recursion
+    return isinstance(node, ast.Raise) and "NotImplementedError" in names

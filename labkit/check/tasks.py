@@ -11,6 +11,7 @@ from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.source import (
     arguments,
     kits_functions,
+    kits_own,
     old_names,
     renamed,
     unfinished,
@@ -108,7 +109,7 @@ class _Check:
         """
         borrowed = borrowed_tasks(self.day, self._text())
         self.renamed = old_names(self.day, self._text())
-        self.added = self.renamed + kits_functions(self.day, borrowed)
+        self.added = self.renamed + kits_own(self.day, borrowed)
         rounds = self._ask(tasks, self.added)
         self.source = self._text()
         results: dict[str, TaskResult] = {}
@@ -161,7 +162,12 @@ class _Check:
         asked = next(one for one in rounds if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(
-            self.script, robots, library_of(self.day), added, self.day.limits
+            self.script,
+            robots,
+            library_of(self.day),
+            added,
+            self.day.limits,
+            brief=True,
         )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)

@@ -57,19 +57,19 @@ def check(day: Day, options: argparse.Namespace) -> int:
     seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
-        from labkit.check import journal, report, states
+        from labkit.check import memory, report
         from labkit.check.lab_run import check_lab
         from labkit.check.tasks import check_tasks, required_pass
         from labkit.sandbox.sandbox import Sandbox
 
         with Sandbox(warm) as sandbox:
-            key = states.key_of(day) if script == day.work else ""
+            key = memory.key_of(day) if script == day.work else ""
             results = check_tasks(day, script, sandbox, options.task, seed)
             done = required_pass(results)
             lab = check_lab(day, script, sandbox) if done and not options.task else []
     if key:
-        journal.note(results)
-        states.remember(key, results)
+        memory.note(results)
+        memory.remember(key, results)
     items = lab
     if not options.task:
         from labkit.handin import check_deliverables

@@ -123,6 +123,7 @@ def rebuilt(
     """Return the document with fresh outputs, and the requests that had drifted.
 
     Args:
+        document: its text.
         folder: where it is, for the links in it.
         tables: run nothing, renew the tables of days alone.
     """
@@ -155,7 +156,12 @@ def documents_of(day: Day) -> dict[Path, bool]:
 
 
 def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
-    """Rebuild documents, some for their tables; return how many outputs were old."""
+    """Rebuild or check documents; return how many outputs were not as they are today.
+
+    Args:
+        documents: and whether their tables alone.
+        check: write nothing.
+    """
     drift = 0
     for path, tables in documents.items():
         text = path.read_text("utf-8")

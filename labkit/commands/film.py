@@ -25,9 +25,10 @@ REACH_Q = np.array(
 
 
 def film(path: Path, day: Day, file: Path | None = None) -> int:
-    """Write a .gif or .webp; the arm of the student's code is red wherever it differs.
+    """Write a clip; the arm of the student's code is red wherever it differs.
 
     Args:
+        path: ends in .gif or .webp.
         day: whose function draws the second arm.
         file: the student's; the one in work/ unless given. Without it the arm is alone.
 
@@ -75,7 +76,7 @@ def _differences(
         except LoadError as error:
             raise Robo47Error(not_loaded(script, error.reply)) from None
         for q in qs:
-            poses, problem = poses_of(asker, source, ghost, arm.model, q)
+            poses, problem = poses_of(asker.ask, source, ghost, arm.model, q)
             seen = Seen(q, poses, problem)
             found[q.tobytes()] = compare(ghost, seen, arm.poses_at(q))
             if not asker.alive:

@@ -60,7 +60,7 @@ def parse() -> argparse.Namespace:
     add("--day", metavar="N|N-M|all", help="default: 1")
     add("--week", type=int, metavar="N", help="all days of this week")
     where = "default: grades-dayN/grades.csv; of several days grades-days/grades.csv"
-    add("--out", type=Path, metavar="CSV", help=where)
+    add("--out", type=file, metavar="CSV", help=where)
     add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
     add("--pull", action="store_true", help="clone what is missing, update the rest")
     add(
@@ -90,6 +90,13 @@ def parse() -> argparse.Namespace:
     trusted = "grade with your own rights where no wall stands, or as root"
     add("--i-know-them", action="store_true", help=trusted)
     return parser.parse_args()
+
+
+def file(text: str) -> Path:
+    """Return the path of a file; a folder is none."""
+    if not Path(text).name:
+        raise ValueError(text)
+    return Path(text)
 
 
 def moment(text: str) -> int:
@@ -223,7 +230,8 @@ def grade_day(
     tally: Tally,
 ) -> None:
     """Grade a day: its table, its page, the students' files; say how it went."""
-    with contextlib.suppress(FileExistsError):  # what is no folder is named below
+    # What is no folder is named below.
+    with contextlib.suppress(FileExistsError, FileNotFoundError):
         out.parent.mkdir(parents=True, exist_ok=True)
     given = options.deadline is not None
     since = options.deadline if given else int(time.time())

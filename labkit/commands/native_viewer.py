@@ -59,6 +59,9 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
 
     That is the configuration whose matrices the lessons print; `home`, the model's own
     key, is another one.
+
+    Args:
+        model: the Panda, any entry, with its servos.
     """
     data, joints = mujoco.MjData(model), len(panda.READY_Q)
     mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)  # opens the fingers
@@ -69,7 +72,11 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
 
 
 def show() -> int:
-    """Open the window on `scene.xml` and simulate until it is closed."""
+    """Open the window on `scene.xml` and simulate until it is closed.
+
+    Returns:
+        The exit code.
+    """
     import mujoco.viewer
 
     model = panda.load("scene", meshes=True)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.base.words import command, count
-from labkit.check import states
+from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
 from labkit.lesson.week import Week
@@ -82,7 +82,7 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = {task.id: states.known(day).get(task.id, "") for task in day.tasks}
+    known = {task.id: memory.known(day).get(task.id, "") for task in day.tasks}
     if not all(known.values()):
         return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{id} {state}" for id, state in known.items() if state != "passed"]
@@ -95,7 +95,7 @@ def tell(report: Report, days: list[Day]) -> None:
     for day in days:
         if not day.work.is_file():
             continue
-        found = states.known(day)
+        found = memory.known(day)
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
         says = [] if done else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]

@@ -35,7 +35,10 @@ SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
 
 
 def fetch(root: Path) -> dict[str, Any]:
-    """Fill a folder with the Panda from the first source that answers; say whence.
+    """Fill a folder with the Panda from the first source that answers.
+
+    Returns:
+        The provenance.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
@@ -156,7 +159,7 @@ def bring(root: Path) -> None:
         return
     check_complete(root / files.PANDA)
     # Somebody else's folder gets no file of ours.
-    if not (files.is_recorded(root) or os.environ.get("MENAGERIE_ROOT")):
+    if not (files.record_of(root) or os.environ.get("MENAGERIE_ROOT")):
         add_licence(root)
         write_record(root, files.describe_copy(root))
     show(files.read_provenance())

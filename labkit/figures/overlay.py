@@ -24,17 +24,16 @@ def draw_frames(
     picture: Image.Image, camera: Camera, frames: Mapping[str, Array]
 ) -> Image.Image:
     """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
-    layer = Layer(picture.size)
-    if not frames:
-        return picture
+    size = picture.width * SMOOTH, picture.height * SMOOTH
+    layer = Layer(size)
     seen = {
-        name: camera.project(axis_ends(T, length), picture.size)
+        name: camera.project(axis_ends(T, length), size)
         for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True)
     }
     for ends in seen.values():
         layer.triad(ends)
-    widths = {name: layer.width(name) for name in seen}
-    places = place_labels(seen, widths, layer.text_height, picture.size)
+    widths = {name: layer.font.getlength(name) for name in seen}
+    places = place_labels(seen, widths, layer.text_height, size)
     for name, at in places.items():  # over the triads: a leader ends at its origin
         layer.label(name, at, (float(seen[name][0, 0]), float(seen[name][0, 1])))
     first, *_, last = [*seen.values()] * 2
@@ -109,25 +108,24 @@ def spread(wanted: Array, gap: float) -> Array:
 
 
 class Layer:
-    """A transparent sheet to draw on, enlarged so that its edges become smooth."""
+    """A transparent sheet to draw on, SMOOTH times as large as the picture."""
 
     def __init__(self, size: tuple[int, int]) -> None:
         self.size = size
         self.text_height = size[1] / 27
-        self.sheet = Image.new("RGBA", (size[0] * SMOOTH, size[1] * SMOOTH))
+        self.sheet = Image.new("RGBA", size)
         self.pen = ImageDraw.Draw(self.sheet)
-        self.font = ImageFont.load_default(self.text_height * SMOOTH)
-        self.unit = SMOOTH * size[1] / 800  # one pixel of a picture 800 high
+        self.font = ImageFont.load_default(self.text_height)
+        self.unit = size[1] / 800  # one pixel of a picture 800 high
 
     def line(self, ends: list[Pixel], colour: tuple[int, ...], width: float) -> None:
         """Draw a line with round ends, `width` pixels of a picture 800 high."""
-        points = [(x * SMOOTH, y * SMOOTH) for x, y in ends]
-        self.pen.line(points, colour, round(width * self.unit))
-        for point in points:
+        self.pen.line(ends, colour, round(width * self.unit))
+        for point in ends:
             self.dot(point, colour, width / 2)
 
     def dot(self, at: Pixel, colour: tuple[int, ...], radius: float) -> None:
-        """Draw a disc at a pixel of the sheet."""
+        """Draw a disc."""
         r = radius * self.unit
         self.pen.ellipse((at[0] - r, at[1] - r, at[0] + r, at[1] + r), colour)
 
@@ -142,14 +140,14 @@ class Layer:
         for _, tip, colour in axes:
             self.arrow(origin, tip, HALO, 4)
             self.arrow(origin, tip, colour, 0)
-        self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
+        self.dot(origin, INK, 4.5)
 
     def letters(self, ends: Array) -> None:
         """Write x, y and z at a frame's tips: red and green are alike to many eyes."""
         for name, tip in zip("xyz", ends[1:, :2], strict=True):
             away = tip - ends[0, :2]
             away = away / max(float(np.linalg.norm(away)), 1e-9)
-            x, y = (tip + 0.6 * self.text_height * away) * SMOOTH
+            x, y = tip + 0.6 * self.text_height * away
             self.text((float(x), float(y)), name, "mm")
 
     def arrow(
@@ -160,30 +158,26 @@ class Layer:
         length = float(np.linalg.norm(b - a))
         along = (b - a) / max(length, 1e-9)
         across = np.array([-along[1], along[0]])
-        unit = self.unit / SMOOTH
-        head = min(15 * unit, length)
+        head = min(15 * self.unit, length)
         neck = b - head * along
         self.line([start, (neck[0], neck[1])], colour, 5 + more)
-        half = 0.45 * head + more / 2 * unit
-        back, front = neck - more / 2 * unit * along, b + more / 2 * unit * along
+        rim = more / 2 * self.unit
+        half = 0.45 * head + rim
+        back, front = neck - rim * along, b + rim * along
         corners = [front, back + half * across, back - half * across]
-        self.pen.polygon([(x * SMOOTH, y * SMOOTH) for x, y in corners], colour)
+        self.pen.polygon([(x, y) for x, y in corners], colour)
 
     def label(self, name: str, at: Pixel, origin: Pixel) -> None:
         """Draw a name at a pixel, the end of the leader line to its frame's origin."""
         left = at[0] < origin[0]
         self.line([at, origin], HALO, 4)
         self.line([at, origin], LEADER, 1.5)
-        self.dot((origin[0] * SMOOTH, origin[1] * SMOOTH), INK, 4.5)
+        self.dot(origin, INK, 4.5)
         gap = 8 * self.unit * (-1 if left else 1)
-        self.text((at[0] * SMOOTH + gap, at[1] * SMOOTH), name, "rm" if left else "lm")
-
-    def width(self, words: str) -> float:
-        """Return how wide words are, in pixels of the picture."""
-        return self.font.getlength(words) / SMOOTH
+        self.text((at[0] + gap, at[1]), name, "rm" if left else "lm")
 
     def text(self, at: Pixel, words: str, anchor: str) -> None:
-        """Write at a pixel of the sheet, on a white halo."""
+        """Write on a white halo."""
         self.pen.text(
             at, words, INK, self.font, anchor,
             stroke_width=round(3 * self.unit), stroke_fill=HALO,
@@ -195,10 +189,10 @@ class Layer:
         for name, colour in zip("xyz", (X, Y, Z), strict=True):
             self.line([(x, y), (x + self.text_height, y)], colour, 5)
             x += 1.4 * self.text_height
-            self.text((x * SMOOTH, y * SMOOTH), name, "lm")
+            self.text((x, y), name, "lm")
             x += 1.2 * self.text_height
 
     def over(self, picture: Image.Image) -> Image.Image:
         """Return the picture under this sheet."""
-        sheet = self.sheet.resize(self.size, Image.Resampling.LANCZOS)
+        sheet = self.sheet.resize(picture.size, Image.Resampling.LANCZOS)
         return Image.alpha_composite(picture.convert("RGBA"), sheet).convert("RGB")

@@ -1,6 +1,5 @@
 """The capstone in pictures: the arm, the table and the cube, still or moving."""
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +41,10 @@ def clip(result: Result, path: Path) -> str:
 
 def picture(result: Result, path: Path) -> str:
     """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
-    sheet = side_by_side(_drawn(qpos, PICTURE_SIZE) for qpos in moments(result))
+    drawn = [np.asarray(_drawn(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    quarter = PICTURE_SIZE[0] // 4
+    middles = [part[:, quarter:-quarter] for part in drawn]
+    sheet = Image.fromarray(np.hstack(middles))
     try:
         sheet.save(path, "PNG")
     except (OSError, ValueError) as error:
@@ -64,15 +66,6 @@ def moments(result: Result) -> list[Array]:
     times = [ends[names.index(name)] for name in MOMENTS]
     return [result.qpos[min(int(np.searchsorted(result.t, t)), len(result.t) - 1)]
             for t in times]  # fmt: skip
-
-
-def side_by_side(pictures: Iterable[Image.Image]) -> Image.Image:
-    """Return the middles of pictures next to each other."""
-    parts = [p.crop((p.width // 4, 0, 3 * p.width // 4, p.height)) for p in pictures]
-    sheet = Image.new("RGB", (sum(p.width for p in parts), parts[0].height), "white")
-    for i, part in enumerate(parts):
-        sheet.paste(part, (i * part.width, 0))
-    return sheet
 
 
 def _drawn(qpos: Array, size: tuple[int, int], fast: bool = False) -> Image.Image:

@@ -9,8 +9,9 @@ import numpy as np
 
 from labkit.figures import portrait
 from labkit.figures.scene import Camera, Scene
-from robo47 import kinematics, panda, se3
+from robo47 import panda
 from robo47.checks import Array
+from robo47.verify import mujoco_poses
 
 AGREES = 1e-8
 SIZE = (720, 540)  # pixels of the preview
@@ -43,38 +44,20 @@ def joint_sliders(by_hand: ForwardKinematics | None = None) -> ipywidgets.HBox:
 
     def follow(_change: object = None) -> None:
         q = np.array([slider.value for slider in sliders])
-        T_world_ee = (by_hand or library_fk)(model, q)
-        who = by_hand.__name__ if by_hand else "robo47.kinematics"
-        picture.value = draw(q, T_world_ee)
-        numbers.value = compare(T_world_ee, who, mujoco_fk(model, q))
+        scene = Scene(portrait.with_fingers(q), SIZE, CAMERA, fast=True)
+        frames, who = portrait.link_frames(scene.qpos), "robo47.kinematics"
+        if by_hand is not None:
+            frames["ee"], who = np.asarray(by_hand(model, q)), by_hand.__name__
+        file = io.BytesIO()
+        portrait.draw(scene, frames).save(file, "JPEG", quality=90)
+        picture.value = file.getvalue()
+        T_mujoco = mujoco_poses(model, q[None])[FRAME][0]
+        numbers.value = compare(frames["ee"], who, T_mujoco)
 
     for slider in sliders:
         slider.observe(follow, "value")
     follow()
     return ipywidgets.HBox([ipywidgets.VBox([*sliders, numbers]), picture])
-
-
-def draw(q: Array, T_world_ee: Array) -> bytes:
-    """Return a JPEG of the arm at q (7,), with `ee` where the matrix says."""
-    scene = Scene(portrait.with_fingers(q), SIZE, CAMERA, fast=True)
-    frames = {**portrait.link_frames(scene.qpos), "ee": np.asarray(T_world_ee)}
-    file = io.BytesIO()
-    portrait.draw(scene, frames).save(file, "JPEG", quality=90)
-    return file.getvalue()
-
-
-def library_fk(model: mujoco.MjModel, q: Array) -> Array:
-    """Return T_world_ee (4, 4) from `robo47.kinematics` at q (7,)."""
-    return kinematics.fk(kinematics.chain_to(model, FRAME), q)
-
-
-def mujoco_fk(model: mujoco.MjModel, q: Array) -> Array:
-    """Return T_world_ee (4, 4) from MuJoCo at q (7,)."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = q
-    mujoco.mj_kinematics(model, data)  # fills site_xpos and site_xmat
-    site = data.site(FRAME.removeprefix("site:"))
-    return se3.make_T(site.xmat.reshape(3, 3), site.xpos)
 
 
 def compare(T_world_ee: Array, who: str, T_mujoco: Array) -> str:

@@ -19,6 +19,7 @@ from labkit.figures.scene import FOVY, Box, Camera, Ghost, Scene
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.panda.reading import hangs_on
 
 WHITE, FLOOR, GRID = (1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89)
 GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
@@ -115,7 +116,7 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
         body = model.geom_bodyid[original.objid]
-        if body != carrier and (ghost.alone or not carries(model, carrier, body)):
+        if body != carrier and (ghost.alone or not hangs_on(model, body, carrier)):
             continue
         colour = WRONG_COLOUR if ghost.wrong else GHOST_COLOUR
         size, pos, mat = original.size, R @ original.pos + t, R @ original.mat
@@ -146,13 +147,6 @@ def _added(
     geom.segid, geom.category = -1, mujoco.mjtCatBit.mjCAT_DECOR
     scene.ngeom += 1
     return geom
-
-
-def carries(model: mujoco.MjModel, carrier: int, body: int) -> bool:
-    """Return whether a body (its id) is the carrier or hangs from it."""
-    while body not in (0, carrier):
-        body = model.body_parentid[body]
-    return body == carrier
 
 
 def serve() -> None:

@@ -14,12 +14,21 @@ _OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
 
 
 def head_of(root: Path = ROOT) -> str:
-    """Return the hash of the last commit; Robo47Error where there is none."""
+    """Return the hash of the last commit.
+
+    Raises:
+        Robo47Error: there is none, or no git.
+    """
     return _git("rev-parse", "--verify", "HEAD", folder=root).strip()
 
 
 def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
-    """Clone a commit into a new folder: nothing comes along that is not in it.
+    """Clone a commit: nothing comes along that is not in it.
+
+    Args:
+        sha: of the commit.
+        into: a folder that is not there yet.
+        root: the clone to clone.
 
     Raises:
         Robo47Error: git cannot; says why in git's words.
@@ -34,6 +43,7 @@ def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
     The robot that is on this machine serves it too.
 
     Args:
+        root: of the clone.
         anew: make it an environment of its own; else this Python's packages serve.
 
     Raises:
@@ -60,7 +70,11 @@ def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
 
 
 def uncommitted(root: Path = ROOT) -> dict[str, str]:
-    """Return why each path is not in the last commit, of what it lacks."""
+    """Return what the last commit lacks, by path: "not committed" or "changed since".
+
+    Args:
+        root: the clone.
+    """
     listed = _git("status", "--porcelain", "--no-renames", "-z", "-uall", folder=root)
     found = {}
     for entry in filter(None, listed.split("\0")):

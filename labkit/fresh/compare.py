@@ -20,7 +20,12 @@ FACTOR = 2.0
 
 
 def faults(ran: Ran, clone: Path) -> list[str]:
-    """Return what of a day's lab in the clone is not as committed, a line each."""
+    """Return what is not as it was committed, a line each.
+
+    Args:
+        ran: what became of a day's lab in the clone.
+        clone: its folder.
+    """
     day = ran.day
     if ran.why:
         return [f"day {day.number}, the lab does not pass: {ran.why}"]

@@ -25,7 +25,13 @@ _BLANK = re.compile(
 
 
 def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
-    """Return what the last commit of `root` lacks, by the clone's days, a line each."""
+    """Return what the last commit lacks, a line each.
+
+    Args:
+        days: of the clone, whose files are looked at.
+        clone: its folder.
+        root: what it is a clone of.
+    """
     weeks = sorted({day.folder.name for day in days})
     lacks = _only_here(days, weeks, clone, root)
     blank = _unfinished(days, clone, root)

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 from labkit.base.processes import sweep
 from labkit.base.text import visible
+from labkit.grade import in_time
 from labkit.grade.grader import (
     FOLDER,
     LEFT_BEHIND,
@@ -68,7 +69,8 @@ def local(processes: int) -> Iterator[Engine]:
     Args:
         processes: how many submissions at a time.
     """
-    sweep(FOLDER, LEFT_BEHIND)
+    for prefix in (FOLDER, in_time.FOLDER):
+        sweep(prefix, LEFT_BEHIND)
     pool = ThreadPoolExecutor(processes)  # each thread waits for a process of its own
     try:
         yield Engine(pool, lambda: processes)

@@ -19,6 +19,7 @@ from labkit.handin.handin import (
 )
 from labkit.lesson.day import Day
 
+FOLDER = "robo47-commit-"
 LARGEST = max(LIMITS.values())  # bytes of a file that is looked at
 MOST = 4 * HELPERS  # files beside the script: one blob may have any number of names
 
@@ -47,7 +48,7 @@ def read_in_time(
     commit, late = before(clone, deadline)
     if not commit:
         return handin, history, late
-    with tempfile.TemporaryDirectory(prefix="robo47-commit-") as folder:
+    with tempfile.TemporaryDirectory(prefix=FOLDER) as folder:
         _check_out(day, clone, commit, Path(folder))
         handin = read_handin(_as_there(day, Path(folder)), Path(folder))
     return handin, read_history(clone, wanted_names(day, handin), at=commit), late

@@ -125,7 +125,7 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
         path, problem = root, f"{folder!r} is no name of a folder"
     elif is_link:
         problem = "the folder is a link, which is not followed"
-    elif url.startswith("-"):
+    elif url.startswith("-") or "\0" in url:
         problem = f"{url!r} is no git URL"
     name = cells.get("name") or cells.get("student", "")
     name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")

@@ -37,10 +37,15 @@ def item_names(day: Day) -> list[str]:
 def check_deliverables(
     day: Day, root: Path = ROOT, *, tasks_pass: bool = True
 ) -> list[Item]:
-    """Check what a day hands in: an item per deliverable.
+    """Check what a day hands in.
 
     Args:
+        day: from the kit's manifest.
+        root: the student's clone.
         tasks_pass: whether the day's tasks do; until then no row counts.
+
+    Returns:
+        One item per deliverable that the day has.
 
     Raises:
         FaultError: the machine does not let it be read now.
@@ -60,7 +65,13 @@ def check_deliverables(
 
 
 def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[Item]:
-    """Check what a day hands in, but for the commit."""
+    """Check what a day hands in, but for the commit.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+        tasks_pass: whether the day's tasks do; until then no row counts.
+    """
     from labkit.handin.figure import check_figure  # it brings MuJoCo
 
     checks = {

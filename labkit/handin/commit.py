@@ -14,7 +14,13 @@ def wanted_names(day: Day, handin: Handin) -> list[str]:
 
 
 def check_commit(day: Day, handin: Handin, history: History) -> Item:
-    """Check that a fresh clone of the last commit holds what the folder holds."""
+    """Check that a fresh clone of the last commit holds what the folder holds.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what is in the folder.
+        history: the last commit, with the hashes of `wanted_names`.
+    """
     if not history.readable:
         return Item("commit", "todo", "This folder is no git repository: git init")
     there = {*handin.files, *handin.unread, *handin.pictures}

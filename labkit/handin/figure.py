@@ -27,7 +27,12 @@ class FlawError(Exception):
 
 
 def check_figure(day: Day, handin: Handin) -> Item:
-    """Check the day's figure."""
+    """Check the day's figure.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+    """
     name = day.files["figure"]
     data = handin.files.get(name)
     if data is None:
@@ -73,6 +78,9 @@ def _look(picture: NDArray[np.uint8]) -> None:
 
 def read_png(data: bytes) -> NDArray[np.uint8]:
     """Return the pixels of a PNG, (height, width, 3).
+
+    Args:
+        data: the file's content.
 
     Raises:
         FlawError: no PNG, a broken one, or one far too large.

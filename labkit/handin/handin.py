@@ -15,10 +15,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
+from labkit.base.exchange import SCRIPT
 from labkit.lesson.day import Day
 
 MB = 1_000_000
-LIMITS = {"script": MB, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}  # bytes
+# In bytes.
+LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
 HELPERS, PICTURES = 50, 40  # modules beside the script; pictures of the worksheet
 LISTED = 10_000  # entries of work/ that are looked at
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
@@ -48,7 +50,11 @@ class Handin:
 
 
 def read_handin(day: Day, root: Path) -> Handin:
-    """Return what a student's clone hands in for a day.
+    """Return what a student hands in.
+
+    Args:
+        day: from the kit's manifest.
+        root: the student's clone.
 
     Raises:
         OSError: this machine cannot read just now: not the student's doing.
@@ -73,7 +79,8 @@ def read(root: Path, name: str, limit: int) -> bytes | None:
     """Return a file's content, or None where there is no such file.
 
     Args:
-        name: path from the student's folder, with "/" as separator.
+        root: the student's folder.
+        name: path from there, with "/" as separator.
         limit: bytes.
 
     Raises:
@@ -101,7 +108,10 @@ def image_names(text: str) -> list[str]:
 def picture_path(address: str, worksheet: str) -> str:
     """Return where in the clone a picture's address leads; "" where it leads nowhere.
 
-    One of the web, of another drive, or above the clone leads nowhere.
+    Args:
+        address: as it stands in the worksheet; one of the web, of another drive, or
+            above the clone is none.
+        worksheet: its path from the top of the clone.
     """
     address = unquote(address)
     if re.search(r"[\\:\0-\x1f]", address) or address.startswith("/"):

@@ -16,8 +16,12 @@ from robo47.errors import Robo47Error
 def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
     """Check the latest row of each of the day's metrics.
 
-    Only rows count that the student's own file wrote after its last change. While the
-    tasks do not pass it will change again.
+    Only rows count that the student's own file wrote after its last change.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+        tasks_pass: whether the day's tasks do; until then the file will change again.
     """
     run = f"make run DAY={day.number}"
     try:

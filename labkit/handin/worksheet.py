@@ -28,7 +28,12 @@ _WORD = re.compile(f"[{_ALONE}]|[^\\W_{_ALONE}]+")
 
 
 def check_worksheet(day: Day, handin: Handin) -> list[Item]:
-    """Check the day's worksheet: definitions, drawings and checklist."""
+    """Check the day's worksheet: definitions, drawings and checklist.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what the student's folder holds.
+    """
     where = day.files["worksheet"]
     names = ("definitions", "drawings", "checklist")
     data = handin.files.get(where)
@@ -66,7 +71,8 @@ def _without_comments(text: str) -> str:
 def split_sections(text: str) -> dict[str, str]:
     """Return {heading in lower case: the text below it, with its subsections}.
 
-    A `#` inside a fenced block of the Markdown is no heading.
+    Args:
+        text: Markdown. A `#` inside a fenced block is no heading.
     """
     sections: dict[str, list[str]] = {}
     open_now: list[tuple[int, str]] = []

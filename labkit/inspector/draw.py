@@ -44,14 +44,16 @@ Anchor = Literal["bottom-left", "center-left", "top-right"]
 
 
 class Sketch:
-    """Draws for one tab."""
+    """Draws for one tab, or for all of them."""
 
-    def __init__(self, server: viser.ViserServer, coarse: Sequence[Shape]) -> None:
+    def __init__(
+        self, server: viser.ViserServer, coarse: Sequence[Shape] = (), root: str = ROOT
+    ) -> None:
         """Begin with the arm's simple meshes, for ghosts."""
         self.server, self.coarse = server, list(coarse)
         self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
         # All that is drawn hangs from it.
-        self.root = server.scene.add_frame(ROOT, show_axes=False)
+        self.root = server.scene.add_frame(root, show_axes=False)
 
     def clear(self) -> None:
         """Remove everything that was drawn here."""
@@ -59,7 +61,7 @@ class Sketch:
 
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
-        return f"{ROOT}/{next(_NUMBERS)}"
+        return f"{self.root.name}/{next(_NUMBERS)}"
 
     def arrows(
         self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
@@ -74,7 +76,10 @@ class Sketch:
         self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
     ) -> viser.LineSegmentsHandle:
         """Draw line segments by their ends, (n, 2, 3); the width is in pixels."""
-        return lines(self.server, self.path(), points, colour, width)
+        return self.server.scene.add_line_segments(
+            self.path(), np.asarray(points, dtype=np.float32), rgb(colour),
+            thickness=width, thickness_units="screen",
+        )  # fmt: skip
 
     def curve(
         self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
@@ -263,20 +268,6 @@ class Triad:
 def _ends(length: float) -> Points:
     """Return the axes' ends, (3, 2, 3)."""
     return np.stack([np.zeros((3, 3)), length * np.eye(3)], axis=1).astype(np.float32)
-
-
-def lines(
-    server: viser.ViserServer,
-    path: str,
-    points: ArrayLike,
-    colour: Colour,
-    width: float = 2.5,
-) -> viser.LineSegmentsHandle:
-    """Draw line segments under a name in the scene tree; see `Sketch.lines`."""
-    return server.scene.add_line_segments(
-        path, np.asarray(points, dtype=np.float32), rgb(colour),
-        thickness=width, thickness_units="screen",
-    )  # fmt: skip
 
 
 def joined(points: ArrayLike) -> Points:

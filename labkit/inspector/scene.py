@@ -14,7 +14,7 @@ import viser
 from numpy.typing import ArrayLike
 
 from labkit.inspector.arm import Arm
-from labkit.inspector.draw import Anchor, Triad, joined, lines
+from labkit.inspector.draw import Anchor, Sketch, Triad, joined
 from labkit.inspector.meshes import Skin
 from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS, Shape
 from labkit.inspector.tab import View
@@ -59,8 +59,9 @@ class ArmScene:
         self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
-        self.way = lines(server, "/way", np.zeros((1, 2, 3)), HIGHLIGHT)
-        self.gap = lines(server, "/gap", np.zeros((1, 2, 3)), GHOST_COLOUR)
+        draw, nowhere = Sketch(server, root="/lines"), np.zeros((1, 2, 3))
+        self.way = draw.lines(nowhere, HIGHLIGHT)
+        self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
         self.opaque, self.agrees = False, False
         self.coarse: list[Shape] = []
@@ -149,8 +150,8 @@ class Pointed:
         self.server, self.arm = server, arm
         self.model: mujoco.MjModel | None = None
         self.body = 0
-        nowhere = np.zeros((1, 2, 3))
-        self.line = lines(server, "/pointed/axis", nowhere, "purple", 3.0)
+        draw = Sketch(server, root="/pointed")
+        self.line = draw.lines(np.zeros((1, 2, 3)), "purple", 3.0)
         self.line.visible = False
         self.label = server.scene.add_label(
             "/pointed/name", "", visible=False, font_screen_scale=0.9

@@ -25,6 +25,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
+Ask = Callable[[Sequence[Question]], Sequence[Reply]]
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class Student(threading.Thread):
         super().__init__(daemon=True, name="student")
         self.source, self.ghost, self.model = source, ghost, model
         self.deliver, self.saved = deliver, saved
-        self.news = threading.Condition()
+        self.news = threading.Event()
         self.q: Array | None = None
         self.ended = False
         self.version = 0  # of the file: another one after each save
@@ -92,9 +93,8 @@ class Student(threading.Thread):
 
     def want(self, q: Array) -> None:
         """Ask for a configuration, (nq,), instead of any that waits."""
-        with self.news:
-            self.q = q.copy()
-            self.news.notify()
+        self.q = q.copy()
+        self.news.set()
 
     @property
     def there(self) -> bool:
@@ -115,15 +115,15 @@ class Student(threading.Thread):
             if not self._asker.alive:
                 kinds = [reply.kind for reply in replies]
                 at = kinds.index("stopped") if "stopped" in kinds else -1
-                function = questions[at].function
-                self._give_up(self.source.describe(function, replies[at]))
+                why = self.source.describe(questions[at].function, replies[at])
+                self._shut()
+                self.problem = f"{why} Save the file to have it asked again."
             return replies
 
     def close(self) -> None:
         """End the thread and the sandbox."""
-        with self.news:
-            self.ended = True
-            self.news.notify()
+        self.ended = True
+        self.news.set()
 
     def run(self) -> None:
         """Look, ask, deliver, until it is closed."""
@@ -132,16 +132,13 @@ class Student(threading.Thread):
             with self._lock:
                 if changed := self._look():
                     done = None
-            with self.news:
-                q = self.q
-            if q is not None and q is not done:
+            self.news.clear()
+            if (q := self.q) is not None and q is not done:
                 done = q
                 self.deliver(self._seen(q))
             if changed:
                 self.saved()  # the checks need both cores; first the ghost
-            with self.news:
-                if self.q is done and not self.ended:
-                    self.news.wait(POLL_SECONDS)
+            self.news.wait(POLL_SECONDS)
         self._shut()
 
     def _look(self) -> bool:
@@ -173,39 +170,29 @@ class Student(threading.Thread):
         """Return the student's poses at a configuration."""
         if self._stamp is None:
             return None
-        with self._lock:
-            if (asker := self._asker) is None or self.ghost is None:
-                return Seen(q, problem=self.problem)
-            try:
-                poses, problem = poses_of(asker, self.source, self.ghost, self.model, q)
-            except Exception as error:  # ours, or the day's: the page goes on
-                return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
-            if not asker.alive:
-                problem = self._give_up(problem)
-        return Seen(q, poses, problem)
-
-    def _give_up(self, why: str) -> str:
-        """Ask nothing more before the file is saved; return what to say meanwhile."""
-        self._shut()
-        self.problem = f"{why} Save the file to have it asked again."
-        return self.problem
+        if self._asker is None or self.ghost is None:
+            return Seen(q, problem=self.problem)
+        try:
+            poses, why = poses_of(self.ask, self.source, self.ghost, self.model, q)
+        except Exception as error:  # the day's: the page goes on
+            return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
+        return Seen(q, poses, self.problem or why)
 
 
 def poses_of(
-    asker: Session, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
+    ask: Ask, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
 ) -> tuple[dict[str, Array], str]:
     """Return the poses that the ghost's function gives at q, (nq,), and "" or why not.
 
-    The asker is the file, loaded; the source says what other replies mean.
+    The file's session, or its student, is asked; the source says what replies mean.
     """
 
     def asked(
         frames: Sequence[str], some: Sequence[tuple[Any, ...]]
     ) -> tuple[dict[str, Array], str]:
         questions = [Question("ghost", ghost.function, tuple(args)) for args in some]
-        replies = asker.ask(questions, seconds=ASK_SECONDS)
         poses, problem = {}, ""
-        for name, reply in zip(frames, replies, strict=True):
+        for name, reply in zip(frames, ask(questions), strict=True):
             said = source.describe(ghost.function, reply)
             if not said and not (said := no_pose(ghost.function, reply.value)):
                 poses[name] = np.array(reply.value, dtype=np.float64)
@@ -213,7 +200,7 @@ def poses_of(
         return poses, problem
 
     poses, problem = asked(ghost.frames, ghost.questions(model, q))
-    if not poses and ghost.whole is not None and asker.alive:
+    if not poses and ghost.whole is not None:
         end = ghost.frames[-1:]
         poses, why = asked(end, [ghost.whole(model, q)])
         problem = why or f"Only {end[0]} is drawn: {problem}"

@@ -25,3 +25,4 @@ from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import Count, Image, Mask, Pixels, Waypoints
 from labkit.judge.rigid_kinds import Pose, Rotation
+from labkit.judge.row import Row

@@ -39,6 +39,10 @@ def _only(some: slice) -> Callable[[Any], Any]:
     return change
 
 
+def _if_over(small: float, x: Any) -> Any:
+    return x * (abs(x) >= small)
+
+
 # Angles.
 DEGREES = Change(
     "degrees", "{name} comes in radians, and is used as degrees", np.rad2deg
@@ -48,8 +52,9 @@ RADIANS_TWICE = Change(
     "{name} is in radians already, and is converted from degrees once more",
     np.deg2rad,
 )
+INTO_COS = DEGREES.called("degrees-into-cos")
 OF_AN_ANGLE = (
-    DEGREES.called("degrees-into-cos"),
+    INTO_COS,
     RADIANS_TWICE,
     Change(
         "half-angle",
@@ -69,6 +74,16 @@ ROUNDED = tuple(
         partial(np.round, decimals=decimals),
     )
     for decimals in range(4)
+)
+SMALL_LEFT_OUT = tuple(  # any bound between two angles that are asked does it
+    Change(
+        "small-angle-ignored",
+        "a small {name} is taken for 0; the formula is exact for small ones too, and "
+        "needs no case of its own",
+        partial(_if_over, small),
+        hidden="the lab draws hardly any angle so small",
+    )
+    for small in (1e-3, 1e-2)
 )
 
 # Signs.

@@ -27,7 +27,6 @@ Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
-ANY = None  # truth of a function that is judged by `accept`
 
 
 @dataclass(frozen=True)
@@ -75,6 +74,7 @@ class HeldOut:
     # Instead of `truth`: what is found are these very answers.
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # "wrong", "close", or "passed" for a remark only
+    near: float | None = None  # how well `mistaken` has to fit; None is the row's
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class Ask:
     kind: Kind | tuple[Kind, ...]
     # The right answers to all calls, from stacked arguments as `Mistake.redo` takes
     # them; an oracle, never the lab script.
-    truth: Callable[..., Any] | None = ANY
+    truth: Callable[..., Any] | None = None
     # Instead of `truth` where many answers are right: takes one call's arguments and
     # the answer, and returns what is wrong with it, or None.
     accept: Callable[..., Finding | str | None] | None = None

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import se3
-from robo47.checks import Array
+from robo47.checks import Array, pose_flaw, rotation_flaw
 
 Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
 MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
@@ -90,6 +89,12 @@ def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
     return np.max(each, axis=0)
 
 
+def all_match(kinds: Sequence[Any], S: Parts, T: Parts) -> bool:
+    """Return whether answers have as many parts, and each part `matches`."""
+    trios = zip(S, T, kinds, strict=False)
+    return len(S) == len(T) and all(matches(s, t, kind.scale) for s, t, kind in trios)
+
+
 def off_by(kinds: Sequence[Any], S: Parts, T: Parts) -> float:
     """Return the largest difference of any entry, in units of its scale."""
     return float(gaps(kinds, S, T).max())
@@ -104,8 +109,8 @@ def worst_part(kinds: Sequence[Any], S: Parts, T: Parts, near: float) -> int:
 
 def rigid(M: Array) -> bool:
     """Return whether all of M, (n, 3, 3) or (n, 4, 4), are rotations or poses."""
-    check = se3.is_rotation if M.shape[-1] == 3 else se3.is_pose
-    return M.shape[-1] == M.shape[-2] and check(M, RIGID)
+    flaw = {(3, 3): rotation_flaw, (4, 4): pose_flaw}.get(M.shape[-2:])
+    return bool(flaw and np.isfinite(M).all() and flaw(M, RIGID) is None)
 
 
 def millimetres(a: Array, b: Array) -> Array:

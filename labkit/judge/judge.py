@@ -11,6 +11,7 @@ from labkit.judge import near_miss, problems
 from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
 from labkit.judge.compare import (
     Parts,
+    all_match,
     as_one,
     difference,
     gaps,
@@ -140,7 +141,8 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
-    return off <= ask.near if held.mistaken else off > ask.near
+    near = ask.near if held.near is None else held.near
+    return off <= near if held.mistaken else off > near
 
 
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
@@ -264,8 +266,7 @@ def named_mistake(
             again = _made_again(mistake, arguments, kinds, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
-        trios = zip(S, again, kinds, strict=False)
-        if len(again) == len(S) and all(matches(s, a, k.scale) for s, a, k in trios):
+        if all_match(kinds, S, again):
             says = capitalised(mistake.says)
             says += "" if says.endswith("?") else "."
             if T is not None:

@@ -1,12 +1,14 @@
 """A mistake that has a name: what to say, and the same mistake made on purpose."""
 
-from collections.abc import Callable, Sequence
+import contextlib
+from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
+from itertools import starmap
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from labkit.judge.compare import as_one
+from labkit.judge.compare import as_one, parts
 
 KEPT = 64  # questions whose answers are kept
 # Words that are symbols of a formula; those of one letter but "a" are, too.
@@ -91,12 +93,25 @@ def once(function: Callable[..., Any]) -> Callable[..., Any]:
     return keeping
 
 
+def entry_of(
+    table: Callable[..., Any], slug: str, known: Set[str]
+) -> Callable[..., Any]:
+    """Return the function of one mistake of a table, which returns {slug: answer}."""
+
+    def one(*args: Any) -> Any:
+        if (answers := table(*args)).keys() != known:
+            raise KeyError(*answers.keys() ^ known)
+        answer = answers[slug]
+        return answer() if callable(answer) else own(answer)
+
+    return one
+
+
+@dataclass(frozen=True, eq=False)
 class InTurn:
     """A function of one question's arguments as one of all, stacked."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
-        """Take a function of one question, as a student writes it."""
-        self.function = function
+    function: Callable[..., Any]  # of one question, as a student writes it
 
     def __call__(self, *columns: Any) -> Any:
         """Return the answers to all questions, (n, ...), or a tuple of such.
@@ -115,10 +130,9 @@ class InTurn:
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
         """Return the answers one by one; every call gets arrays of its own."""
-        n = next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
         calls = [
             [own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
-            for i in range(n)
+            for i in range(_count(columns))
         ]
         try:
             return [self.function(*args) for args in calls]
@@ -129,3 +143,25 @@ class InTurn:
         """Return the answer to one question."""
         one = [c[[i]] if isinstance(c, np.ndarray) else c for c in columns]
         return self.each(one)[0]
+
+
+class AtOnce(InTurn):
+    """A function of the library's, which takes all questions stacked where it can."""
+
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the answers one by one; the last tells whether stacks are taken."""
+        with contextlib.suppress(Exception):
+            end = [c[-1:] if isinstance(c, np.ndarray) else c for c in columns]
+            (last,) = super().each(end)
+            whole = self.function(*map(own, columns))
+            several = isinstance(whole, tuple)
+            answers = list(zip(*whole, strict=True) if several else whole)
+            pairs = zip(parts(answers[-1]), parts(last), strict=True)
+            if len(answers) == _count(columns) and all(starmap(np.array_equal, pairs)):
+                return answers
+        return super().each(columns)
+
+
+def _count(columns: Sequence[Any]) -> int:
+    """Return how many questions there are; one where nothing is stacked."""
+    return next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)

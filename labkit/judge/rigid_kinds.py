@@ -104,11 +104,12 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     """Return what is wrong with rotations, (n, 3, 3)."""
     if (off := _skew(S)) > RIGID:
         det = np.linalg.det(S)
-        worst = np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0  # no 7e-189
+        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0:.3g}"  # no -0
+        size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
             "R is no rotation: its columns are not unit vectors at right angles. "
-            f"(R R^T differs from I by {off:.2g}; det R is {worst:.3g}, not 1.)",
+            f"(R R^T differs from I by {off:.2g}{size}.)",
         )
     X = np.abs(T.mT @ S)
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):

@@ -32,7 +32,7 @@ import numpy as np
 
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
-from labkit.judge.mistake import InTurn, Mistake, once, own
+from labkit.judge.mistake import AtOnce, InTurn, Mistake, entry_of, once
 from labkit.lesson import folder
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
@@ -147,13 +147,7 @@ class Row:
         said = dict(line.split(": ", 1) for line in text.splitlines())
         table = once(code)
         for slug, line in said.items():
-
-            def one(*args: Any, slug: str = slug) -> Any:
-                if (answers := table(*args)).keys() != said.keys():
-                    raise KeyError(*answers.keys() ^ said.keys())
-                answer = answers[slug]
-                return answer() if callable(answer) else own(answer)
-
+            one = entry_of(table, slug, said.keys())
             update_wrapper(one, code, (), ())  # its arguments' names
             says, _, called = line.partition(" => ")
             self.wrong(slug, says, called or redone, hidden.get(slug, ""))(one)
@@ -284,7 +278,8 @@ class Row:
             more["accept"] = _told(more["accept"], self._fault)
         else:
             kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
-            more["truth"] = _Answered(self.truth, kinds, self._fault)
+            asked = (InTurn if self._truth else AtOnce)(self.truth)
+            more["truth"] = _Answered(self.truth, asked, kinds, self._fault)
 
         def named() -> list[Mistake]:  # made when an answer is wrong
             ways = self.named
@@ -360,16 +355,17 @@ def _library_function(day: Day, function: str) -> Code:
     )
 
 
+@dataclass(frozen=True, eq=False)
 class _Answered(InTurn):
     """The truth: where it has no answer to a question, its author is told."""
 
-    def __init__(self, function: Code, kinds: Sequence[Any], fault: Code) -> None:
-        super().__init__(function)
-        self.kinds, self.fault = kinds, fault
+    asked: InTurn  # the same function
+    kinds: Sequence[Any]
+    fault: Code
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
         try:
-            answers = super().each(columns)
+            answers = self.asked.each(columns)
         except ValueError as error:
             raise self.fault("truth", error.__cause__ or error) from None
         parts = [a if isinstance(a, tuple) else (a,) for a in answers]

@@ -1,8 +1,8 @@
 """Days: each is one folder, `w*/dayN/`, that the machine reads by path.
 
-    week       its manifest, week.toml: its days, in order, and what is to come
+    week       its manifest, week.toml: its days, in order, and what is to come; how a
+               manifest is read
     day        its manifest, day.toml: tasks, hints, deliverables, limits
-    table      a dataclass filled from a TOML table
     marks      which file wrote a row of the log
     folder     its Python files (one per function, and others), imported by path
     starter    the student's copy of its lab script, with the tasks taken out

@@ -3,7 +3,7 @@
 One file that the starter, the checker, the hints, the lab and the report all read.
 Whatever is missing, empty or misspelt in it is found here, at loading, and named; a
 day whose manifest is broken costs that day alone. A field of `Day`, `Task` or `Metric`
-is an entry of the file, and is read by its type (`table.py`).
+is an entry of the file, and is read by its type (`week.py`).
 """
 
 import math
@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base.exchange import NUMBERS, Limits
-from labkit.lesson.table import entry, load
-from labkit.lesson.week import Week, find_week, load_week, weeks
+from labkit.lesson.week import Week, entry, find_week, load, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 

@@ -44,6 +44,7 @@ def append_or_keep(path: Path, text: str, sync: bool) -> None:
 
     Args:
         path: the log; it is made, with its header, if it is not there.
+        text: one or more lines, without the last line end.
         sync: force them to the disk before returning.
 
     Raises:

@@ -65,7 +65,12 @@ def wrong_header(path: Path) -> str:
 
 
 def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:
-    """Return a full row with each column's own type, and every fault in words."""
+    """Return a full row with each column's own type, and every fault in words.
+
+    Args:
+        fields: values by column name; None or a missing name is an empty cell.
+        allow_nonfinite: let NaN and the infinities pass.
+    """
     row: Row = {}
     faults = [_unknown(name) for name in fields if name not in COLUMNS]
     for name in COLUMNS:

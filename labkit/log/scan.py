@@ -61,9 +61,11 @@ def watched(path: Path) -> Iterator[Line]:
 
 
 def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
-    """Yield the lines of a log that is open at its start, as `scan` does.
+    """Yield the lines of a log that is open already, as `scan` does.
 
-    Lines that were noted as cut stand beside the log of that name.
+    Args:
+        file: at its start.
+        path: the log's name; lines that were noted as cut stand beside it.
     """
     chosen = Path(path)
     head = file.read(HEAD)

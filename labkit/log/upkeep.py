@@ -41,10 +41,13 @@ def restore(path: Path) -> int:
 
 
 def came_back(path: Path) -> set[str]:
-    """Return lines that a commit took out and a merge brought back; none without git.
+    """Return lines that a commit took out and a merge brought back.
 
     A union merge keeps both sides' lines: a row that one branch deleted or edited
     returns as it was. Only git's history shows that.
+
+    Returns:
+        Those lines. None outside git, or where git is not installed.
     """
     command = ["git", "-C", str(path.resolve().parent), "log", "--no-merges"]
     command += ["--format=", "--patch", "--unified=0", "--no-color", "--", path.name]

@@ -7,7 +7,7 @@ from pathlib import Path
 from labkit.base.git import History, read_history
 from labkit.base.text import visible
 from labkit.check.lab_run import rehearse
-from labkit.check.states import in_words
+from labkit.check.memory import in_words
 from labkit.check.tasks import check_tasks
 from labkit.grade.package import Package, collect, unpack
 from labkit.grade.roster import Student

@@ -64,6 +64,7 @@ def render(proof: Proof) -> str:
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
     title = f"{escape(proof.clone.name)}: {_week(proof.days)}"
+    not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
         title,
         _about(proof),
@@ -72,7 +73,7 @@ def render(proof: Proof) -> str:
         _numbers(proof.days),
         _functions(proof.days),
         _commit(proof),
-        _not_proved(),
+        html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
     )
@@ -223,8 +224,3 @@ def _commit(proof: Proof) -> str:
             f" {escape(str(said.get('date')))}: {found}{things}.</p>"
         )
     return html.section("The commit", *words)
-
-
-def _not_proved() -> str:
-    lines = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
-    return html.section("What this does not prove", f"<ul>{lines}</ul>")

@@ -41,6 +41,7 @@ def render(
     """Return the whole page.
 
     Args:
+        report: what to show.
         heading: one line of plain text on where the rows come from.
         week: whose own page stands beside this one.
         checked: what the last check found, a line of plain text by day.

@@ -92,7 +92,14 @@ class Report:
 
 
 def thresholds(root: Path = ROOT) -> dict[Key, Metric]:
-    """Return what the days' manifests ask for, by day, check and metric."""
+    """Return what the days' manifests ask for, by day, check and metric.
+
+    Args:
+        root: the clone.
+
+    Raises:
+        Robo47Error: a manifest is not right; names the entry.
+    """
     return {
         (day.number, metric.check, metric.metric): metric
         for day in all_days(root)
@@ -123,6 +130,8 @@ def collect(
     """Return the report on the lines that the filters let through.
 
     Args:
+        lines: what `scan` yields.
+        thresholds: by day, check and metric.
         since: the first date, YYYY-MM-DD; "" is all.
         day: the course's day; None is all.
         check: a check's name; "" is all.

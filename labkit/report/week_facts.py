@@ -11,8 +11,8 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.git import GitError, run
-from labkit.check import journal, states
-from labkit.check.journal import Met
+from labkit.check import memory
+from labkit.check.memory import Met
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, writers_of
 from labkit.report.series import Key, Series, float_of
@@ -61,8 +61,14 @@ class DayFacts:
 
 
 def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
-    """Return how a day went; the series are the log's."""
-    known = states.known(day)
+    """Return how a day went.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+        root: the clone.
+    """
+    known = memory.known(day)
     passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
     return DayFacts(
@@ -74,7 +80,7 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
         sum(len(task.functions) for task in day.tasks),
         minutes_of(day, root),
         sum(n for task, n in store.hints_given(root).items() if task in ids),
-        [m for m in journal.mistakes_met(journal.read(root), known) if m.task in ids],
+        [m for m in memory.mistakes_met(memory.journal(root), known) if m.task in ids],
         len(known) == len(ids),
         writers_of(day).borrowed,
     )
@@ -83,7 +89,12 @@ def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFa
 def minutes_of(day: Day, root: Path = ROOT) -> int | None:
     """Return the minutes from the first to the last commit of what a day hands in.
 
-    None where there are no two commits, or no git.
+    Args:
+        day: from its manifest.
+        root: the clone.
+
+    Returns:
+        None where there are no two commits, or no git.
     """
     files = day.files
     own = [files[name] for name in ("script", "figure") if name in files]
@@ -108,7 +119,12 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
 
 
 def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
-    """Return a day's numbers, in the manifest's order."""
+    """Return a day's numbers, in the manifest's order.
+
+    Args:
+        day: from its manifest.
+        series: the log's rows, by day, check and metric.
+    """
     found = []
     for metric in day.metrics:
         key = (day.number, metric.check, metric.metric)

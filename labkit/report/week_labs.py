@@ -54,12 +54,16 @@ def run_labs(
     *,
     kits: bool = False,
 ) -> Iterator[Ran]:
-    """Run labs side by side, the student's own where begun; yield in the days' order.
+    """Run labs side by side, the student's own where they are begun.
 
     Args:
+        days: whose labs.
         python: to run them with.
         environment: its variables; this process's by default.
         kits: run the kit's labs, whatever the student has begun.
+
+    Returns:
+        What became of each, in the order of the days.
     """
     variables = dict(os.environ if environment is None else environment)
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:

@@ -5,7 +5,7 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.words import number_of
-from labkit.check.journal import Met
+from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS
 from labkit.report.week_facts import DayFacts, Number
@@ -40,7 +40,12 @@ _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
 def render(facts: Sequence[DayFacts], heading: str) -> str:
-    """Return the page on a week's days, in order, under a heading of plain text."""
+    """Return the whole page.
+
+    Args:
+        facts: of the week's days, in order.
+        heading: one line of plain text on where this comes from.
+    """
     return html.page(
         escape(facts[0].day.week.heading),
         escape(heading),

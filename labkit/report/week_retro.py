@@ -26,6 +26,9 @@ _MARKS = {  # after a number, what it is worth
 def fill(facts: Sequence[DayFacts]) -> list[Path]:
     """Write a week's numbers into its retrospectives; return those that have changed.
 
+    Args:
+        facts: of the week's days.
+
     Raises:
         Robo47Error: a file cannot be written.
     """

@@ -15,7 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, NUMBERS, Path, Question, Reply
+from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.lesson.day import Day, days_before
@@ -26,7 +26,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 PANDA = Robot()  # what a file that loads the robot at its top is given
-LARGEST, MOST_BESIDE = 1_000_000, 50  # bytes of a file, files beside the script
+MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
 KIT = ROOT / "robo47"
@@ -89,8 +89,8 @@ def library_of(day: Day) -> dict[str, str]:
 def _names_panda(told: dict[str, Any]) -> bool:
     """Return whether code that is sent may load the robot."""
     own = map(base64.b64decode, [told["code"], *told["beside"].values()])
-    library = any("panda" in source for source in told["library"].values())
-    return library or any(b"panda" in source for source in own)
+    kits = any("panda" in it for it in [told["added"], *told["library"].values()])
+    return kits or any(b"panda" in source for source in own)
 
 
 def robots_of(questions: Iterable[Question]) -> Robots:
@@ -100,12 +100,16 @@ def robots_of(questions: Iterable[Question]) -> Robots:
     return list(robots.values())
 
 
-def pack(questions: Sequence[Question], robots: Robots) -> list[dict[str, Any]]:
-    """Return questions as JSON; they name the process's robots by place."""
+def pack(
+    questions: Sequence[Question], models: Sequence[dict[str, Any]]
+) -> list[dict[str, Any]]:
+    """Return questions as JSON; they name the process's models by place."""
     args = {id(arg): arg for question in questions for arg in question.args}
-    packed: dict[int, Any] = {id(one): {"model": at} for at, one in enumerate(robots)}
+    packed: dict[int, Any] = {}
     for key, arg in args.items():
-        if isinstance(arg, Path):
+        if isinstance(arg, Robot | mujoco.MjModel):
+            packed[key] = {"model": models.index(_copy_of(arg))}
+        elif isinstance(arg, Path):
             packed[key] = {"path": [list(pair) for pair in arg.pairs]}
         elif isinstance(arg, int | float):
             packed[key] = {"number": arg}
@@ -201,18 +205,19 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
     """Return a script, with what is added to it, and the ones beside it."""
     if not script.is_file():
         raise Robo47Error(f"{shown(script)} is not there")
-    if script.stat().st_size > LARGEST:
-        raise Robo47Error(f"{shown(script)} is over 1 MB: that is no script")
+    if script.stat().st_size > SCRIPT:
+        raise Robo47Error(f"{shown(script)} is over {SCRIPT // 1000} kB: no script")
     found = sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
     # A grade follows no link either.
     own = [path for path in found if path.is_file() and not path.is_symlink()]
     return {
         "file": script.name,
-        "code": _text(script.read_bytes() + added.encode()),
+        "code": _text(script.read_bytes()),
+        "added": added,
         "beside": {
             path.stem: _text(path.read_bytes())
             for path in own
-            if path.stat().st_size <= LARGEST
+            if path.stat().st_size <= SCRIPT
         },
     }
 

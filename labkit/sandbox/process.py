@@ -44,8 +44,8 @@ class Process:
         Raises:
             FaultError: this machine starts no process now.
         """
-        self.wall, self.extras = wall(), tuple(extras)
-        self.secret = b""
+        self.extras, self.secret = tuple(extras), b""
+        self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
         self._room = MOST_BYTES
         self.memory, self.longest = 1.0, LONGEST_LINE  # GB, bytes
@@ -61,6 +61,7 @@ class Process:
             threading.Thread(target=run, daemon=True)
             for run in (self._read, self._write)
         ]
+        self.wall = wall()
         try:
             self.process = _starter.submit(_start, command(self.wall, extras)).result()
             for thread in self._threads:
@@ -92,6 +93,7 @@ class Process:
                 from labkit.sandbox import messages  # NumPy, after the start
 
                 raise LoadError(*messages.read([message]) or [stopped(CHANNEL)])
+            self.told = request
         except EndedError as error:
             raise LoadError(error.reply) from None
 

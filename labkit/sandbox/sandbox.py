@@ -15,7 +15,8 @@ of time do not count what a process waits for a processor.
 import contextlib
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -32,13 +33,14 @@ from labkit.base.exchange import (
 )
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
-from labkit.sandbox.process import Process
+from labkit.sandbox.process import LOAD_SECONDS, Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
 CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
+_SAME = ("file", "code", "beside", "library", "memory", "numbers")  # of a request
 
 
 class Sandbox:
@@ -47,6 +49,7 @@ class Sandbox:
     def __init__(self, warm: Process | None = None) -> None:
         """Take the first process, or start it: it loads while the caller prepares."""
         self._warm: Process | None = warm or Process()
+        self._kept: Process | None = None  # with a file that may be asked more
         self._sessions: list[Session] = []
 
     def __enter__(self) -> "Sandbox":
@@ -57,9 +60,9 @@ class Sandbox:
         """End what is left."""
         for session in self._sessions:
             session.close()
-        if self._warm:
-            self._warm.close()
-            self._warm = None
+        for process in filter(None, (self._warm, self._kept)):
+            process.close()
+        self._warm = self._kept = None
 
     def run(
         self,
@@ -102,17 +105,24 @@ class Sandbox:
                 for exchange in left:
                     exchange.reply = stopped(TOO_LONG)
                 break
-            with contextlib.closing(self._take(limits.extras)) as process:
+            process = self._again(request) or self._take(limits.extras)
+            with contextlib.ExitStack() as ends:
+                ends.callback(process.close)
+                before = process.waited
                 try:
-                    process.load(request)
-                    rounds.ask(process, robots)
+                    if not process.told:
+                        process.load(request)
+                    rounds.ask(process)
                 except LoadError:
                     if killed or not process.killed:
                         raise
-                deadline += process.waited
+                deadline += process.waited - before
                 if process.killed and not killed:  # by whom? The same again tells
                     killed = True
                     continue
+                if not rounds.ended:
+                    ends.pop_all()
+                    self._kept = process
             rounds.fill(needs or {})
 
     def session(
@@ -122,12 +132,16 @@ class Sandbox:
         library: Mapping[str, str] | None = None,
         added: str = "",
         limits: Limits | None = None,
+        *,
+        brief: bool = False,
     ) -> "Session":
         """Return a student's file, loaded, for many rounds of questions.
 
         Args:
             script, library, added, limits: see `run`.
             robots: those that questions will hold.
+            brief: it takes a process that has the file where there is one. One that is
+                not has a new one, and the next is made ready for the next save.
 
         Raises:
             LoadError: the file does not load.
@@ -137,17 +151,45 @@ class Sandbox:
             script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
             memory=limits.memory, numbers=limits.numbers,
         )  # fmt: skip
-        process = self._take(limits.extras)
+        process = (brief and self._again(request)) or self._take(limits.extras)
         try:
-            process.load(request)
+            if not process.told:
+                process.load(request)
         except BaseException:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        self._sessions = [*alive, Session(process, robots, limits)]
-        with contextlib.suppress(FaultError):  # a spare, for the next save
-            self._warm = Process(limits.extras)
-        return self._sessions[-1]
+        back = self._keep if brief else methodcaller("close")
+        session = Session(process, limits, back)
+        self._sessions = [*alive, session]
+        if not brief:
+            with contextlib.suppress(FaultError):
+                self._warm = Process(limits.extras)
+        return session
+
+    def _keep(self, process: Process) -> None:
+        """Take a process whose file may be asked more."""
+        if self._kept:
+            self._kept.close()
+        self._kept = process
+
+    def _again(self, request: dict[str, Any]) -> Process | None:
+        """Return the process that was kept with its file loaded anew, if it is that."""
+        process, self._kept = self._kept, None
+        if process is None:
+            return None
+        had = process.told
+        same = all(had[name] == request[name] for name in _SAME)
+        if same and request["added"].startswith(had["added"]):  # it forgets no code
+            more = [model for model in request["models"] if model not in had["models"]]
+            told = {"added": request["added"], "keep": request["keep"], "models": more}
+            process.ask([{"function": "", "args": [], "again": told}])
+            with contextlib.suppress(EndedError, FaultError):
+                process.next(LOAD_SECONDS)
+                process.told = {**request, "models": had["models"] + more}
+                return process
+        process.close()
+        return None
 
     def _take(self, extras: tuple[str, ...]) -> Process:
         """Return the warm process, or a new one where that lacks what is asked for."""
@@ -164,9 +206,11 @@ class Session:
     A page asks it many times a second.
     """
 
-    def __init__(self, process: Process, robots: Robots, limits: Limits) -> None:
-        """Take a process that has loaded the file, and the robots it was given."""
-        self._process, self._robots, self._limits = process, robots, limits
+    def __init__(
+        self, process: Process, limits: Limits, back: Callable[[Process], None]
+    ) -> None:
+        """Take a process that has loaded the file, and who gets it back at the end."""
+        self._process, self._limits, self._back = process, limits, back
         self._ended: Reply | None = None
 
     @property
@@ -188,7 +232,7 @@ class Session:
         """
         came: list[dict[str, Any]] = []
         if self._ended is None:
-            self._process.ask(messages.pack(questions, self._robots))
+            self._process.ask(messages.pack(questions, self._process.told["models"]))
         while len(came) < len(questions) and self._ended is None:
             try:
                 came.append(self._process.next(seconds))
@@ -203,7 +247,8 @@ class Session:
     def close(self) -> None:
         """End it."""
         if self._ended is None:
-            self._end("the session was closed")
+            self._ended = stopped("the session was closed")
+            self._back(self._process)
 
     def _end(self, why: str) -> None:
         self._ended = stopped(why)
@@ -224,9 +269,10 @@ class _Rounds:
             if seconds > TASK_SECONDS:
                 self.call[task], self.spare[task] = seconds / 3.0, seconds
 
-    def ask(self, process: Process, robots: Robots) -> None:
+    def ask(self, process: Process) -> None:
         """Ask all of them in both rounds, or until the process ends."""
-        calls = messages.pack([exchange.question for exchange in self.left], robots)
+        questions = [exchange.question for exchange in self.left]
+        calls = messages.pack(questions, process.told["models"])
         anew, *others = reversed(calls)
         anew = {**anew, "anew": True}  # from here on, what the file kept is gone
         process.ask([*calls, anew, *others])

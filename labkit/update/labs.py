@@ -31,6 +31,7 @@ def renew(day: Day, before: str, target: str) -> dict[str, object] | None:
     """Renew a day's lab; return what is new in it, or None where nothing is.
 
     Args:
+        day: from the newer manifest.
         before: the student's commit.
         target: the kit's.
     """

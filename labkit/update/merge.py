@@ -19,7 +19,12 @@ UNCHANGED = "Nothing of yours has changed."
 
 
 def ask(*arguments: str, at: Path = ROOT, may_fail: bool = False) -> str:
-    """Return what git prints; "" where it fails and may.
+    """Return what git prints.
+
+    Args:
+        arguments: after `git`.
+        at: the folder.
+        may_fail: return "" where git fails.
 
     Raises:
         Robo47Error: git fails; the first line of what it says.
@@ -101,7 +106,11 @@ def beside(head: str) -> Iterator[Path]:
 
 
 def merge(worktree: Path, target: str) -> list[str]:
-    """Merge a commit of the kit's; no line of the student's is lost.
+    """Merge a commit; no line of the student's is lost.
+
+    Args:
+        worktree: at the student's commit.
+        target: the kit's.
 
     Returns:
         Files of the kit's that the student had changed in the same place: they are the

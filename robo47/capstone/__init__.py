@@ -107,8 +107,7 @@ def pick(
 
     Args:
         fns: has an attribute for every name in `USES`, taking one configuration.
-        cube_xy: where the cube stands, metres, (2,).
-        goal_xy: where it is to stand, metres, (2,).
+        cube_xy, goal_xy: where the cube stands, and is to stand, metres, (2,).
         yaw: its turn about z at the start, radians.
         model: a scene of `robo47.scenes.table_top` instead of the plain one; it
             must have been made with the same cube_xy and yaw.

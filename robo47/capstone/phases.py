@@ -46,35 +46,20 @@ PHASES = (
 
 
 class Result(NamedTuple):
-    """What came of it.
+    """What came of it."""
 
-    Attributes:
-        place_mm: from the cube's centre to where it was to be, at the end.
-        joint_mrad: worst error of any joint in the joint moves.
-        line_mm: worst distance of the hand from its straight lines.
-        lift: greatest height of the cube's centre, metres.
-        seconds: how long the task took in the simulation.
-        torque: largest torque asked for, as a fraction of that motor's limit.
-        speed: largest joint speed, as a fraction of that joint's limit.
-        manipulability: smallest at the way points.
-        heaviest: the cube that this grip can lift, predicted, kg.
-        phases: (name, when it began in seconds), in order.
-        t: time of each control instant, seconds, (N,).
-        qpos: everything's configuration then, (N, nq): for pictures and replays.
-    """
-
-    place_mm: float
-    joint_mrad: float
-    line_mm: float
-    lift: float
-    seconds: float
-    torque: float
-    speed: float
-    manipulability: float
-    heaviest: float
-    phases: list[tuple[str, float]]
-    t: Array
-    qpos: Array
+    place_mm: float  # from the cube's centre to where it was to be, at the end
+    joint_mrad: float  # worst error of any joint in the joint moves
+    line_mm: float  # worst distance of the hand from its straight lines
+    lift: float  # greatest height of the cube's centre, metres
+    seconds: float  # how long the task took in the simulation
+    torque: float  # largest torque asked for, as a fraction of that motor's limit
+    speed: float  # largest joint speed, as a fraction of that joint's limit
+    manipulability: float  # smallest at the way points
+    heaviest: float  # the cube that this grip can lift, predicted, kg
+    phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
+    t: Array  # time of each control instant, seconds, (N,)
+    qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
 
     @property
     def failed(self) -> bool:

@@ -49,7 +49,7 @@ class Frame(NamedTuple):
     t: Array
 
 
-@dataclass
+@dataclass(eq=False)
 class Plan:
     """A tree of moves: step i leads from its source to node i + 1; 0 is the world."""
 
@@ -67,6 +67,12 @@ class Plan:
         """The same for one configuration at a time, where floats can do it."""
         return single_of(self.steps, self.frames.values())
 
+    @property
+    def alone(self) -> Single:
+        """The same of an arm of hinges and slides, where floats always can."""
+        assert self.single is not None
+        return self.single
+
     def nodes(self, chunk: Chunk) -> list[Columns]:
         """Return every node's frame, of configurations measured from `ref`."""
         nodes = [WORLD]
@@ -79,18 +85,12 @@ class Cursor:
     """A place in a plan, to which a chain's factors are added from left to right.
 
     What is fixed is gathered here (R and t, seen from the moving frame) and becomes a
-    step only where a joint needs it.
+    step only where a joint needs it. A copy goes on to another child.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.node = plan, 0
         self.R, self.t = np.eye(3), np.zeros(3)
-
-    def branch(self) -> "Cursor":
-        """Return a second cursor at the same place, for another child."""
-        other = Cursor(self.plan)
-        other.node, other.R, other.t = self.node, self.R, self.t
-        return other
 
     def mark(self, name: str) -> None:
         """Ask for the frame at this place."""

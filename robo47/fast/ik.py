@@ -13,14 +13,15 @@ All arrays here are columns: q (joints, n), goals (3, 4, n). Units: metres, radi
 """
 
 import functools
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
-from robo47.fast import exponentials
+from robo47.fast.chains import Plan
+from robo47.fast.exponentials import plan_of
 from robo47.fast.ik_one import FLOOR, NEAR_PI, STOP, Patience, Walker
 from robo47.fast.jacobians import jacobian_columns
 from robo47.rotation_log import log_rotation, pose_error
@@ -40,17 +41,11 @@ FIRST, AGAIN = Patience(60, 5, 0.9, 0.5), Patience(30, 3, 0.5, 0.5)
 BOLD = AGAIN._replace(damping=0.1)
 
 
-@dataclass(frozen=True)
-class _Problem:
-    screws: Array
-    M: Array
+class _Problem(NamedTuple):
+    plan: Plan
     goals: Array
     low: Array
     high: Array
-
-    @functools.cached_property
-    def arm(self) -> exponentials.Plan:
-        return exponentials.plan_of(self.screws, self.M)
 
 
 def solve_ik(
@@ -87,12 +82,12 @@ def solve_ik(
     lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
     T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
     q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
-    out = np.empty_like(q)
+    plan, out = plan_of(S, M_home), np.empty_like(q)
     for first in range(0, len(q), CHUNK):
         part = slice(first, first + CHUNK)
         goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))
         start = np.clip(q[part].T, low, high)
-        out[part] = _solve(_Problem(S, M_home, goals, low, high), start).T
+        out[part] = _solve(_Problem(plan, goals, low, high), start).T
     return out.reshape(*lead, len(S))
 
 
@@ -102,16 +97,11 @@ def reached(
     """Return whether q brings the end effector to its target, to 1e-8.
 
     Args:
-        screws: space screws (omega; v), (n, 6).
-        M_home: `T_world_ee` at q = 0, (4, 4).
-        T_goal: targets, (..., 4, 4).
+        screws, M_home, T_goal: as in `solve_ik`.
         q: what `solve_ik` returned, (..., n).
 
     Returns:
         True where the pose error (radians and metres) is shorter than 1e-8, (...).
-
-    Raises:
-        ValueError: as `solve_ik`.
     """
     e = pose_error(fk_space(screws, M_home, q), T_goal)
     return np.linalg.norm(e, axis=-1) < REACHED
@@ -141,15 +131,15 @@ def _solve(problem: _Problem, start: Array) -> Array:
 
 def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
     """Return the best q of each target, (joints, n), and its squared error, (n,)."""
-    S, M, low, high = problem.screws, problem.M, problem.low, problem.high
-    chain, limits = exponentials.chain_of(S, M), np.hstack([low, high])
+    plan, goals, low, high = problem
+    limits = np.hstack([low, high])
     best, miss = start.copy(), np.empty(start.shape[1])
     for i in range(len(miss)):
-        walker = Walker(chain, problem.goals[..., i], limits)
+        walker = Walker(plan.alone, goals[..., i], limits)
         best[:, i], miss[i] = walker.walk(start[:, i].tolist(), FIRST)
         if miss[i] <= STOP**2:
             continue
-        drawn = _pool(S.tobytes(), M.tobytes(), low.tobytes(), high.tobytes())
+        drawn = _pool(plan, low.tobytes(), high.tobytes())
         for q in _nearest(problem, np.array([i]), TRIES, *drawn).T.tolist():
             found, off = walker.walk(q, BOLD)
             if off < miss[i]:
@@ -191,7 +181,7 @@ def _walk(
 
 def _downhill(problem: _Problem, q: Array, target: np.ndarray) -> tuple[Array, Array]:
     """Return the site Jacobian, (6, joints, n), and the pose error, (6, n)."""
-    J, end = jacobian_columns(problem.arm, q, at_end=True)
+    J, end = jacobian_columns(problem.plan, q, at_end=True)
     goal = problem.goals[..., target]
     E = np.einsum("ikn,jkn->ijn", goal[:, :3], end[:, :3])
     e = np.empty((6, q.shape[1]))
@@ -229,25 +219,24 @@ def _near(
 ) -> Array:
     """Return starts for the targets that are left, (joints, targets * each)."""
     group = max(DRAWN // each, 20)
-    drawn = _drawn(problem.arm, problem.low, problem.high, each * group, rng)
+    drawn = _drawn(problem.plan, problem.low, problem.high, each * group, rng)
     return _nearest(problem, left, each, *drawn)
 
 
 @functools.lru_cache(maxsize=16)
-def _pool(screws: bytes, M: bytes, low: bytes, high: bytes) -> tuple[Array, Array]:
+def _pool(plan: Plan, low: bytes, high: bytes) -> tuple[Array, Array]:
     """Return random configurations of one arm, drawn once, with their poses."""
-    arm = exponentials.plan_of(np.frombuffer(screws), np.frombuffer(M))
     lowest, highest = np.frombuffer(low)[:, None], np.frombuffer(high)[:, None]
     n = DRAWN // TRIES * TRIES
-    return _drawn(arm, lowest, highest, n, np.random.default_rng(48))
+    return _drawn(plan, lowest, highest, n, np.random.default_rng(48))
 
 
 def _drawn(
-    arm: exponentials.Plan, low: Array, high: Array, n: int, rng: np.random.Generator
+    plan: Plan, low: Array, high: Array, n: int, rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return random configurations, (joints, n), and their weighted poses, (12, n)."""
     q = rng.uniform(low, high, (len(low), n))
-    _, end = jacobian_columns(arm, q, at_end=True)
+    _, end = jacobian_columns(plan, q, at_end=True)
     return q, _weighted(end)
 
 

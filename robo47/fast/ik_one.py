@@ -23,19 +23,12 @@ EYE = np.eye(6)
 
 
 class Patience(NamedTuple):
-    """How a walker goes, and when it gives up.
+    """How a walker goes, and when it gives up."""
 
-    Attributes:
-        steps: at most.
-        every: how many steps lie between two looks at the squared error.
-        enough: where a larger share than this of it is left, the walker gives up.
-        damping: the squared damping as a share of the squared error.
-    """
-
-    steps: int
-    every: int
-    enough: float
-    damping: float
+    steps: int  # at most
+    every: int  # steps between two looks at the squared error
+    enough: float  # where a larger share than this of it is left, the walker gives up
+    damping: float  # the squared damping as a share of the squared error
 
 
 class Walker:

@@ -10,7 +10,7 @@ import numpy as np
 
 from robo47.checks import Array
 from robo47.fast.chains import Plan, chunk_of, in_chunks, rows_of
-from robo47.fast.exponentials import END, chain_of, plan_of
+from robo47.fast.exponentials import END, plan_of
 from robo47.fast.moves import Slide, Turn, combine
 
 
@@ -19,11 +19,10 @@ def jacobians(screws: Array, M: Array, q: Array, at_end: bool) -> Array:
 
     The other arguments are those of `exponentials.plan_of` and `jacobian_columns`.
     """
-    n = q.shape[-1]
+    plan, n = plan_of(screws, M), q.shape[-1]
     if q.size == n:
-        J, _ = chain_of(screws, M).jacobian(q.ravel().tolist(), at_end)
+        J, _ = plan.alone.jacobian(q.ravel().tolist(), at_end)
         return np.array([*zip(*J, strict=True)]).reshape(*q.shape[:-1], 6, n)
-    plan = plan_of(screws, M)
     columns = lambda q: jacobian_columns(plan, q, at_end)[0]  # noqa: E731
     return in_chunks(columns, (6, n), q)
 

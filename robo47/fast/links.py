@@ -23,27 +23,16 @@ TINY = 1e-14  # metres, kg m and kg m^2: what rounding leaves of a zero
 
 @dataclass(frozen=True)
 class Link:
-    """One moving link and the hinge that carries it.
+    """One moving link and the hinge that carries it."""
 
-    Attributes:
-        k: which of the frame's axes the hinge turns about: 0, 1 or 2.
-        sign: 1.0, or -1.0 for a turn about minus that axis.
-        R: fixed rotation from the link before, (3, 3), or None where there is none.
-        t: the hinge's place, seen from the link before, metres, (3,).
-        m: mass, kg.
-        h: first moment: mass times centre of mass, kg m, (3,).
-        Q: second moments, the integral of r r^T over the mass, kg m^2, (3, 3).
-        armature: of the hinge, kg m^2.
-    """
-
-    k: int
-    sign: float
-    R: Array | None
-    t: Array
-    m: float
-    h: Array
-    Q: Array
-    armature: float
+    k: int  # which of the frame's axes the hinge turns about: 0, 1 or 2
+    sign: float  # 1.0, or -1.0 for a turn about minus that axis
+    R: Array | None  # fixed rotation from the link before, (3, 3); None for none
+    t: Array  # the hinge's place, seen from the link before, metres, (3,)
+    m: float  # mass, kg
+    h: Array  # first moment: mass times centre of mass, kg m, (3,)
+    Q: Array  # second moments: integral of r r^T over the mass, kg m^2, (3, 3)
+    armature: float  # of the hinge, kg m^2
 
     @property
     def axes(self) -> tuple[int, int, int]:

@@ -55,15 +55,10 @@ def read_provenance() -> dict[str, Any]:
         A dict with at least "source" and "commit" (None where nobody recorded it).
     """
     root = menagerie_root()
-    return _read_record(root) or describe_copy(root)
+    return record_of(root) or describe_copy(root)
 
 
-def is_recorded(root: Path) -> bool:
-    """Return whether a folder of robots holds a PROVENANCE.json that can be used."""
-    return bool(_read_record(root))
-
-
-def _read_record(root: Path) -> dict[str, Any]:
+def record_of(root: Path) -> dict[str, Any]:
     """Return PROVENANCE.json, or {} where it is missing, torn or something else."""
     try:
         found = json.loads((root / "PROVENANCE.json").read_text("utf-8"))

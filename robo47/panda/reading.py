@@ -2,7 +2,8 @@
 
 MuJoCo is used to read the file (where each body sits on its parent, where each joint
 turns), never to compute the answer. Only the seven arm joints, whatever else the
-model holds. Units: metres, radians, kilograms; screws are (omega; v).
+model holds; one without joint1 to joint7 is a Robo47Error. Units: metres, radians,
+kilograms; screws are (omega; v).
 """
 
 from typing import NamedTuple
@@ -24,18 +25,13 @@ ENDS = ("site:attachment_site", "body:hand")
 
 
 class Inertias(NamedTuple):
-    """What n bodies weigh, and where.
+    """What n bodies weigh, and where."""
 
-    Attributes:
-        masses: kilograms, (n,).
-        coms: centres of mass in the links' own frames, metres, (n, 3).
-        inertias: rotational inertias about the centres of mass, in the links' own
-            axes, kg m^2, (n, 3, 3).
-    """
-
-    masses: Array
-    coms: Array
-    inertias: Array
+    masses: Array  # kilograms, (n,)
+    coms: Array  # centres of mass in the links' own frames, metres, (n, 3)
+    inertias: (
+        Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
+    )
 
 
 def screws(model: mujoco.MjModel) -> Array:
@@ -46,9 +42,6 @@ def screws(model: mujoco.MjModel) -> Array:
 
     Returns:
         Screws (omega; v), (7, 6): no unit; metres.
-
-    Raises:
-        Robo47Error: the model has no joint1 to joint7.
     """
     rows = []
     poses = kinematics.fk_all(model, _drawn(model))
@@ -92,9 +85,6 @@ def inertias(model: mujoco.MjModel) -> Inertias:
     Returns:
         (masses (7,), coms (7, 3), inertias (7, 3, 3)). The links alone: what the hand
         of "panda" and "scene" weighs is not in it; `hand_inertia` tells that.
-
-    Raises:
-        Robo47Error: the model has no joint1 to joint7.
     """
     links = [_link(model, name) for name in ARM_JOINTS]
     return Inertias(
@@ -114,12 +104,9 @@ def hand_inertia(
     Returns:
         (mass in kg, com (3,) in link 7's frame in metres, inertia (3, 3) about that
         com in link 7's axes in kg m^2).
-
-    Raises:
-        Robo47Error: the model has no joint7.
     """
     link7 = _link(model, ARM_JOINTS[-1])
-    bodies = [b for b in range(model.nbody) if _hangs_on(model, b, link7)]
+    bodies = [b for b in range(model.nbody) if hangs_on(model, b, link7)]
     q = _drawn(model)
     q[[model.jnt_qposadr[j] for b in bodies for j in _joints_of(model, b)]] = opening
     poses = kinematics.fk_all(model, q)
@@ -141,9 +128,6 @@ def arm(model: mujoco.MjModel) -> Arm:
     Returns:
         The seven links; the last one carries the hand, where there is one, with its
         fingers closed. It ends at `home_pose`.
-
-    Raises:
-        Robo47Error: the model has no joint1 to joint7.
     """
     poses = kinematics.fk_all(model, _drawn(model))
     links = [_link(model, name) for name in ARM_JOINTS]
@@ -175,7 +159,7 @@ def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:
     return (R * model.body_inertia[bodies][:, None, :]) @ np.swapaxes(R, -1, -2)
 
 
-def _hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
+def hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
     """Return whether a body hangs on another one, however far out."""
     parent = int(model.body_parentid[body])
     while parent > ancestor:  # MuJoCo numbers parents before their children

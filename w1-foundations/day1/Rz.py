@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Rotation, draw
+from labkit.judge import Rotation, Row, draw
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, ROUNDED
 from labkit.judge.finished import OF_A_ROTATION
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.judge import HeldOut, Pose
+from labkit.judge import HeldOut, Pose, Row
 from labkit.judge.argument_mistakes import (
     FIRST_FOR_ALL,
     LEFT_OUT,
@@ -20,7 +20,6 @@ from labkit.judge.argument_mistakes import (
 )
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
-from labkit.judge.row import Row
 from robo47 import se3
 from robo47.panda import READY_Q
 
@@ -143,6 +142,7 @@ row.wrong(products.turns_in_reverse)
 # The factors themselves, and the finished pose.
 
 row.of_answer(of_a_pose("maps the world to the end effector"))
+I = np.eye(4)  # noqa: E741
 IN_LINKS = "in every link's factor, "
 # The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
 # 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
@@ -206,6 +206,15 @@ def _(model, q):
         return T @ L @ (np.eye(4) if joint < 0 else turn(model, q, joint))
 
     return at(model.site("attachment_site").bodyid[0])
+
+
+@row.right  # Counts the joints: on a path from the base it is all the same.
+def _(model, q, path=PATH):
+    angle = iter(q)
+    return product(
+        link(model, name) @ (pose(se3.Rz(next(angle)), np.zeros(3)) if joint else I)
+        for name, joint in path
+    )
 
 
 @row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Pose
+from labkit.judge import Pose, Row
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR

@@ -2,9 +2,8 @@
 
 from itertools import combinations
 
-from labkit.judge import Pose
+from labkit.judge import Pose, Row
 from labkit.judge.matrices import rigid_inverse
-from labkit.judge.row import Row
 from robo47.panda import READY_Q
 
 from . import ends, places

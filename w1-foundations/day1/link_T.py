@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import Pose, draw
+from labkit.judge import Pose, Row, draw
 from labkit.judge.matrices import pose
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import NEAR

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Pose, draw
+from labkit.judge import Pose, Row, draw
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose
-from labkit.judge.row import Row
 
 from .panda_chain import NEAR
 

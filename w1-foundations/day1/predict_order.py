@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Points, draw
+from labkit.judge import HeldOut, Points, Row, draw
 from labkit.judge.matrices import split
-from labkit.judge.row import Row
 
 from .panda_chain import NEAR
 

@@ -4,9 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, draw
+from labkit.judge import Rotation, Row, draw
 from labkit.judge.finished import OF_A_ROTATION
-from labkit.judge.row import Row
 from robo47 import se3
 
 from .panda_chain import FLANGE_QUAT, NEAR
@@ -37,6 +36,11 @@ def by_ones(quat):
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ])  # fmt: skip
+
+
+def normalised(quat):
+    """Return the right one."""
+    return by_ones(quat / np.linalg.norm(quat))
 
 
 def by_squares(quat):
@@ -80,8 +84,8 @@ def _(quat):
         "half-angle": quat / np.linalg.norm(quat) + unturned,
     }
     return {
-        **{slug: partial(se3.quat_to_R, other) for slug, other in read.items()},
-        "factor-two-missing": lambda: (se3.quat_to_R(quat) + np.eye(3)) / 2,
+        **{slug: partial(normalised, other) for slug, other in read.items()},
+        "factor-two-missing": lambda: (normalised(quat) + np.eye(3)) / 2,
         "divided-by-length-squared": lambda: by_ones(quat / (quat @ quat)),
     }
 

@@ -4,8 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row, draw
 from robo47 import se3
 from robo47.screws import adjoint, skew
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 from robo47 import se3
 from robo47.screws import adjoint, body_screws
 

@@ -4,9 +4,8 @@ from functools import reduce
 
 import numpy as np
 
-from labkit.judge import Pose, draw
+from labkit.judge import Pose, Row, draw
 from labkit.judge.argument_mistakes import LEFT_OUT
-from labkit.judge.row import Row
 from robo47.screws import dh_fk, dh_link
 
 from . import places

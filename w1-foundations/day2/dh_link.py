@@ -4,10 +4,9 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, draw
+from labkit.judge import Pose, Row, draw
 from labkit.judge.argument_mistakes import NEGATED, RADIANS_TWICE
 from labkit.judge.finished import of_a_pose
-from labkit.judge.row import Row
 from robo47 import se3
 from robo47.screws import dh_link
 

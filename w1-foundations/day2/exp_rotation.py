@@ -4,9 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, draw
-from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST
-from labkit.judge.row import Row
+from labkit.judge import Rotation, Row, draw
+from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
 from robo47 import se3
 from robo47.screws import skew
 
@@ -111,20 +110,7 @@ def _(axis, theta):
     }
 
 
-row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST)
-
-for small in (1e-3, 1e-2):  # any bound between two angles that are asked does it
-
-    @row.wrong(
-        "small-angle-ignored",
-        "a small angle is taken for 0; the formula is exact for small angles too, and "
-        "needs no case of its own",
-        "the right one with 0 for small angles",
-        hidden="the lab draws hardly any angle so small",
-    )
-    def _(axis, theta, small=small):
-        return I if abs(theta) < small else rodrigues(axis, theta)
-
+row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST, *SMALL_LEFT_OUT)
 
 # Of an axis of length 1 "made-unit" changes nothing; "p-cross-w" is the angle's sign.
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])

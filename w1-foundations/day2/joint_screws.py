@@ -5,9 +5,8 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
-from labkit.judge.row import Row
 from robo47 import se3
 from robo47.screws import screw_axis
 

@@ -7,9 +7,8 @@ from functools import partial, reduce
 
 import numpy as np
 
-from labkit.judge import Pose
+from labkit.judge import Pose, Row
 from labkit.judge.argument_mistakes import OF_ALL_JOINTS
-from labkit.judge.row import Row
 from robo47 import se3
 
 from . import places

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Twist, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Twist, draw
 from robo47.screws import screw_axis
 
 from . import halves
@@ -27,6 +26,8 @@ def _(axis, point):
       omega too => (omega; point)
     moment-is-minus-point: v is minus the point; it has to be a velocity, which depends
       on omega too => (omega; -point)
+    moment-is-foot: v is the point of the axis that is nearest to the origin; it has to
+      be a velocity, at right angles to it => (omega; that point)
     moment-forgotten: v is 0, so the axis goes through the origin, wherever the point is
       => (omega; 0)
     twist-order: the two halves are swapped: omega comes first, then v => (v; omega)
@@ -43,6 +44,7 @@ def _(axis, point):
         "moment-sign": np.append(axis, -v),
         "moment-is-point": np.append(axis, point),
         "moment-is-minus-point": np.append(axis, -point),
+        "moment-is-foot": np.append(axis, point - point @ axis * axis),
         "moment-forgotten": np.append(axis, np.zeros(3)),
         "twist-order": np.append(v, axis),
         "twist-order-and-sign": np.append(-v, axis),

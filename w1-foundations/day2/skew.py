@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row, draw
 from robo47.screws import skew
 
 row = Row(Matrix((3, 3)))

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Jacobian, draw
-from labkit.judge.row import Row
+from labkit.judge import Jacobian, Row, draw
 from robo47 import jacobian
 from robo47.jacobian import site_jacobian
 from robo47.screws import adjoint, fk_space

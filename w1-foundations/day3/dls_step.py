@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import HeldOut, Row, Vector, draw
 from robo47.jacobian import dls_step
 
 from .jacobians import JOINTS, UNIT, near_singular, site_jacobians

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
+from labkit.judge import Row, Vector, draw
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from labkit.judge.row import Row
 from robo47.jacobian import site_jacobian
 
 from .jacobians import JOINTS

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import HeldOut, Row, Vector, draw
 from robo47 import se3
 from robo47.jacobian import log_rotation
 from robo47.screws import exp_rotation

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from labkit.judge import Case, Finding, Slip, Vector, draw
+from labkit.judge import Case, Finding, Row, Slip, Vector, draw
 from labkit.judge.compare import difference
 from labkit.judge.kinds import one_factor
 from labkit.judge.matrices import times
-from labkit.judge.row import Row
 from robo47.jacobian import dls_step
 
 from .jacobians import JOINTS, UNIT, site_jacobians

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.judge import Twist, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Twist, draw
 from robo47 import se3
 from robo47.jacobian import log_rotation, pose_error
 from robo47.screws import exp_rotation, skew

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Jacobian, draw
-from labkit.judge.row import Row
+from labkit.judge import Jacobian, Row, draw
 
 # On these questions one thing with two names: the numbers are the same.
 row = Row(Jacobian(), alike=[{"omega-changed", "halves-read-as-v-omega"}])

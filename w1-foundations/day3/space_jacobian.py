@@ -4,9 +4,8 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import Jacobian, draw
+from labkit.judge import Jacobian, Row, draw
 from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, RADIANS_TWICE
-from labkit.judge.row import Row
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
 from robo47.screws import adjoint, exp_screw, fk_space, skew

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 from robo47.dynamics import inverse_dynamics, mass_matrix
 from robo47.screws import ad
 

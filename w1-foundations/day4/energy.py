@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 from robo47.dynamics import energy
 
-from .gravity import other_gravity
+from .gravity import OTHER_GRAVITY
 from .states import DOWN, arm, pulls, states
 
 row = Row(Vector((2,), "J", names=("the kinetic", "the potential")))
@@ -55,7 +54,7 @@ def _(M, qd, masses, coms_world, g):
     return {slug: np.array(one) for slug, one in both.items()}
 
 
-row.of_argument("g", *other_gravity("the answer with that gravity"))
+row.of_argument("g", *OTHER_GRAVITY)
 
 
 @row.wrong("few-entries-off", hidden="nothing is at rest there")  # No energy at rest.

@@ -3,8 +3,7 @@
 import numpy as np
 from numpy.linalg import solve
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 from robo47.dynamics import forward_dynamics
 
 from .states import JOINTS, states

@@ -4,48 +4,46 @@ import numpy as np
 
 from labkit.judge.argument_mistakes import Change
 
+
+def typed_in(z):
+    """Return what is used in place of any g."""
+    return lambda g: np.array([0.0, 0.0, z])
+
+
 UPRIGHT = "the lab's robot stands upright"
-OTHER = (
-    (
+OTHER_GRAVITY = (
+    Change(
         "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument g, and the robot may hang "
-        "on a wall",
-        lambda g: np.array([0.0, 0.0, -9.81]),
-        UPRIGHT,
+        "9.81 downwards is typed in; gravity is the argument {name}, and the robot may "
+        "hang on a wall",
+        typed_in(-9.81),
+        hidden=UPRIGHT,
     ),
-    (
+    Change(
         "gravity-typed-in",
-        "9.81 is typed in, and with the wrong sign; gravity is the argument g",
-        lambda g: np.array([0.0, 0.0, 9.81]),
-        "",
+        "9.81 is typed in, and with the wrong sign; gravity is the argument {name}",
+        typed_in(9.81),
     ),
-    (
+    Change(
         "gravity-rounded",
-        "9.8 is typed in for 9.81, and g is not looked at",
-        lambda g: np.array([0.0, 0.0, -9.8]),
-        "",
+        "9.8 is typed in for 9.81, and {name} is not looked at",
+        typed_in(-9.8),
     ),
-    (
+    Change(
         "gravity-rounded",
-        "9.80665 is typed in, and g is not looked at",
-        lambda g: np.array([0.0, 0.0, -9.80665]),
-        "",
+        "9.80665 is typed in, and {name} is not looked at",
+        typed_in(-9.80665),
     ),
-    (
+    Change(
         "only-z-of-gravity",
-        "only the z of g counts; it is a vector, and need not point down",
+        "only the z of {name} counts; it is a vector, and need not point down",
         lambda g: g * [0.0, 0.0, 1.0],
-        UPRIGHT,
+        hidden=UPRIGHT,
     ),
-    (
+    Change(
         "length-of-gravity",
-        "only the length of g counts, always downwards; g says where down is",
+        "only the length of {name} counts, always downwards; it says where down is",
         lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
-        UPRIGHT,
+        hidden=UPRIGHT,
     ),
 )
-
-
-def other_gravity(redone):
-    """Return the changes of g; `redone` is what to call the answer with one."""
-    return [Change(slug, says, code, redone, hid) for slug, says, code, hid in OTHER]

@@ -4,12 +4,12 @@ from functools import partial
 
 import numpy as np
 
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from labkit.judge.row import Row
 from robo47.dynamics import gravity_torque
 from robo47.screws import exp_screw, skew
 
-from .gravity import other_gravity
+from .gravity import OTHER_GRAVITY
 from .states import DOWN, TORQUE, arm, hinge, pulls, states
 
 row = Row(TORQUE)
@@ -106,7 +106,7 @@ def centre_not_weighted(J, masses, coms_world, g):
 
 
 row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
-row.of_argument("g", *other_gravity("the torque with that gravity"))
+row.of_argument("g", *OTHER_GRAVITY)
 
 
 @row.close("rounded-somewhere")  # The slope of the potential energy, by differences.

@@ -4,11 +4,11 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 from robo47.dynamics import inverse_dynamics
 from robo47.screws import ad
 
-from .gravity import other_gravity
+from .gravity import OTHER_GRAVITY
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
@@ -189,7 +189,7 @@ def _(J, G, qd, qdd, g):
 
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
 row.reached_by("ad", "in ad, ", but=["identity-added"])
-row.of_argument("g", *other_gravity("the torque with that gravity"))
+row.of_argument("g", *OTHER_GRAVITY)
 
 
 @row.close("rounded")  # Printed and typed in again: six decimals.

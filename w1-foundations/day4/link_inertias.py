@@ -6,10 +6,9 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.kinds import Kind
-from labkit.judge.row import Row
 from robo47.dynamics import link_inertias, spatial_inertia
 from robo47.screws import adjoint
 
@@ -61,6 +60,8 @@ def _(T_links, masses, coms, inertias):
       the world to the link => the answer with R^T I R
     inertia-turned-once: the inertia is multiplied by R on one side only; a matrix that
       takes one vector to another has both to turn => the answer with R I
+    inertia-diagonal: only the diagonal of each inertia is used; a link's own axes need
+      not be those in which the rest is 0 => the answer with the diagonal of I
     second-R-not-transposed: the inertia is R I R; what takes a vector from the world to
       the link first is not R => the answer with R I R
     R-transposed: R is transposed, for the centre and for the inertia: this turns both
@@ -79,6 +80,7 @@ def _(T_links, masses, coms, inertias):
         "inertia-not-turned": {"about": lambda R, I: I},
         "inertia-turned-back": {"about": back},
         "inertia-turned-once": {"about": lambda R, I: R @ I},
+        "inertia-diagonal": {"about": lambda R, I: R @ np.diag(np.diag(I)) @ R.T},
         "second-R-not-transposed": {"about": lambda R, I: R @ I @ R},
         "R-transposed": {"com": lambda R, p, c: R.T @ c + p, "about": back},
     }

@@ -4,9 +4,8 @@ from functools import update_wrapper
 
 import numpy as np
 
-from labkit.judge import Symmetric, draw
+from labkit.judge import Row, Symmetric, draw
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from labkit.judge.row import Row
 from robo47.dynamics import mass_matrix
 
 from .states import hinge, states

@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from labkit.judge import draw
-from labkit.judge.row import Row
+from labkit.judge import Row, draw
 from robo47.screws import skew
 
 from .states import SIX, solids

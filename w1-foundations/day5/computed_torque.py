@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import draw
-from labkit.judge.row import Row
+from labkit.judge import Row, draw
 from robo47 import panda, verify
 
 from .joints import ONE, TORQUE, WRAPPED, errors, far, seven

@@ -5,10 +5,9 @@ Where a mistake is in one of the three cases alone, the library answers the othe
 
 import numpy as np
 
-from labkit.judge import Vector, draw
+from labkit.judge import Row, Vector, draw
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 from robo47.control import error_response
 
 TIMES = np.array([0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5])

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 
 row = Row(Vector((2,), scale=100.0, names=("kp", "kd")))
 

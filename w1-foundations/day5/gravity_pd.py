@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 
 from .joints import ONE, TORQUE, one_gain, seven, springs, springs_of_one_gain, stiff
 

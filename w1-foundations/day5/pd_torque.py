@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 
 from .joints import TORQUE, WRAPPED, one_gain, springs, springs_of_one_gain
 

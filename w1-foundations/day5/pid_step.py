@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
+from labkit.judge import Row, Vector, draw
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 
 from .joints import JOINTS, ONE, errors, seven
 
@@ -114,6 +113,8 @@ def _(e, ed, integral, ki, dt, clamp):
     """not-clamped: the integral has no bound: it winds up while the motors are at their
       limit, and the arm overshoots until it has unwound
     old-sum-clamped: the old sum is clamped, and then e dt is added: clamp the new one
+    error-clamped: the error is clamped, and the sum can still grow without a bound:
+      clamp the new sum
     step-clamped: only e dt is clamped, and the sum can still grow without a bound:
       clamp the new sum
     frozen-at-the-limit: at the limit the old value is kept; clamp the new sum to the
@@ -133,6 +134,7 @@ def _(e, ed, integral, ki, dt, clamp):
     return {
         "not-clamped": new,
         "old-sum-clamped": np.clip(integral, -clamp, clamp) + step,
+        "error-clamped": integral + np.clip(e, -clamp, clamp) * dt,
         "step-clamped": integral + np.clip(step, -clamp, clamp),
         "frozen-at-the-limit": np.where(np.abs(new) > clamp, integral, new),
         "emptied-at-the-limit": np.where(np.abs(new) > clamp, 0.0, new),

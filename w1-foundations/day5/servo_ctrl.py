@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
-from labkit.judge.row import Row
 
 from .joints import ANGLE, ONE, seven
 

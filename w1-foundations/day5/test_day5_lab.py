@@ -2,7 +2,7 @@
 
 from conftest import ROOT, kits_worksheet, load_script
 from labkit.lesson.day import find_day
-from labkit.lesson.predictions import predictions
+from labkit.lesson.lab import predictions
 from labkit.log import read_rows
 
 SCRIPT = "w1-foundations/src/day5_control.py"

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Symmetric, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Symmetric, draw
 
 from .states import model, states
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import Row, draw
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from labkit.judge.row import Row
 
 from .states import J_CASE, TORQUE, model, some, states
 

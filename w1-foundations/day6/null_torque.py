@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from labkit.judge import Row
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 
 from .states import J_CASE, M_CASE, TORQUE, model, some, states
 

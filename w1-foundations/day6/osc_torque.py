@@ -1,8 +1,8 @@
-"""6.3 `osc_torque(J, Lambda, bias, site_bias, acc)`: its questions and its mistakes."""
+"""6.3 `osc_torque(J, Lambda, bias, drift, acc)`: its questions and its mistakes."""
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 
 from .states import J_CASE, SWAP, TORQUE, model, some, states
 
@@ -27,11 +27,11 @@ def _(rng):
 
 
 @row.wrongs
-def _(J, Lambda, bias, site_bias, acc):
-    """site-bias-forgotten: site_bias is not taken away: the hand would accelerate by
+def _(J, Lambda, bias, drift, acc):
+    """site-bias-forgotten: drift is not taken away: the hand would accelerate by
       acc and by that too => J^T Lambda acc + bias
-    site-bias-added: site_bias is added to acc; the hand has it already, so it is taken
-      away => the right one with acc + site_bias
+    site-bias-added: drift is added to acc; the hand has it already, so it is taken
+      away => the right one with acc + drift
     bias-forgotten: bias is missing: the arm falls under its weight, and what speed does
       to it is not made up for => the right one without bias
     bias-sign: bias is taken away; your torques have to hold it, so it is added => the
@@ -44,29 +44,29 @@ def _(J, Lambda, bias, site_bias, acc):
       coupled => the right one with Lambda's diagonal
     pinv-for-transpose: pinv(J) takes the push to the joints; pushes go to torques with
       J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
-    site-bias-not-weighed: site_bias is taken away after Lambda: it is an acceleration,
-      so it has to be taken from acc first => J^T (Lambda acc - site_bias) + bias
-    acc-sign: the wanted acceleration is taken away from site_bias: the hand is pushed
+    site-bias-not-weighed: drift is taken away after Lambda: it is an acceleration,
+      so it has to be taken from acc first => J^T (Lambda acc - drift) + bias
+    acc-sign: the wanted acceleration is taken away from drift: the hand is pushed
       the other way, further and further from where it should be => the right one with
-      site_bias - acc
+      drift - acc
     bias-at-the-hand: bias is subtracted within the brackets, at the hand; it is a
-      torque of joints => J^T (Lambda (acc - site_bias) + J bias)
+      torque of joints => J^T (Lambda (acc - drift) + J bias)
     halves-swapped: the accelerations are put in the order (linear; angular); the
       angular three come first => the right one with its halves swapped
     gravity-twice: bias is added twice => the right one with 2 bias
     """
-    own = acc - site_bias
+    own = acc - drift
     push = J.T @ Lambda @ own
     return {
         "site-bias-forgotten": J.T @ Lambda @ acc + bias,
-        "site-bias-added": J.T @ Lambda @ (acc + site_bias) + bias,
+        "site-bias-added": J.T @ Lambda @ (acc + drift) + bias,
         "bias-forgotten": push,
         "bias-sign": push - bias,
         "Lambda-left-out": J.T @ own + bias,
         "Lambda-inverted": J.T @ solve(Lambda, own) + bias,
         "Lambda-by-entries": J.T @ (np.diag(Lambda) * own) + bias,
         "pinv-for-transpose": pinv(J) @ Lambda @ own + bias,
-        "site-bias-not-weighed": J.T @ (Lambda @ acc - site_bias) + bias,
+        "site-bias-not-weighed": J.T @ (Lambda @ acc - drift) + bias,
         "acc-sign": bias - push,
         "bias-at-the-hand": push + J.T @ J @ bias,
         "halves-swapped": J.T @ Lambda @ own[SWAP] + bias,
@@ -75,6 +75,6 @@ def _(J, Lambda, bias, site_bias, acc):
 
 
 @row.right  # With einsum, and bias first.
-def _(J, Lambda, bias, site_bias, acc):
-    F = np.einsum("ij,j->i", Lambda, acc - site_bias)
+def _(J, Lambda, bias, drift, acc):
+    F = np.einsum("ij,j->i", Lambda, acc - drift)
     return bias + np.einsum("ij,i->j", J, F)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Scalar, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Scalar, draw
 
 from .states import COUNT
 

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge.row import Row
+from labkit.judge import Row
 from robo47.checks import Array
 from robo47.screws import ad, adjoint, exp_screw
 

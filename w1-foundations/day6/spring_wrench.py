@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import TRANSPOSED
-from labkit.judge.row import Row
 
 from .states import WRENCH, springs
 

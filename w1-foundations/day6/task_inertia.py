@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Symmetric
+from labkit.judge import HeldOut, Row, Symmetric
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 from robo47.checks import Array
 
 from .states import J_CASE, M_CASE, model, states

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row, draw
 from robo47.trajectory import quintic_scaling
 
 from .quintic_scaling import times

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Slip, Vector, draw
+from labkit.judge import Row, Slip, Vector, draw
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 from robo47.trajectory import quintic_coefficients
 
 POWERS = np.arange(6)

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Scalar, draw
+from labkit.judge import HeldOut, Row, Scalar, draw
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
 

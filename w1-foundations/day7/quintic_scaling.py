@@ -4,11 +4,10 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Vector, draw
+from labkit.judge import Row, Vector, draw
 from labkit.judge.ask import Case
 from labkit.judge.compare import difference
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 from robo47.trajectory import quintic_scaling
 
 QUINTIC = (0, 0, 0, 10, -15, 6)

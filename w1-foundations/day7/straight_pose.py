@@ -4,8 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, draw
-from labkit.judge.row import Row
+from labkit.judge import Pose, Row, draw
 from robo47 import se3
 from robo47.jacobian import log_rotation
 from robo47.screws import exp_rotation, exp_screw, skew

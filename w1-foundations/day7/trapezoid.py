@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 from robo47.trajectory import trapezoid
 
 
@@ -64,14 +63,10 @@ def _(t, L, v, a):
       it overshoots => the trapezoid without its triangle
     always-a-triangle: it never cruises: the top speed is sqrt(L a) even where that is
       over v => the triangle
-    triangle-too-high: half of the triangle is for braking, so its height is not sqrt(2
-      L a) => the triangle with sqrt(2 L a)
-    triangle-too-low: the triangle's height is not sqrt(L a / 2): its area has to be L
-      => the triangle with sqrt(L a / 2)
-    triangle-not-a-root: the triangle's height is the root of L a; L a itself is the
-      square of a speed => the triangle with L a
     triangle-too-late: it becomes a triangle only below L = v^2 / (2 a), which is one
       ramp's way; there are two ramps => the triangle below v^2 / (2 a)
+    triangle-too-soon: it becomes a triangle already below L = 2 v^2 / a, and its top is
+      over v then; the two ramps take v^2 / a in all => the triangle below 2 v^2 / a
     ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
       the ramps cost one ramp more => the profile with T = L / v
     """
@@ -79,12 +74,34 @@ def _(t, L, v, a):
     return {
         "no-triangle": to_top(t, L, a, v),
         "always-a-triangle": to_top(t, L, a, np.sqrt(L * a)),
-        "triangle-too-high": to_top(t, L, a, min(v, np.sqrt(2 * L * a))),
-        "triangle-too-low": to_top(t, L, a, min(v, np.sqrt(L * a / 2))),
-        "triangle-not-a-root": to_top(t, L, a, min(v, L * a)),
         "triangle-too-late": to_top(t, L, a, np.sqrt(L * a) if v**2 > 2 * L * a else v),
+        "triangle-too-soon": to_top(t, L, a, np.sqrt(L * a) if L * a < 2 * v**2 else v),
         "ramps-take-no-time": profile(t, L, a, top, L / top),
     }
+
+
+for lower in (
+    lambda L, v, a, top: min(v, top),
+    lambda L, v, a, top: top if v**2 > L * a else v,  # where the way is too short
+):
+
+    @row.wrongs
+    def _(t, L, v, a, lower=lower):
+        """triangle-too-high: half of the triangle is for braking, so its height is not
+          sqrt(2 L a) => the triangle with sqrt(2 L a)
+        triangle-too-low: the triangle's height is not sqrt(L a / 2): its area has to be
+          L => the triangle with sqrt(L a / 2)
+        triangle-not-a-root: the triangle's height is the root of L a; L a itself is the
+          square of a speed => the triangle with L a
+        """
+        tops = {
+            "triangle-too-high": np.sqrt(2 * L * a),
+            "triangle-too-low": np.sqrt(L * a / 2),
+            "triangle-not-a-root": L * a,
+        }
+        return {
+            slug: to_top(t, L, a, lower(L, v, a, top)) for slug, top in tops.items()
+        }
 
 
 @row.wrongs

@@ -13,7 +13,7 @@ from robo47.checks import Array
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
 NEARLY_HALF = np.pi - 1e-3
-SMALL = (5e-5, 2e-4, 3e-3, 0.03)  # radians
+TINY, SMALL = 5e-7, (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
 def _ends(R0: Array, turns: Array, s: float, rng: np.random.Generator) -> list:
@@ -37,9 +37,9 @@ def _half_or_nearly(rng: np.random.Generator) -> list:
     return [*_half(rng), *_ends(draw.rotations(rng, 4), turns, 0.5, rng)]
 
 
-def _small(rng: np.random.Generator) -> list:
-    turns = se3.axis_angle(draw.units(rng, len(SMALL)), np.array(SMALL))
-    return _ends(draw.rotations(rng, len(SMALL)), turns, 0.7, rng)
+def _small(rng: np.random.Generator, angles: tuple[float, ...] = SMALL) -> list:
+    turns = se3.axis_angle(draw.units(rng, len(angles)), np.array(angles))
+    return _ends(draw.rotations(rng, len(angles)), turns, 0.7, rng)
 
 
 def _not_turned(T0: Array, T1: Array, s: float) -> Array:
@@ -65,8 +65,9 @@ TURNS = [
         "small-turn-for-none",
         "Right, but a small turn is left out: the rotation stays R0. Below which angle "
         "do you call it no turn?",
-        lambda rng: _small(rng)[:1],
+        lambda rng: _small(rng, (TINY,)),
         mistaken=_not_turned,
+        near=1e-9,
     ),
     HeldOut(
         "wrong-near-0",

@@ -57,15 +57,15 @@ def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def osc_torque(
-    J: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, site_bias: np.ndarray,
+    J: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, drift: np.ndarray,
     acc: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand accelerates by acc, (6,).
 
-    If acc is site_bias itself, they are bias.
+    drift is what site_bias gives; where acc is the same, they are bias.
     """
     # region 6.3
-    return J.T @ Lambda @ (acc - site_bias) + bias
+    return J.T @ Lambda @ (acc - drift) + bias
     # endregion 6.3
 
 

@@ -4,9 +4,8 @@ import itertools
 
 import numpy as np
 
-from labkit.judge import Matrix
+from labkit.judge import Matrix, Row
 from labkit.judge.argument_mistakes import Change
-from labkit.judge.row import Row
 from robo47 import dynamics
 from robo47.identification import arm_regressor, inertia_of, link_regressor
 from robo47.screws import ad, adjoint
@@ -100,8 +99,7 @@ TYPED_IN = Change(
     "gravity-typed-in",
     "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
     lambda g: DOWN,
-    "the Y with that gravity",
-    "the lab's robot stands upright",
+    hidden="the lab's robot stands upright",
 )
 row.of_argument("g", TYPED_IN)
 row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])

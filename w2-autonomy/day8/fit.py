@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Vector, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector, draw
 from robo47.identification import fit
 
 from .states import CUT, regressors

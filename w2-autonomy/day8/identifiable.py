@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Count, Scalar
+from labkit.judge import Count, Row, Scalar
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from labkit.judge.row import Row
 
 from .states import CUT, regressors
 

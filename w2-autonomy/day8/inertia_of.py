@@ -4,8 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Symmetric
-from labkit.judge.row import Row
+from labkit.judge import Row, Symmetric
 from robo47.identification import inertia_of as right
 from robo47.screws import skew
 

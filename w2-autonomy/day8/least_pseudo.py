@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Scalar
-from labkit.judge.row import Row
+from labkit.judge import Row, Scalar
 from robo47.identification import inertia_of
 
 from .states import bodies

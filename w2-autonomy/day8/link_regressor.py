@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row, draw
 from robo47.identification import inertia_of, link_regressor
 from robo47.screws import ad
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row, draw
 
 row = Row(Matrix((7, 21)))
 FIRST = np.eye(7)[0]

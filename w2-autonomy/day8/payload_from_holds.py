@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import Vector
+from labkit.judge import Row, Vector
 from labkit.judge.argument_mistakes import TRANSPOSED, Change
-from labkit.judge.row import Row
 from robo47.screws import skew
 
 from .states import DOWN, SWAP, hands
@@ -71,7 +70,6 @@ TYPED_IN = Change(
     "gravity-typed-in",
     "9.81 downwards is typed in; gravity is the argument g",
     lambda g: DOWN,
-    "what is found with that gravity",
 )
 row.of_argument("g", TYPED_IN)
 row.of_argument("R_site", TRANSPOSED.called("R-transposed"))

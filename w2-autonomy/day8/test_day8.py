@@ -127,7 +127,9 @@ def test_the_trap_of_the_lab_and_what_tells(data, printed):
     assert f"sigma, which says {swing[3]:,.0f}" in SENTENCES
     assert f"it is {cut[2]:.1f} N m off" in SENTENCES
     assert f"Sigma says {cut[3]:.1f}" in SENTENCES
-    assert f"half as wrong again, {slow[2]:.3f} for {excited[2]:.3f}" in SENTENCES
+    assert (
+        f"half as large again, {slow[2]:.3f} instead of {excited[2]:.3f}" in SENTENCES
+    )
     noise, known = noises(lab.SEED)[0], secret.numbers(arm)
     near = fitted(data, "swing", noise, 1e-2, known)[1]
     assert f"as the file has it: {near:.2f} N m" in SENTENCES

@@ -6,14 +6,16 @@ an array that is handed out twice, or that is an argument, changes under its own
 
 import io
 import sys
+from collections import defaultdict
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 import wire
 
-KEPT_OUTPUT = 2_000  # characters of what a task printed
+KEPT_OUTPUT, MOST_OUTPUT = 2_000, 20_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
+FLOOD = "it prints more than 20 MB"
 EFFORT = 10_000  # for telling whether two arrays really overlap
 # As they are before student code.
 _exactly: Any = np.shares_memory
@@ -34,20 +36,27 @@ class Answers:
             keep: hold on to every answer, to tell which share their memory.
             most: numbers in one answer.
         """
-        self.module, self.models, self.keep = module, models, keep
-        self.most = most
-        self.kept: list[Any] = []
-        self.arrays: list[np.ndarray] = []
+        self.module, self.models, self.most = module, models, most
+        self.begin(keep)
+
+    def begin(self, keep: bool) -> None:
+        """Forget the answers so far; `keep` is as in `__init__`."""
+        self.keep, self.kept = keep, list[Any]()
+        self.arrays: defaultdict[int, list[np.ndarray]] = defaultdict(list)  # by owner
+        self.flooding: dict[str, dict[str, Any]] = {}  # functions that are not called
 
     def ask(self, call: dict[str, Any]) -> dict[str, Any]:
         """Return what came of one call, as JSON."""
+        name = call["function"]
         sys.stdout = sys.stderr = printed = _Kept()  # type: ignore[assignment]
         try:
-            reply = self._call(call)
+            reply = self.flooding.get(name) or self._call(call)
         except wire.UnsendableError as error:
             reply = {"error": f"it returned {error}", "kind": "unsendable"}
         except BaseException as error:
             reply = describe(error, str(self.module.__file__))
+        if printed.left < 0:  # and all that is made to be printed takes its time
+            self.flooding[name] = reply = {"error": FLOOD, "kind": "RuntimeError"}
         return {**reply, "printed": printed.getvalue()}
 
     def _call(self, call: dict[str, Any]) -> dict[str, Any]:
@@ -80,10 +89,11 @@ class Answers:
         ]
         if self.keep:
             same = isinstance(value, list) and any(value is old for old in self.kept)
-            if same or _overlap(own, self.arrays):
+            if same or any(_overlap([one], self.arrays[_owner(one)]) for one in own):
                 found.append("another answer")
             self.kept.append(value)
-            self.arrays += own
+            for one in own:
+                self.arrays[_owner(one)].append(one)
         return found
 
 
@@ -142,6 +152,13 @@ def _arrays_of(value: Any) -> list[np.ndarray]:
     return [item for item in parts if isinstance(item, np.ndarray)]
 
 
+def _owner(memory: Any) -> int:
+    """Return the identity of what an array's numbers belong to."""
+    while getattr(memory, "base", None) is not None:
+        memory = memory.base
+    return id(memory)
+
+
 def _overlap(some: list[np.ndarray], others: list[np.ndarray]) -> bool:
     for a in some:
         for b in others:
@@ -157,7 +174,12 @@ def _overlap(some: list[np.ndarray], others: list[np.ndarray]) -> bool:
 class _Kept(io.StringIO):
     """What a task prints, up to a point."""
 
+    left = MOST_OUTPUT
+
     def write(self, text: str) -> int:
+        self.left -= len(text)
+        if self.left < 0:
+            raise RuntimeError(FLOOD)
         if self.tell() < KEPT_OUTPUT:
             super().write(text[:KEPT_OUTPUT])
         return len(text)

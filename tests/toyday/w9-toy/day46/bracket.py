@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix
-from labkit.judge.row import Row
+from labkit.judge import Matrix, Row
 
 from .pairs import skew, vectors
 

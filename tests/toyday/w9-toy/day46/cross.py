@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Vector
-from labkit.judge.row import Row
+from labkit.judge import Row, Vector
 
 from .pairs import pairs
 

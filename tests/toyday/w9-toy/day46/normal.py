@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Finding, Vector
-from labkit.judge.row import Row
+from labkit.judge import Finding, Row, Vector
 
 from .pairs import vectors
 

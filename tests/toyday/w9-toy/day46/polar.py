@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Scalar, draw
-from labkit.judge.row import Row
+from labkit.judge import Row, Scalar, draw
 
 row = Row(
     (Scalar(unit="m", called="the distance"), Scalar(unit="rad", called="the angle")),

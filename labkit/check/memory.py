@@ -1,0 +1,180 @@
+"""The checker's last words, kept on the student's machine; nothing is sent anywhere.
+
+`.robo47/statuses.json` says how tasks stand: a state counts for as long as neither the
+student's files nor the kit change. `.robo47/journal.jsonl` has a line per task whose
+verdict changed: `make report` reads from it which named mistakes were met and left
+behind. Both are read without MuJoCo and the sandbox.
+"""
+
+import contextlib
+import functools
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from labkit.base import store
+from labkit.handin.handin import helpers_of
+from labkit.lesson.day import Day
+from robo47.paths import ROOT
+
+if TYPE_CHECKING:
+    from labkit.check.tasks import TaskResult
+    from labkit.judge import Verdict
+
+STATES, JOURNAL = "statuses.json", "journal.jsonl"
+KEPT = 50  # keys
+
+# Verdicts that say that nothing was judged, not that a mistake was made.
+_NO_MISTAKE = {"", "unwritten", "waits", "inherited", "borrowed", "does-not-load"}
+_NO_MISTAKE |= {"missing", "raise-left-in"}
+
+
+class Entry(NamedTuple):
+    """How a task stood from a moment on."""
+
+    task: str  # its id
+    status: str  # as in a verdict
+    mistake: str  # its name, "" where it has none
+    says: str = ""  # the first sentence of what the checker said of it
+
+
+class Met(NamedTuple):
+    """A mistake that was made."""
+
+    task: str  # its id
+    mistake: str  # its name
+    # "left behind" where the task passes, "still there" where the last check of the
+    # file as it is found it, "not checked since" where there was none, "not right yet"
+    # where that check found something else.
+    now: str
+    says: str = ""  # what the checker said of it when it was met, in a sentence
+
+
+def known(day: Day) -> dict[str, str]:
+    """Return how tasks stand in the file as it is: "passed", "wrong", "to do" ...
+
+    Returns:
+        By task; a task that was not checked since a change is not in it.
+    """
+    if not day.work.is_file():
+        return {task.id: "not begun" for task in day.tasks}
+    return _of(store.read(STATES), key_of(day))
+
+
+def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
+    """Keep the checker's word on files of a key taken before it; return it, by task."""
+    states = {result.task.id: in_words(result.verdict) for result in results}
+    if all(result.verdict.mistake != "stopped" for result in results):
+        # a bad moment of this machine is not remembered
+        memory = store.read(STATES)
+        before = _of(memory, key)
+        memory.pop(key, None)
+        newest = {**memory, key: {**before, **states}}
+        store.write(STATES, dict(list(newest.items())[-KEPT:]))
+    return states
+
+
+def key_of(day: Day) -> str:
+    """Return what changes with the student's files, the day's own and the kit's.
+
+    Of the student's it is the day's script and what that imports: a line of another
+    day's file leaves a day as it was checked.
+    """
+    script = day.files["script"]
+    content = day.work.read_bytes() if day.work.is_file() else b""
+    helpers = helpers_of(day.folder.parent, script, {script: content})
+    own = [f"{name}\0".encode() + helpers[name] for name in sorted(helpers)]
+    given = hashlib.sha256(b"\0".join([content, *own, _kit()])).digest()
+    digest = _digest(sorted(day.own.rglob("*.py")), given)
+    return f"{day.number} {digest.hex()[:16]}"
+
+
+def in_words(verdict: "Verdict") -> str:
+    """Return how a task stands by a verdict on it: "passed", "wrong", "to do" ..."""
+    if verdict.mistake == "does-not-load":
+        return "the file does not load"
+    if verdict.mistake in ("inherited", "borrowed"):
+        return "waits" if verdict.mistake == "inherited" else "borrowed"
+    return "to do" if verdict.status == "todo" else verdict.status
+
+
+def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
+    """Add what is new; a folder that cannot be written costs the memory alone."""
+    last = {entry.task: entry for entry in journal(root)}
+    lines = []
+    for result in results:
+        known = last.get(result.task.id)
+        verdict = result.verdict
+        # What follows from another task is no mistake of its own.
+        state = (verdict.status, "" if verdict.follows else verdict.mistake)
+        if known is None or (known.status, known.mistake) != state:
+            says = _sentence(verdict.message) if state[1] else ""
+            entry = Entry(result.task.id, *state, says)
+            lines.append(json.dumps(entry))
+    store.add_lines(JOURNAL, lines, root)
+
+
+def journal(root: Path = ROOT) -> list[Entry]:
+    """Return the journal, oldest first; what cannot be read is left out."""
+    found = []
+    for line in store.read_text(JOURNAL, root).splitlines():
+        with contextlib.suppress(ValueError, TypeError, LookupError):
+            words = json.loads(line)
+            words = words[isinstance(words[0], float) :]  # older kits wrote the time
+            found.append(Entry(*map(str, words)))
+    return found
+
+
+def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met]:
+    """Return every named mistake once per task, in the order they were met.
+
+    Args:
+        entries: of the journal, oldest first.
+        known: how tasks stand in the file as it is, as `known` has it.
+    """
+    met: dict[tuple[str, str], str] = {}
+    last: dict[str, str] = {}
+    for entry in entries:
+        last[entry.task] = entry.mistake
+        if entry.status in ("wrong", "close") and entry.mistake not in _NO_MISTAKE:
+            met.setdefault((entry.task, entry.mistake), entry.says)
+    found = []
+    for (task, slug), says in met.items():
+        match known.get(task):
+            case None:
+                now = "not checked since"
+            case "passed":
+                now = "left behind"
+            case "wrong" | "close" if last[task] == slug:
+                now = "still there"
+            case _:
+                now = "not right yet"
+        found.append(Met(task, slug, now, says))
+    return found
+
+
+@functools.cache
+def _kit() -> bytes:
+    folders = (ROOT / "robo47", ROOT / "labkit")
+    return _digest(path for folder in folders for path in sorted(folder.rglob("*.py")))
+
+
+def _digest(files: Iterable[Path], before: bytes = b"") -> bytes:
+    digest = hashlib.sha256(before)
+    for path in files:
+        digest.update(path.read_bytes() if path.is_file() else b"")
+    return digest.digest()
+
+
+def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
+    found = memory.get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def _sentence(message: str) -> str:
+    """Return the first sentence of a message, at most 200 characters of it."""
+    first = re.split(r"(?<=[.:;]) (?=[A-Z])|\n", message, maxsplit=1)[0]
+    return first if len(first) <= 200 else first[:199] + "…"
