@@ -7,9 +7,15 @@ import numpy as np
 from labkit.judge import Rotation, Row, draw
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
 from robo47 import se3
-from robo47.screws import skew
+from robo47.screws import exp_rotation, skew
 
-row = Row(Rotation())
+
+def turned(axis, theta):
+    """Return the right one; of an axis 0 too, which a slide gives to it in 2.4."""
+    return exp_rotation(axis, theta) if np.any(axis) else np.eye(3)
+
+
+row = Row(Rotation(), truth=turned)
 
 I = np.eye(3)  # noqa: E741
 Z, OBLIQUE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.6, 0.8])
