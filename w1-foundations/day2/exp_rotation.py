@@ -9,13 +9,8 @@ from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OU
 from robo47 import se3
 from robo47.screws import exp_rotation, skew
 
-
-def turned(axis, theta):
-    """Return the right one; of an axis 0 too, which a slide gives to it in 2.4."""
-    return exp_rotation(axis, theta) if np.any(axis) else np.eye(3)
-
-
-row = Row(Rotation(), truth=turned)
+# A slide, which asks for it too, has no axis.
+row = Row(Rotation(), truth=lambda n, x: exp_rotation(n, x) if n.any() else np.eye(3))
 
 I = np.eye(3)  # noqa: E741
 Z, OBLIQUE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.6, 0.8])
