@@ -17,7 +17,6 @@ with every joint's own axis. A link's factor is fixed; a joint's factor is
 (MuJoCo documentation, Computation chapter, "Kinematics").
 
 A frame is named "body:link4"; the bare name serves where only one object has it.
-A wrong shape, a number that is not finite, or a quaternion of length 0 is a ValueError.
 Units: metres, radians, quaternions (w, x, y, z).
 """
 
@@ -136,6 +135,9 @@ def fk(chain: Chain, qpos: ArrayLike) -> Array:
 
     Returns:
         T_world_frame, (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
     """
     return evaluate(chain.plan, _configurations(qpos, chain.nq))[chain.frame]
 
@@ -149,6 +151,9 @@ def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:
 
     Returns:
         {"body:link1": T_world_link1, ..., "site:NAME": ...}, each (..., 4, 4).
+
+    Raises:
+        ValueError: as `fk`.
     """
     return evaluate(_plan_all(model), _configurations(qpos, model.nq))
 

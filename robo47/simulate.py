@@ -6,9 +6,7 @@ for further actuators, if it likes. It sees the measured q and qd of joint1 to j
 and nothing else: after mj_step MuJoCo's positions of bodies and sites are one step
 old, so the controller must compute its own.
 
-A wrong shape or a number that is not finite is a ValueError; a model without joint1 to
-joint7, or without one actuator on each, a Robo47Error. Units: seconds, radians, rad/s,
-N m.
+Units: seconds, radians, rad/s, N m.
 """
 
 from collections.abc import Callable
@@ -64,6 +62,10 @@ def start(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike = 0.0) -> mujoco.Mj
 
     Returns:
         New data, with mj_forward called; ctrl of the seven is 0.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+        Robo47Error: the model has no joint1 to joint7.
     """
     q = checks.array(q, "q", (7,))
     qd = checks.per_joint(qd, "qd", q)
@@ -84,6 +86,9 @@ def addresses(model: mujoco.MjModel) -> tuple[Array, Array, Array]:
 
     Returns:
         Three arrays of indices, each (7,).
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7, or no actuator on one.
     """
     try:
         ids = np.array([model.joint(name).id for name in ARM_JOINTS])

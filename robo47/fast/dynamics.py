@@ -11,8 +11,7 @@ frames such that a hinge turns two components and leaves the third alone.
   point r of a link accelerates by a + B r, with B = [alpha] + [omega]^2.
 
 Conventions as in `robo47.dynamics`; m, h and Q are the integrals of 1, r and r r^T over
-a link's mass. Units: radians, metres, kilograms, N m. A wrong shape, a number that is
-not finite, or a joint that is no hinge, is a ValueError.
+a link's mass. Units: radians, metres, kilograms, N m.
 """
 
 from collections.abc import Callable, Sequence
@@ -38,6 +37,9 @@ def mass_matrix(arm: Arm, q: ArrayLike) -> Array:
 
     Returns:
         M, kg m^2, (..., n, n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a joint that is no hinge.
     """
     n = len(arm.masses)
     return _for_all(mass_matrices, arm, (n, n), q)
@@ -53,6 +55,9 @@ def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> A
 
     Returns:
         Torque, N m, (..., n).
+
+    Raises:
+        ValueError: as `mass_matrix`.
     """
     down = arm.gravity.tolist()
 

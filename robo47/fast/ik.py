@@ -102,6 +102,9 @@ def reached(
 
     Returns:
         True where the pose error (radians and metres) is shorter than 1e-8, (...).
+
+    Raises:
+        ValueError: as `solve_ik`.
     """
     e = pose_error(fk_space(screws, M_home, q), T_goal)
     return np.linalg.norm(e, axis=-1) < REACHED

@@ -2,8 +2,7 @@
 
 MuJoCo is used to read the file (where each body sits on its parent, where each joint
 turns), never to compute the answer. Only the seven arm joints, whatever else the
-model holds; one without joint1 to joint7 is a Robo47Error. Units: metres, radians,
-kilograms; screws are (omega; v).
+model holds. Units: metres, radians, kilograms; screws are (omega; v).
 """
 
 from typing import NamedTuple
@@ -42,6 +41,9 @@ def screws(model: mujoco.MjModel) -> Array:
 
     Returns:
         Screws (omega; v), (7, 6): no unit; metres.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
     """
     rows = []
     poses = kinematics.fk_all(model, _drawn(model))
@@ -85,6 +87,9 @@ def inertias(model: mujoco.MjModel) -> Inertias:
     Returns:
         (masses (7,), coms (7, 3), inertias (7, 3, 3)). The links alone: what the hand
         of "panda" and "scene" weighs is not in it; `hand_inertia` tells that.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
     """
     links = [_link(model, name) for name in ARM_JOINTS]
     return Inertias(
@@ -104,6 +109,9 @@ def hand_inertia(
     Returns:
         (mass in kg, com (3,) in link 7's frame in metres, inertia (3, 3) about that
         com in link 7's axes in kg m^2).
+
+    Raises:
+        Robo47Error: the model has no joint7.
     """
     link7 = _link(model, ARM_JOINTS[-1])
     bodies = [b for b in range(model.nbody) if hangs_on(model, b, link7)]
@@ -128,6 +136,9 @@ def arm(model: mujoco.MjModel) -> Arm:
     Returns:
         The seven links; the last one carries the hand, where there is one, with its
         fingers closed. It ends at `home_pose`.
+
+    Raises:
+        Robo47Error: the model has no joint1 to joint7.
     """
     poses = kinematics.fk_all(model, _drawn(model))
     links = [_link(model, name) for name in ARM_JOINTS]
