@@ -177,12 +177,14 @@ def worked_out_once():
         key = (self, *map(_content, columns))
         if key not in answers:
             try:
-                answers[key] = columns, each(self, columns)  # an id stays an object's
+                found = each(self, columns)
             except ValueError as error:
-                answers[key] = columns, error
-        if isinstance(answers[key][1], ValueError):
-            raise answers[key][1]
-        return answers[key][1]
+                found = str(error)
+            answers[key] = columns, found  # an id stays that of an object
+        found = answers[key][1]
+        if isinstance(found, str):
+            raise ValueError(found)
+        return found
 
     def arm(model):
         key = np.empty(mujoco.mj_sizeModel(model), np.uint8)

@@ -119,7 +119,8 @@ def test_a_wrong_mujoco_gl_is_no_fault_of_mujocos(monkeypatch):
     assert doctor.check_mujoco(sys.executable).status == "good"
 
 
-def test_a_check_that_fails_itself_is_one_line_of_the_findings(monkeypatch):
+def test_a_check_that_fails_itself_is_one_line_of_the_findings(answers, monkeypatch):
+    answers({})
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
     assert len(lines) == 11

@@ -39,7 +39,7 @@ from robo47.errors import FaultError
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
-CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
+CPU, SESSION_CPU = 120, 7200  # seconds of a processor
 _SAME = ("file", "code", "beside", "library", "memory", "numbers")  # of a request
 
 
@@ -96,9 +96,8 @@ class Sandbox:
         limits = limits or Limits()
         more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
         request = messages.request(
-            script, robots, library, added, keep=True, cpu_seconds=CPU_SECONDS + more,
-            memory=limits.memory, numbers=limits.numbers,
-        )  # fmt: skip
+            script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
+        )
         deadline, killed = time.monotonic() + RUN_SECONDS + more, False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
             rounds = _Rounds(left, deadline, limits)
@@ -149,9 +148,8 @@ class Sandbox:
         """
         limits = limits or Limits()
         request = messages.request(
-            script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
-            memory=limits.memory, numbers=limits.numbers,
-        )  # fmt: skip
+            script, robots, library, added, limits, keep=False, cpu_seconds=SESSION_CPU
+        )
         process = (brief and self._again(request)) or self._take(limits.extras)
         try:
             if not process.told:

@@ -59,7 +59,8 @@ def by_mujoco(model, q, path=PATH) -> Array:
 
 @lru_cache(64)  # mistakes made with a finished pose ask for the same ones
 def _poses(model, q):
-    return verify.mujoco_poses(model, np.array([q]))
+    fingers = [0.0] * (model.nq - len(q))
+    return verify.mujoco_poses(model, np.array([[*q, *fingers]]))
 
 
 @cache
