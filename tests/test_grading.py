@@ -698,7 +698,7 @@ class TestSimilarity:
         own = similar.runs_of(own_way(ODD_WAY).encode(), STARTER)
         right = (DAY.own / "submissions").glob("*/*.py")
         runs = {p.stem: [similar.runs_of(p.read_bytes(), STARTER)] for p in right}
-        assert len(runs) > 9
+        assert len(runs) > 5
         assert similar.like_the_kit(runs, kit) == []
         copies = {str(i): [own[:0], kit] for i in range(30)}  # in a helper beside it
         found = similar.like_the_kit({**runs, **copies}, kit)
