@@ -195,7 +195,7 @@ def provide(venv, anew, uv):
 
 def bring(venv, extras, anew):
     """Bring an environment to what pyproject.toml and constraints.txt say."""
-    uv = getattr(shutil, "which", lambda name: None)("uv")
+    uv = shutil.which("uv")
     provide(venv, anew, uv)
     stamps = {extra: os.path.join(venv, ".ready-" + extra) for extra in extras}
     missing = [extra for extra in extras if not is_stamped(stamps[extra])]

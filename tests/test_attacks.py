@@ -13,9 +13,11 @@ import tracemalloc
 
 import pytest
 
-from labkit.base.exchange import Question
+from labkit.base import exchange, git
+from labkit.base.exchange import Limits, Question
 from labkit.check.source import kits_own
 from labkit.check.tasks import check_tasks
+from labkit.grade import pull
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.starter import make_starter
@@ -596,3 +598,16 @@ class TestAForgedMessage:
             assert session._process._in.qsize() <= process.MOST_WAITING
             (reply,) = session.ask([Question("", "f", ())])
             assert reply.kind == "stopped"
+
+
+def test_the_teachers_guide_tells_the_limits_that_hold():
+    guide = " ".join((ROOT / "docs" / "teaching.md").read_text("utf-8").split())
+    for says in (
+        f"{sandbox.RUN_SECONDS:.0f} s of one processor, {Limits().memory:.0f} GB of",
+        f"{process.MOST_BYTES // 10**6} MB of replies",
+        f"{git.SECONDS:.0f} s of git's",
+        f"{pull.SECONDS} s and {git.LARGEST_GIT // 10**9} GB of disk",
+        f"of which {git.LARGEST_TREE // 10**6} MB stay",
+        f"more than {exchange.SCRIPT // 1000} kB is not read",
+    ):
+        assert says in guide

@@ -451,6 +451,29 @@ class TestASession:
             assert once.reply.kind == "missing"
             assert len(started) == 2
 
+    def test_of_a_file_that_hangs_when_loaded_once_more_costs_its_time_once(
+        self, student, monkeypatch
+    ):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+        code = """
+            import sys
+            sys.loads = getattr(sys, "loads", 0) + 1
+            while sys.loads > 2: pass
+            def f(): return 1.0
+        """
+        waited, again = [], sandbox.Sandbox._again
+        monkeypatch.setattr(
+            sandbox.Sandbox,
+            "_again",
+            lambda box, told: (waited.append(box._kept), again(box, told))[1],
+        )
+        with sandbox.Sandbox() as box:
+            for _ in range(4):
+                asked = Exchange(Question("1.1", "f", ()))
+                box.run(student(code), [asked])
+                assert asked.reply.value == asked.reply.again == 1
+        assert len(waited) - waited.count(None) == 1
+
     def test_that_ended_is_not_asked_again(self, student):
         with sandbox.Sandbox() as box:
             script = student(self.CODE)

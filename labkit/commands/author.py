@@ -46,7 +46,8 @@ def catalogue(day: Day) -> Iterator[str]:
 def tests(day: Day) -> Iterator[str]:
     """Yield the tests that fail: those of every day, for this one, and its own."""
     files = [f"tests/{name}" for name in TESTS] + [str(day.own)]
-    files += [f"tests/test_{m}.py" for m in day.library if _test_of(m)]
+    of_library = (f"tests/test_{module}.py" for module in day.library)
+    files += [name for name in of_library if (ROOT / name).is_file()]
     quiet = ("-q", "-q", "--tb=short", "-rN", "--no-header", "-p", "no:cacheprovider")
     code, lines = run(
         day, "-m", "pytest", *files, *quiet, "-m", MARKS, "-k", f"not {TOLD}"
@@ -91,10 +92,6 @@ def style(day: Day) -> Iterator[str]:
     yield from lines if code else ()
     if run(day, *ruff, "format", "--check", "-q", *files)[0]:
         yield f"to format: .venv/bin/python -m ruff format {shown(day.own)}"
-
-
-def _test_of(module: str) -> bool:
-    return (ROOT / "tests" / f"test_{module}.py").is_file()
 
 
 Part = Callable[[Day], Iterator[str]]

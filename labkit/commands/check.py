@@ -19,6 +19,7 @@ import secrets
 import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.git import short_sha
@@ -28,6 +29,9 @@ from labkit.sandbox.process import Process
 from robo47 import __version__
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
+
+if TYPE_CHECKING:
+    from labkit.check.report import Report
 
 POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
@@ -57,8 +61,9 @@ def check(day: Day, options: argparse.Namespace) -> int:
     seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
-        from labkit.check import memory, report
+        from labkit.check import memory
         from labkit.check.lab_run import check_lab
+        from labkit.check.report import Report
         from labkit.check.tasks import check_tasks, required_pass
         from labkit.sandbox.sandbox import Sandbox
 
@@ -70,19 +75,24 @@ def check(day: Day, options: argparse.Namespace) -> int:
     if key:
         memory.note(results)
         memory.remember(key, results)
-    items = lab
     if not options.task:
         from labkit.handin.deliverables import check_deliverables
 
-        items += check_deliverables(day, tasks_pass=done)
-    found = report.Report(day, results, items)
+        lab += check_deliverables(day, tasks_pass=done)
+    found = Report(day, results, lab)
+    print(_printed(found, options, seed))
+    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:
+    """Return a report as it was asked for: for people, or for tools."""
+    from labkit.check.report import as_json, as_text
+
     if options.json:
         made = {"kit": __version__, "commit": short_sha(ROOT), "seed": seed}
-        print(json.dumps(report.as_json(found) | made, indent=1))
-    else:
-        colour = cli.wants_colour(sys.stdout)
-        print(report.as_text(found, explain=options.explain, colour=colour))
-    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+        return json.dumps(as_json(found) | made, indent=1)
+    colour = cli.wants_colour(sys.stdout)
+    return as_text(found, explain=options.explain, colour=colour)
 
 
 def watch(day: Day, options: argparse.Namespace) -> int:

@@ -92,7 +92,10 @@ def show() -> int:
         ) as viewer:
             viewer.opt.frame = int(mujoco.mjtFrame.mjFRAME_BODY)
             viewer.opt.label = int(mujoco.mjtLabel.mjLABEL_BODY)
-            look_at(viewer.cam, Camera(distance=2.6))
+            camera = Camera(distance=2.6)
+            viewer.cam.lookat[:], viewer.cam.distance = camera.lookat, camera.distance
+            viewer.cam.azimuth = float(np.degrees(camera.azimuth))
+            viewer.cam.elevation = float(np.degrees(camera.elevation))
             while viewer.is_running():
                 _advance(viewer, model, data)
     except KeyboardInterrupt:
@@ -101,19 +104,6 @@ def show() -> int:
         # Its thread is still tidying up: without the wait most runs crashed at exit.
         time.sleep(1.0)
     return cli.EXIT_OK
-
-
-def look_at(theirs: mujoco.MjvCamera, camera: Camera) -> None:
-    """Turn MuJoCo's camera to where one of ours looks from.
-
-    Args:
-        theirs: the viewer's, changed in place.
-        camera: ours.
-    """
-    theirs.lookat[:] = camera.lookat
-    theirs.distance = camera.distance
-    theirs.azimuth = float(np.degrees(camera.azimuth))
-    theirs.elevation = float(np.degrees(camera.elevation))
 
 
 def _advance(

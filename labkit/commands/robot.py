@@ -68,16 +68,6 @@ def fetch(root: Path) -> dict[str, Any]:
     )
 
 
-def adopt(root: Path) -> dict[str, Any]:
-    """Check a copy that is already there and record it, touching none of its files."""
-    check_complete(root / files.PANDA)
-    found = files.describe_copy(root)
-    if os.environ.get("MENAGERIE_ROOT"):  # somebody else's folder: leave no file in it
-        return found
-    add_licence(root)
-    return write_record(root, found)
-
-
 def add_licence(root: Path) -> None:
     """Put the robot's licence beside it: a copy that is handed on has to bring it."""
     own, text = root / "LICENSE", ROOT / "LICENSE"  # both are Apache 2.0
@@ -105,9 +95,8 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
         "recorded": datetime.date.today().isoformat(),
         "files": files.hash_files(root / files.PANDA),
     }
-    new = root / "PROVENANCE.json.new"
-    new.write_text(json.dumps(record, indent=1) + "\n", "utf-8")
-    os.replace(new, root / "PROVENANCE.json")  # whole or not at all
+    text = json.dumps(record, indent=1) + "\n"
+    store.replace(root / "PROVENANCE.json", text.encode())
     return record
 
 
@@ -144,7 +133,7 @@ def main() -> int:
     parser.add_argument("--verify", action="store_true", help="hash every file again")
     parser.add_argument("--daily", action="store_true", help="ask once a day (make)")
     options = parser.parse_args()
-    if options.daily and asked_today():
+    if options.daily and store.read_text(ASKED) == str(datetime.date.today()):
         return cli.EXIT_OK
     root = menagerie_root()
     if options.show or options.verify:
@@ -168,13 +157,9 @@ def bring(root: Path) -> None:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
         return
-    if files.record_of(root) or os.environ.get("MENAGERIE_ROOT"):
-        check_complete(root / files.PANDA)
-        show(files.read_provenance())
-    else:
-        show(adopt(root))
-
-
-def asked_today() -> bool:
-    """Return whether no source answered today."""
-    return store.read_text(ASKED) == str(datetime.date.today())
+    check_complete(root / files.PANDA)
+    # Somebody else's folder gets no file of ours.
+    if not (files.record_of(root) or os.environ.get("MENAGERIE_ROOT")):
+        add_licence(root)
+        write_record(root, files.describe_copy(root))
+    show(files.read_provenance())

@@ -44,7 +44,8 @@ def check_figure(day: Day, handin: Handin) -> Item:
         if day.draw and PORTRAIT.encode() in data:
             says = "it shows the arm alone, and nothing that your functions do"
             raise FlawError(f"{says}. {_command(day)}")
-        for kit in _kits_pictures(day):
+        week = [d for d in all_days(day.folder.parent) if d.folder == day.folder]
+        for kit in sorted({name for one in (day, *week) for name in one.kit_figures}):
             if _is_copy(picture, day.folder / kit):
                 raise FlawError(f"it is {kit} of the kit; make one of your own")
     except FlawError as error:
@@ -57,12 +58,6 @@ def _command(day: Day) -> str:
     if day.draw:
         return f"Drawn with your own functions: make figures DAY={day.number}"
     return f"One of the arm: make view DAY={day.number} ARGS=--screenshot"
-
-
-def _kits_pictures(day: Day) -> list[str]:
-    """Return the kit's pictures of the whole week: another day's is no better."""
-    others = [d for d in all_days(day.folder.parent) if d.folder == day.folder]
-    return sorted({name for one in (day, *others) for name in one.kit_figures})
 
 
 def _look(picture: NDArray[np.uint8]) -> None:

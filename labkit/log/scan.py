@@ -104,7 +104,7 @@ def _line(number: int, raw: bytes, cut: set[str]) -> Line:
     try:
         row = decode(_cells(bare))
     except ValueError as error:
-        problem = str(error)
+        problem = problem or str(error)
     if row is not None and not problem and text in cut:
         problem = "it had no line end when the next row came, so it may be cut"
     return Line(number, text.replace("\0", ""), row, problem, len(raw))

@@ -190,18 +190,15 @@ def _thinned(rows: list[Row]) -> list[Row]:
     if len(rows) <= MOST:
         return rows
     size = math.ceil(2 * len(rows) / (MOST - 1))
+    heights = [float_of(row) if _finite(row) else math.inf for row in rows]
     kept = []
     for start in range(0, len(rows), size):
         bin_ = range(start, min(start + size, len(rows)))
-        by_value = sorted(bin_, key=lambda i: _height(rows[i]))
+        by_value = sorted(bin_, key=heights.__getitem__)
         kept += sorted({by_value[0], by_value[-1]})
     if kept[-1] != len(rows) - 1:
         kept.append(len(rows) - 1)
     return [rows[i] for i in kept]
-
-
-def _height(row: Row) -> float:
-    return float_of(row) if _finite(row) else math.inf
 
 
 def _finite(row: Row) -> bool:

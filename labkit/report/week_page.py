@@ -7,6 +7,7 @@ from labkit.base import html
 from labkit.base.words import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
+from labkit.report.page import STATUS
 from labkit.report.week_facts import DayFacts, Number
 from labkit.report.week_labs import name_of
 
@@ -27,13 +28,8 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
   .bar { display: none; } td.wide { min-width: 120px; } }
 """
 
-_MARKS = {
-    "pass": "✓ pass",
-    "fail": "✗ fail",
-    "none": "○ no row yet",
-    "stale": "↻ your file changed since",
-    "borrowed": "• partly borrowed",
-}
+_MARKS = {status: f"{mark} {words}" for status, (mark, words) in STATUS.items()}
+_MARKS["none"] = "○ no row yet"
 # Names of what no known mistake explains.
 _GENERAL = {
     "off": "wrong numbers, by no mistake that the kit knows",

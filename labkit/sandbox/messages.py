@@ -15,7 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Path, Question, Reply
+from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Limits, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.lesson.day import Day, days_before
@@ -37,6 +37,7 @@ def request(
     robots: Robots,
     library: Mapping[str, str] | None,
     added: str = "",
+    limits: Limits | None = None,
     **others: Any,
 ) -> dict[str, Any]:
     """Return what a process is told before the first question, as JSON.
@@ -46,11 +47,14 @@ def request(
         robots: that questions will hold.
         library: modules of the kit that it may import: source by name.
         added: code of the kit's, run as if it stood at the end of the file.
+        limits: what it may take.
         others: settings for `inside/__main__.py`.
 
     Raises:
         Robo47Error: there is no such file, or it is no script.
     """
+    limits = limits or Limits()
+    others |= {"memory": limits.memory, "numbers": limits.numbers}
     told = {**_code_of(script, added), "library": dict(library or {}), **others}
     copies = [_copy_of(robot) for robot in robots]
     known = [copy["entry"] for copy in copies]

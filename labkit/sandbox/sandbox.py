@@ -33,13 +33,13 @@ from labkit.base.exchange import (
 )
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
-from labkit.sandbox.process import LOAD_SECONDS, Process
+from labkit.sandbox.process import Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
 RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
 TOO_LONG = "all tasks together take far too long"
-CPU_SECONDS, SESSION_CPU_SECONDS = 120, 7200
+CPU, SESSION_CPU = 120, 7200  # seconds of a processor
 _SAME = ("file", "code", "beside", "library", "memory", "numbers")  # of a request
 
 
@@ -50,6 +50,7 @@ class Sandbox:
         """Take the first process, or start it: it loads while the caller prepares."""
         self._warm: Process | None = warm or Process()
         self._kept: Process | None = None  # with a file that may be asked more
+        self._odd = False  # a file that could be loaded before, and once more not
         self._sessions: list[Session] = []
 
     def __enter__(self) -> "Sandbox":
@@ -95,9 +96,8 @@ class Sandbox:
         limits = limits or Limits()
         more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
         request = messages.request(
-            script, robots, library, added, keep=True, cpu_seconds=CPU_SECONDS + more,
-            memory=limits.memory, numbers=limits.numbers,
-        )  # fmt: skip
+            script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
+        )
         deadline, killed = time.monotonic() + RUN_SECONDS + more, False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
             rounds = _Rounds(left, deadline, limits)
@@ -122,7 +122,7 @@ class Sandbox:
                     continue
                 if not rounds.ended:
                     ends.pop_all()
-                    self._kept = process
+                    self._keep(process)
             rounds.fill(needs or {})
 
     def session(
@@ -148,9 +148,8 @@ class Sandbox:
         """
         limits = limits or Limits()
         request = messages.request(
-            script, robots, library, added, keep=False, cpu_seconds=SESSION_CPU_SECONDS,
-            memory=limits.memory, numbers=limits.numbers,
-        )  # fmt: skip
+            script, robots, library, added, limits, keep=False, cpu_seconds=SESSION_CPU
+        )
         process = (brief and self._again(request)) or self._take(limits.extras)
         try:
             if not process.told:
@@ -169,9 +168,10 @@ class Sandbox:
 
     def _keep(self, process: Process) -> None:
         """Take a process whose file may be asked more."""
-        if self._kept:
-            self._kept.close()
-        self._kept = process
+        if self._kept or self._odd:
+            process.close()
+        else:
+            self._kept = process
 
     def _again(self, request: dict[str, Any]) -> Process | None:
         """Return the process that was kept with its file loaded anew, if it is that."""
@@ -185,9 +185,10 @@ class Sandbox:
             told = {"added": request["added"], "keep": request["keep"], "models": more}
             process.ask([{"function": "", "args": [], "again": told}])
             with contextlib.suppress(EndedError, FaultError):
-                process.next(LOAD_SECONDS)
+                process.next(CALL_SECONDS)
                 process.told = {**request, "models": had["models"] + more}
                 return process
+            self._odd = True
         process.close()
         return None
 

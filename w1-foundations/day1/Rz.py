@@ -23,14 +23,11 @@ def angles(rng):
 def _(theta):
     """turns-backwards: it turns the wrong way: a positive angle takes x towards -y =>
       Rz(-theta)
-    sin-and-cos-swapped: sin and cos have changed places: at 0 it already turns => the
-      right one with the two swapped
+    sin-and-cos-swapped: sin and cos have changed places: at 0 it already turns
     minus-missing: one of the two sines needs a minus: as it is, lengths change (R R^T
       is not I) => the right one without that minus
-    minus-twice: only one of the two sines has a minus: as it is, lengths change => the
-      right one with both negated
+    minus-twice: only one of the two sines has a minus: as it is, lengths change
     reflection: a cosine has a minus that belongs to a sine: this mirrors (det R = -1)
-      => the right one with that sign
     z-lost: whatever is along z disappears: the last entry is 0, so det R = 0 => the
       right one with a 0 there
     """

@@ -24,8 +24,7 @@ def _(T):
     """of-the-inverse: this is the adjoint of the inverse pose: it takes twists the
       other way => Ad of the inverse
     block-top-right: [p] R stands top right; that is for twists (v; omega), and for
-      wrenches. Here v is the lower half, and it is v that the distance changes => the
-      right one with that block moved
+      wrenches. Here v is the lower half, and it is v that the distance changes
     factors-swapped: the lower left block is R [p]; the lever arm is told in the outer
       frame, so it acts after R => the right one with R [p]
     no-lever-arm: the lower left block is 0: v is only turned, but a spin moves a far

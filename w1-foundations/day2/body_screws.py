@@ -24,8 +24,7 @@ def _(screws, M):
       and the screws go the other way => Ad(M) S
     from-the-right: the right adjoint, but rows are multiplied by it as they stand; it
       acts on columns => S Ad(M^-1)
-    unchanged: the screws come back as they went in, still seen from the world => the
-      table that went in
+    unchanged: the screws come back as they went in, still seen from the world
     last-joint-first: the screws are right, but in the reverse order: joint1's comes
       first => the right answer in reverse
     transposed-for-inverse: Ad(M) is transposed, but its inverse is not its transpose

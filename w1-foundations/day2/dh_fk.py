@@ -51,8 +51,7 @@ def _(table, q):
     product-reversed: the links stand in the reverse order: the one nearest to the base
       belongs on the left => the product in reverse
     multiplied-by-entries: the links are multiplied entry by entry, not as matrices
-    last-link-only: only the last row counts: what the others do is overwritten => the
-      eighth link alone
+    last-link-only: only the last row counts: what the others do is overwritten
     flange-typed-in: the eighth row is typed in as Franka's; with another table it is
       another one => the product with Franka's eighth row
     table-not-used: with Franka's table it is right, with another one it is wrong: the

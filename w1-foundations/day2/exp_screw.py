@@ -70,8 +70,7 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: the halves are read as (v; omega); omega comes first => the motion
-      with the halves swapped
+    """twist-order: the halves are read as (v; omega); omega comes first
     hinge-at-the-origin-forgotten: right unless v is 0; with v = 0 it does not move at
       all, but such a screw turns about a line through the origin => the right one with
       I where v is 0

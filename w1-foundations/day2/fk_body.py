@@ -21,8 +21,7 @@ def _(body_screws, M, q):
       and they are the hand's already); motions told in the hand's frame follow M =>
       the product with M last
     motions-on-the-left: each new exponential is put on the left of what is there; these
-      screws are told in the hand's frame, so it goes on the right => the product so put
-      together
+      screws are told in the hand's frame, so it goes on the right
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

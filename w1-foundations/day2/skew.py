@@ -27,8 +27,7 @@ def _(w):
     outer-product: this is w times w transposed, which does a projection, not a cross
       product => that product
     on-the-diagonal: w stands on the diagonal; w x p has no part of w along w
-    ones-on-diagonal: the diagonal is 1; it has to be 0, since w x w is 0 => the right
-      one plus the identity
+    ones-on-diagonal: the diagonal is 1; it has to be 0, since w x w is 0
     made-unit: w is divided by its length first; the cross product is as long as w says
       => the right one of w / |w|
     """

@@ -31,10 +31,8 @@ def _(J_space, p, F):
       pushes, so the power of the motors is that of F => its negative
     pseudo-inverse: this is J^+ F, which is good for velocities: the motors' power is
       then not the hand's. Write both powers down => J^+ F
-    moment-forgotten: the moment is left out: its power is moment . omega => the torques
-      of the force alone
-    force-forgotten: the force is left out: its power is force . v => the torques of the
-      moment alone
+    moment-forgotten: the moment is left out: its power is moment . omega
+    force-forgotten: the force is left out: its power is force . v
     arm-the-wrong-way: the moment of the force about the origin is p x f, not f x p =>
       the torques with -p for p
     arm-twice: p x f is added to the moment, and the Jacobian is that of p already: one

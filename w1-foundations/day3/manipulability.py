@@ -45,10 +45,8 @@ def _(J):
     smallest-singular-value: this is the smallest singular value alone; the product of
       all six is asked for => the smallest singular value
     largest-singular-value: this is the largest singular value, the norm of J
-    sum-of-singular-values: the singular values are added; they have to be multiplied =>
-      the sum of the singular values
-    trace: this comes from the trace, which is the sum; the determinant is asked for =>
-      the root of the trace
+    sum-of-singular-values: the singular values are added; they have to be multiplied
+    trace: this comes from the trace, which is the sum; the determinant is asked for
     inverse-condition: this is the smallest singular value over the largest one, another
       measure => the inverse of the condition number
     square-part: this is the determinant of the first six columns; joint 7 counts too

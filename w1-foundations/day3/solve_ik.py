@@ -58,11 +58,8 @@ def _(screws, M, T_goal, q_start, limits):
     body-jacobian: the steps are made with J_body, in the hand's axes; the error is in
       the world's => what J_body leads to
     error-in-the-hands-axes: the error is in the hand's axes; J_site is in the world's
-      => what that error leads to
-    damping-not-squared: the damping in it is too large by far: it is not squared =>
-      what that damping leads to
-    limits-forgotten: the joint limits are not kept => what the loop without limits
-      leads to
+    damping-not-squared: the damping in it is too large by far: it is not squared
+    limits-forgotten: the joint limits are not kept
     jacobian-never-updated: the Jacobian is that of the start; it changes with every
       step => what the first Jacobian leads to
     q-start-unused: the loop starts from READY_Q: q_start is not used => what READY_Q

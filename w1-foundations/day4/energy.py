@@ -34,10 +34,8 @@ def _(M, qd, masses, coms_world, g):
     mass-matrix-forgotten: the kinetic energy takes no mass: M is missing => the answer
       with qd.qd / 2
     masses-forgotten: the potential energy takes no masses => the answer with 1 kg each
-    every-mass-everywhere: every link's centre is multiplied by the whole arm's mass =>
-      the answer with the total mass
-    order-swapped: potential energy comes first; kinetic was asked for first => the two
-      swapped
+    every-mass-everywhere: every link's centre is multiplied by the whole arm's mass
+    order-swapped: potential energy comes first; kinetic was asked for first
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre

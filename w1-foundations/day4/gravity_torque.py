@@ -52,8 +52,7 @@ def _(J, masses, coms_world, g):
       torque with omega for v
     all-mass-at-the-last-centre: all mass sits at the last link's centre; each link has
       one of its own => the torque with that centre for all
-    signs-lost: no torque is negative here: a motor has to pull the other way as well =>
-      the right torque without its signs
+    signs-lost: no torque is negative here: a motor has to pull the other way as well
     mass-forgotten: the masses are missing: every link counts as 1 kg
     """
     given = masses, coms_world, g

@@ -85,7 +85,6 @@ def _(m, c, I):
     mass-everywhere: the lower right block has the mass in all nine entries; it belongs
       on the diagonal => the matrix with m in all of them
     blocks-v-omega: the blocks are in the order (v; omega); omega comes first, as in J
-      => the right one with its halves swapped
     """
     C, M = skew(c), m * ONE
     A, mC = I + m * C @ C.T, m * C

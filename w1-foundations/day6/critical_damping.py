@@ -51,8 +51,7 @@ def _(K, Lambda):
       orders, once each, it is symmetric => 2 sqrt(Lambda) sqrt(K)
     half-of-it: the product of the two roots is there in one order only => sqrt(Lambda)
       sqrt(K)
-    factor-two: there is a 2 too many: the two orders are the 2 already => twice the
-      right one
+    factor-two: there is a 2 too many: the two orders are the 2 already
     factor-two-missing: half of it is missing: the two orders are added, not averaged
     K-not-rooted: K is used as it is; its square root belongs there
     root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K

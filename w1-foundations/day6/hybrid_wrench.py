@@ -69,8 +69,7 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """damper-left-out: the damper is gone in all six directions; it stays => the right
-      one without any damper
+    """damper-left-out: the damper is gone in all six directions; it stays
     moment-in-place-of-force: entry 2 is replaced, and the damper with it: that is
       the moment about z => the right one with entry 2 replaced
     column-in-place-of-row: K's last column is gone with its last row; what an error

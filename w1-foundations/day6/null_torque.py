@@ -57,8 +57,7 @@ def _(J, M, Lambda, tau):
       tau
     the-other-part: this is what is to be taken away: the part that the hand feels =>
       tau minus the right one
-    added: the part that the hand feels is added, so it feels it twice => the right one
-      with a plus
+    added: the part that the hand feels is added, so it feels it twice
     negative: every sign is wrong: tau is taken away from the part that the hand feels
     M-left-out: M is missing: J tau is no acceleration of the hand, tau has to become
       one of the joints first => tau - J^T Lambda J tau

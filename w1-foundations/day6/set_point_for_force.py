@@ -33,8 +33,7 @@ def _(force, k, surface):
     depth-only: this is how deep below the surface; the height to command is asked for
       => force / k
     depth-negative: the height of the surface is missing => -force / k
-    millimetres: the depth is in millimetres; here everything is in metres => the right
-      one with the depth in mm
+    millimetres: the depth is in millimetres; here everything is in metres
     half-a-spring: there is a 2 too many: force is k times depth, its half belongs to
       energy => surface - 2 force / k
     surface-only: force and k are not used: at the surface itself the spring pulls with

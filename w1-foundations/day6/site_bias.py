@@ -96,8 +96,7 @@ def _(J_space, qd, p):
 def _(J_space, qd, p):
     """p-sign: the cross products with p have their factors swapped: p x omega is minus
       omega x p => the right one with -p
-    last-joint-left-out: the last joint is left out: range(6) ends with joint6 => the
-      right one of six joints
+    last-joint-left-out: the last joint is left out: range(6) ends with joint6
     negative: every sign is wrong: this is what has to be taken away from acc, not the
       acceleration itself => minus the right one
     """

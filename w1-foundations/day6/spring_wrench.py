@@ -29,7 +29,6 @@ def _(e, V_err, K, D):
     diagonal-of-D 2: only the diagonals of K and D are used; the six directions are
       coupled => the right one with their diagonals
     halves-swapped: the halves of the answer are (force; moment); the moment comes first
-      => the right one with its halves swapped
     millimetres: the error is put into millimetres; here everything is in metres => the
       right one with e in mm
     half-a-spring: the spring has a factor 1/2: that is its energy's, not its force's =>

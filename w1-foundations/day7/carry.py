@@ -44,8 +44,7 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
     """no-parallel-axes: the inertias are added as they are; each is about its own
-      centre, and has to be moved to the common one first => the answer without
-      parallel axes
+      centre, and has to be moved to the common one first
     about-the-origin: the inertia is about the frame's origin; it belongs to the common
       centre => the answer about the origin
     only-the-second-moved: only the second body's inertia is moved; the first one's
@@ -56,7 +55,6 @@ def _(m1, c1, I1, m2, c2, I2):
     distance-of-the-two: the distance between the two centres is used for both; each
       moves to the common centre => the answer with that distance twice
     mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
-      => the answer without the masses there
     total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
       has its own => the answer with m1 + m2 there
     masses-exchanged: in the theorem, each body has the mass of the other => the answer
@@ -106,8 +104,7 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """plain-mean: the common centre is half way; the heavier body counts for more =>
-      the answer with the plain mean
+    """plain-mean: the common centre is half way; the heavier body counts for more
     weights-swapped: the centre is nearer to the lighter body: the masses are swapped
     not-divided-by-the-mass: the sum of m c is not divided by the mass
     first-centre-kept: the centre of mass stays that of the first body

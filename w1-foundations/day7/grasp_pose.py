@@ -39,8 +39,7 @@ def tool(T_world_cube, above, yaw):
 @row.wrongs
 def _(T_world_cube, above):
     """yaw-not-folded: the tool turns with the cube all the way; a cube looks the same
-      after a quarter turn, and joint 7 has an end => the pose with the cube's own
-      yaw
+      after a quarter turn, and joint 7 has an end
     folded-to-90: the yaw is folded into 0..90 degrees; into +-45 the tool turns less =>
       the pose with yaw mod 90 degrees
     rounded-towards-zero: the number of quarter turns is cut off, not rounded: up to 90

@@ -18,15 +18,13 @@ def _(rng):
 
 @row.wrongs
 def _(grip, mu, acceleration):
-    """one-finger: one finger's friction is missing: two faces hold the cube => half of
-      it
+    """one-finger: one finger's friction is missing: two faces hold the cube
     acceleration-forgotten: the cube's acceleration does not count; while it speeds up
       it needs more => the mass at rest
     acceleration-sign: the acceleration is taken off gravity; upwards it comes on top =>
       the mass with g - a
     gravity-forgotten: gravity is missing: at rest nothing would have to be lifted
-    weight-for-mass: this is the force in newtons; the mass is that force over g + a =>
-      the friction's force
+    weight-for-mass: this is the force in newtons; the mass is that force over g + a
     friction-forgotten: friction does not count; without mu nothing is lifted => the
       mass with mu = 1
     divided-by-friction: the friction mu stands below the line; more friction lifts more

@@ -34,8 +34,7 @@ def _(q0, q1, t, T):
     start-forgotten: the way is there, but not where it starts: q0 is missing
     goal-for-way: the goal q1 stands where the way from q0 to q1 belongs: it ends at q0
       + q1 => the answer with q1 for the way
-    way-reversed: the way points from q1 to q0: it moves away from the goal => the
-      answer with the way reversed
+    way-reversed: the way points from q1 to q0: it moves away from the goal
     backwards: it goes from q1 to q0 => the move the other way
     speed-forwards-only: the way has lost its sign: every joint goes forwards => the
       answer with |q1 - q0|

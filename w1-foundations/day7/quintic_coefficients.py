@@ -68,20 +68,17 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """descending: the highest power comes first; the constant has to => the answer with
-      the coefficients in descending order
+    """descending: the highest power comes first; the constant has to
     ends-swapped: it goes from the end to the start => the answer with the ends swapped
     in-powers-of-x: these are the coefficients of powers of t / T, not of t
     T-is-1: T does not count: the end's conditions are those at t = 1 => the answer with
       the coefficients for T = 1
     cubic: this is a cubic: both accelerations are left out => the cubic
     accelerations-zero: the accelerations at the ends are taken as 0; they are given
-    rest-to-rest: speeds and accelerations at the ends are taken as 0; they are given =>
-      the answer with the coefficients from rest to rest
+    rest-to-rest: speeds and accelerations at the ends are taken as 0; they are given
     two-forgotten: the second derivative of t^2 is 2, not 1: the start's acceleration is
       doubled => the answer with a 1 there
-    conditions-mixed-up: the right side alternates start and end, but the rows do not =>
-      the answer with the right side mixed
+    conditions-mixed-up: the right side alternates start and end, but the rows do not
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

@@ -88,10 +88,8 @@ def _(dq, v_max, a_max):
       limits => the smallest of the joints' durations
     one-length: the ways of all joints are put together as one length, |dq|; each joint
       has its own way and its own limits => the duration of |dq| with the lowest limits
-    summed: the joints' durations are added up; they move at the same time => the sum
-      over the joints
-    mean: it takes the mean of the joints' durations; half of them break their limits =>
-      the mean over the joints
+    summed: the joints' durations are added up; they move at the same time
+    mean: it takes the mean of the joints' durations; half of them break their limits
     longest-way: it takes the joint with the longest way; one with a lower limit may
       need more => the duration of the joint with the longest way
     one-limit-for-all: the first joint's limits are used for all; each joint has its own
@@ -99,8 +97,7 @@ def _(dq, v_max, a_max):
     acceleration-only: only the acceleration limits count; a long move breaks the
       speed's => the duration by acceleration
     root-forgotten: acceleration falls with T squared, so T is a square root
-    added-up: the two durations are added; the longer one keeps both limits => the sum
-      of the two
+    added-up: the two durations are added; the longer one keeps both limits
     peak-of-the-cubic 2: 6 is the cubic's peak acceleration; the quintic's is where the
       derivative of its acceleration is 0 => the duration with 6
     shorter-of-two 2: each joint takes the shorter of its two durations; both limits

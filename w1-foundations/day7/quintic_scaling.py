@@ -84,8 +84,7 @@ def _(t, T):
       quintic of t
     not-clipped: after the end (and before the start) the polynomial goes on: at 1.25 T
       s is 1.22 => the quintic without its ends
-    end-not-clipped: it waits for the start, but after the end the polynomial goes on =>
-      the quintic without its end
+    end-not-clipped: it waits for the start, but after the end the polynomial goes on
     start-not-clipped: it stops at the end, but before the start the polynomial is there
       already => the quintic without its start
     backwards: it runs from 1 to 0: the remaining time stands where the time belongs =>

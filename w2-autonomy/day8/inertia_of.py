@@ -42,11 +42,9 @@ def _(phi):
 @row.wrongs
 def _(phi):
     """lower-half-zero: the products stand above the diagonal of I only; I is symmetric
-      => the right one without them below
     inertia-about-the-centre: m [c] [c]^T is added to I; phi has I about the origin,
       with that in it already => the right one with I + m [c] [c]^T
-    velocity-first: the blocks are in the order (v; omega); here omega comes first =>
-      the right one with its halves swapped
+    velocity-first: the blocks are in the order (v; omega); here omega comes first
     """
     G, C = right(phi), skew(phi[1:4])
     below, moved = np.tril(G[:3, :3], -1), C @ C.T / (phi[0] or np.inf)

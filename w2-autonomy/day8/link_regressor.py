@@ -31,8 +31,7 @@ def _(V, A):
       missing => G A
     acceleration-in-the-velocity-product: the velocity product has G A; what is carried
       along is the momentum, G V => G A - ad(V)^T G A
-    force-first: the rows are (force; moment); the moment's three come first => the
-      right one with its rows swapped
+    force-first: the rows are (force; moment); the moment's three come first
     """
     X, G = ad(V), inertia_of(np.eye(10))
     forces, momenta = (G @ A).T, (G @ V).T

@@ -36,12 +36,10 @@ def _(J_site, R_site, extra, g):
       against it => the right one with +J^T
     moment-sign: the moment has the wrong sign: c x m g is -[g] m c, and its centre
       comes out on the other side => with +[g] R
-    force-first: the wrench is (force; moment); J has its angular rows first => the
-      right one with its halves swapped
+    force-first: the wrench is (force; moment); J has its angular rows first
     R-forgotten: R is not in it: m c is taken to stand in world axes all along
     holds-averaged: the holds are averaged before they are solved: seven rows are left
-      of all, and what the poses tell apart is gone; stack them => the right one from
-      the mean
+      of all, and what the poses tell apart is gone; stack them
     first-hold-only: only the first hold is used; one pose does not show all four
     g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
       first, so [g] R => with R [g]

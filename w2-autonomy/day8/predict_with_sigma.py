@@ -31,8 +31,7 @@ def _(Y, tau, Y_new, rtol):
     noise-added: the noise of a new measurement is added; sigma is that of the
       prediction => the root of sigma^2 + noise^2
     variance: this is the variance; sigma is its root => sigma squared
-    noise-left-out: the noise is missing: this is how much a fit amplifies it => sigma
-      over the noise
+    noise-left-out: the noise is missing: this is how much a fit amplifies it
     noise-for-sigma: this is the noise for every row; a motion that was never shown is
       less sure => the noise
     sigma-not-cut: the fit leaves small singular values out, sigma does not, as by Y^T Y
