@@ -9,6 +9,7 @@ import pytest
 from labkit.check.lab_run import rehearse
 from labkit.check.source import old_names
 from labkit.check.tasks import check_tasks
+from labkit.lesson import borrowed
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.starter import BORROWED, borrowed_tasks, make_starter, read_script
@@ -118,6 +119,13 @@ class TestBorrowing:
         code = with_borrowed(REFERENCE, REFERENCE, ["quat_to_R"])
         assert [task.id for task in borrowed_tasks(DAY, code)] == ["1.4"]
         assert borrowed_tasks(DAY, REFERENCE) == []
+
+    def test_looks_the_kits_function_up_once_in_all_of_a_run(self, monkeypatch):
+        looked = []
+        monkeypatch.setattr(borrowed, "day_of", lambda file: looked.append(file) or DAY)
+        for _ in range(3):
+            assert borrowed.kits("a student's", "make_T")(np.eye(3), np.ones(3))[0, 3]
+        assert len(looked) == 1
 
     def test_calls_the_kits_function_when_the_lab_runs(self, run_in, clone):
         day = find_day(1, clone)
