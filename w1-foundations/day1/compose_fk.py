@@ -151,6 +151,7 @@ OF_THE_FILE = {
     "xyzw-and-not-normalised",
     "divided-by-length-squared",
     "factor-two-missing",
+    "short-ones-kept",
 }
 # link0 sits on the world's origin: some leave it out, and these make no difference.
 NOT_AT_LINK0 = {

@@ -61,7 +61,7 @@ XYZW_AND_NOT_NORMALISED = (
 )
 
 
-@row.wrongs
+@row.wrongs(hidden={"short-ones-kept": "no quaternion there is short"})
 def _(quat):
     """wxyz-read-as-xyzw: the quaternion is read as (x, y, z, w); here, as in MuJoCo, w
       comes first => the right one read with w last
@@ -70,6 +70,8 @@ def _(quat):
     z-before-x: x, y and z are read in the order z, y, x => the right one read as w, z,
       y, x
     half-angle: it turns by half the angle: w is the cosine of half the angle
+    short-ones-kept: only a quaternion longer than 1 is divided by its length => the
+      right formula after that
     factor-two-missing: the products are there, but the factor 2 in front of them is
       missing => the right formula without the 2
     divided-by-length-squared: the quaternion is divided by its squared length; the
@@ -84,6 +86,7 @@ def _(quat):
     }
     return {
         **{slug: partial(normalised, other) for slug, other in read.items()},
+        "short-ones-kept": lambda: by_ones(quat / max(np.linalg.norm(quat), 1.0)),
         "factor-two-missing": lambda: (normalised(quat) + np.eye(3)) / 2,
         "divided-by-length-squared": lambda: by_ones(quat / (quat @ quat)),
     }

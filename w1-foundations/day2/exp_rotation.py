@@ -7,9 +7,10 @@ import numpy as np
 from labkit.judge import Rotation, Row, draw
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
 from robo47 import se3
-from robo47.screws import skew
+from robo47.screws import exp_rotation, skew
 
-row = Row(Rotation())
+# A slide, which asks for it too, has no axis.
+row = Row(Rotation(), truth=lambda n, x: exp_rotation(n, x) if n.any() else np.eye(3))
 
 I = np.eye(3)  # noqa: E741
 Z, OBLIQUE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.6, 0.8])

@@ -30,6 +30,8 @@ def _(Y, tau, Y_new, rtol):
       columns => sigma with n - p
     noise-added: the noise of a new measurement is added; sigma is that of the
       prediction => the root of sigma^2 + noise^2
+    mean-taken-off: the mean of what is left is taken off first; it is noise as well,
+      and the rank has counted it already
     variance: this is the variance; sigma is its root => sigma squared
     noise-left-out: the noise is missing: this is how much a fit amplifies it
     noise-for-sigma: this is the noise for every row; a motion that was never shown is
@@ -40,12 +42,14 @@ def _(Y, tau, Y_new, rtol):
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     (U, s, _), (n, p) = parts(Y, rtol), Y.shape
     left = n - len(s)
-    noise = np.linalg.norm(tau - U @ (U.T @ tau)) / np.sqrt(left)
+    rest = tau - U @ (U.T @ tau)
+    noise = np.linalg.norm(rest) / np.sqrt(left)
     _, every, along = parts(Y, 0.0)
     sigmas = {
         "n-for-n-rank": sigma * np.sqrt(left / n),
         "columns-for-rank": sigma * np.sqrt(left / (n - p)),
         "noise-added": np.hypot(sigma, noise),
+        "mean-taken-off": sigma * np.std(rest, ddof=len(s)) / noise,
         "variance": sigma**2,
         "noise-left-out": sigma / noise,
         "noise-for-sigma": noise + 0 * sigma,
