@@ -32,7 +32,8 @@ def worksheet_of(day: Day) -> str:
     parts.append("## Can you explain?\n")
     asked = "{}. What do you want to ask?\n\n   *(your answer)*\n"
     parts += [asked.format(i + 1) for i in range(day.questions)]
-    boxes = [f"All tasks of `make check DAY={day.number}` pass", *_handed_in(day)]
+    boxes = [f"I ran `make run DAY={day.number}` and saw `All checks PASSED.`"]
+    boxes += [f"All tasks of `make check DAY={day.number}` pass", *_handed_in(day)]
     lines = "".join(f"- [ ] {box}\n" for box in [*boxes, "I committed all of it"])
     return "\n".join([*parts, f"## Checklist\n\n{lines}"])
 
