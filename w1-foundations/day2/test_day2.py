@@ -245,7 +245,7 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
 
 
 def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
-    need(importlib.util.find_spec("PIL") is not None, "PIL: make figures")
+    need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))
     figures, words = folder.load(DAY, "figures"), set()
     write = lambda layer, at, text, *rest: words.add(text)  # noqa: E731
