@@ -82,10 +82,10 @@ GUIDE = f"{WEEK}/docs/day46-lab.md"
 @pytest.mark.parametrize(
     ("file", "old", "new", "says"),
     [
-        (FUNCTION, "end.imag])", "end.imag.nothing])", "reach.py, line 12)"),
+        (FUNCTION, "end.imag])", "end.imag.nothing])", "reach.py, line 11)"),
         (FUNCTION, "[end.real, end.imag]", "[end.real]", "shape (1,), and its kind is"),
         (FUNCTION, "truth=ends", "thruth=ends", "a Row has no thruth"),
-        (FUNCTION, "def sine_first(q1", "def sine_first(q1 q2", "(reach.py, line 36)"),
+        (FUNCTION, "def sine_first(q1", "def sine_first(q1 q2", "(reach.py, line 35)"),
         (FUNCTION, "yield 0.0, np.pi", "yield np.pi", "takes 4: q1, q2, a, b"),
         (FUNCTION, "(q1, q2))\n", "(q1, q1 + q2))\n", "angle-of-its-own"),
         (LAB, "# region 46.1", "# region 46.2", "endregion 46.1 closes region 46.2"),
