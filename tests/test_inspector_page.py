@@ -34,12 +34,8 @@ FLAGS = [
     "--no-first-run",
 ]
 MILLISECONDS = 60_000  # a busy machine
-# viser's own word for a coarse picture, said again at every load of the page, which is
-# drawn ten times a second.
+# viser's own word for a coarse picture, said again at every load of the page.
 FEW_PIXELS = """
-const draw = requestAnimationFrame;
-window.requestAnimationFrame = (frame) => setTimeout(() => draw(frame), 90);
-window.cancelAnimationFrame = clearTimeout;
 const query = new URLSearchParams(location.search);
 query.set("fixedDpr", "0.1");
 if (location.protocol === "http:") history.replaceState(null, "", `?${query}`);
@@ -593,6 +589,7 @@ def test_a_reload_finds_the_arm_where_it_was_and_still_moves_it(page, model):
     page.until(lambda: page.angle(2) > panda.READY_Q[1] + 0.2)
     page.until(lambda: close(page.matrix("mujoco"), truth(model, page.angles())))
     angle = page.angle(2)
+    page.until(lambda: f",{angle:g}," in page.tab.url)  # the address keeps the pose
     page.tab.reload()
     page.wait()
     page.until(lambda: abs(page.angle(2) - angle) < 1e-4)
