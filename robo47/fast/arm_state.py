@@ -83,6 +83,7 @@ class Constants:
         powers: what 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
             1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq.
             3.85).
+        ones: n of them.
         pairs: omega and v of each joint as two rows, (n, 2, 3).
         pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
         before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
@@ -102,6 +103,7 @@ class Constants:
         S2, S3 = S @ S, S @ S @ S
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
         self.powers = powers.reshape(n, 4, 16)
+        self.ones = np.ones(n)
         self.pairs = arm.screws.reshape(n, 2, 3).copy()
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
@@ -142,11 +144,8 @@ class ArmState:
         """Compute the links' poses; use `Arm.at`, which checks q."""
         self.q, self._c = q, constants
         n = len(q)
-        numbers = np.empty((n, 1, 4))
-        numbers[:, 0, 0], numbers[:, 0, 1] = 1.0, q
-        np.cos(q, out=numbers[:, 0, 2])
-        np.sin(q, out=numbers[:, 0, 3])
-        moved = (numbers @ self._c.powers).reshape(n, 4, 4)
+        numbers = np.array((constants.ones, q, np.cos(q), np.sin(q)))
+        moved = (numbers.T[:, None] @ constants.powers).reshape(n, 4, 4)
         step = 1  # products of two neighbours, then of four, then of eight
         while step < n:
             moved[step:] = moved[:-step] @ moved[step:]
