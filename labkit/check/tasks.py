@@ -64,7 +64,7 @@ def check_tasks(
         day: from the manifest.
         script: the student's file.
         sandbox: where to run it.
-        only: one task's id; what it needs is run too, since it may call it.
+        only: one task's id; where it is wrong, what it needs is asked as well.
         seed: of the fresh inputs, for a grade that can be repeated; it must not be
             known to the student.
 
@@ -75,15 +75,15 @@ def check_tasks(
         Robo47Error: there is no such file or task, or a row of questions is missing.
     """
     wanted = [day.task(only)] if only else list(day.tasks)
-    needed = {need for task in wanted for need in day.needs(task.id)}
-    asked = [task for task in day.tasks if task in wanted or task.id in needed]
     if why := _not_utf8(script) if script.is_file() else "":
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
     seed = secrets.randbits(32) if seed is None else seed
     check = _Check(day, script, sandbox, seed)
     try:
-        results = check.first_look(asked)
+        results = check.first_look(wanted)
+        if only:
+            results |= check.below(results[wanted[0].id])
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
@@ -120,6 +120,18 @@ class _Check:
             found = self._result(task, rounds[task.id])
             results[task.id] = _following(found, self.day, results)
         return results
+
+    def below(self, found: TaskResult) -> dict[str, TaskResult]:
+        """Return results of the tasks that a wrong one builds on, and its own anew.
+
+        Raises:
+            LoadError: the file does not load any more.
+        """
+        needs = [self.day.task(need) for need in self.day.needs(found.task.id)]
+        if not needs or found.verdict.status in ("passed", "todo"):
+            return {}
+        known = self.first_look(needs)
+        return {**known, found.task.id: _following(found, self.day, known)}
 
     def second_look(self, task: Task, results: dict[str, TaskResult]) -> TaskResult:
         """Return a task's result with what further questions say of a wrong one.
@@ -235,7 +247,7 @@ def _following(
     if verdict.status in ("passed", "todo") or verdict.mistake == "missing":
         return found
     for need in day.needs(found.task.id):
-        if not results[need].passed:
+        if need in results and not results[need].passed:
             return replace(found, verdict=replace(verdict, follows=need))
     return found
 
