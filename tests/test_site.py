@@ -182,7 +182,7 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     assert page.inner_text("#pose") != before
     after = page.inner_text("#pose")
     page.reload()
-    page.wait_for_function("window.arm", timeout=60_000)
+    page.wait_for_function("window.arm && pose.innerText", timeout=60_000)
     assert page.inner_text("#pose") == after
     assert page.problems == []
 

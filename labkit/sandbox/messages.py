@@ -4,9 +4,9 @@ With a request travel the modules of `robo47` that a day's student code may impo
 source text: those of earlier days. Nothing else of the kit is there to find.
 """
 
-import ast
 import base64
 import contextlib
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from pathlib import Path as File
@@ -30,6 +30,10 @@ MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
 KIT = ROOT / "robo47"
+# Lines that import of the kit; to parse the whole would take a tenth of a check.
+_IMPORTS = re.compile(
+    r"^ *(?:from (robo47[\w.]*) import (\([^)]*\)|.*)|import (robo47[\w.]*))", re.M
+)
 
 
 def request(
@@ -150,12 +154,10 @@ def _source_of(name: str) -> tuple[str, tuple[str, ...]]:
             f"a day's library names {shown(path)}, which is not there"
         ) from None
     inner: list[str] = []
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.ImportFrom) and node.module:
-            names = [f"{node.module}.{alias.name}" for alias in node.names]
-            inner += [n if file_of(_inner(n)).is_file() else node.module for n in names]
-        elif isinstance(node, ast.Import):
-            inner += [alias.name for alias in node.names]
+    for module, imported, plain in _IMPORTS.findall(source):
+        names = [f"{module}.{name}" for name in re.findall(r"\w+", imported)]
+        inner += [n if file_of(_inner(n)).is_file() else module for n in names]
+        inner += [plain]
     return source, tuple(filter(None, map(_inner, inner)))
 
 
