@@ -138,7 +138,7 @@ def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
     limits = np.hstack([low, high])
     best, miss = start.copy(), np.empty(start.shape[1])
     for i in range(len(miss)):
-        walker = Walker(plan.alone, goals[..., i], limits)
+        walker = Walker(plan, goals[..., i], limits)
         best[:, i], miss[i] = walker.walk(start[:, i].tolist(), FIRST)
         if miss[i] <= STOP**2:
             continue
