@@ -12,7 +12,7 @@ All links go through each call together. Two habits make the calls few:
 Conventions as in `robo47.dynamics`.
 """
 
-from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -117,20 +117,6 @@ class Constants:
         self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms
 
 
-class lazy:  # noqa: N801 (a decorator, as property is)
-    """What `cached_property` is, without the lock that Python 3.11 takes in it."""
-
-    def __init__(self, compute: Callable[[Any], Array]) -> None:
-        self._compute, self.__doc__ = compute, compute.__doc__
-
-    def __get__(self, state: Any, owner: type) -> Any:
-        """Compute the value; where it stands from then on, nothing calls this."""
-        if state is None:
-            return self
-        value = state.__dict__[self._compute.__name__] = self._compute(state)
-        return value
-
-
 class ArmState:
     """An arm at one configuration. Each quantity is computed when first asked for.
 
@@ -152,23 +138,23 @@ class ArmState:
             step *= 2
         self._moved = moved  # e^[S1]q1 ... e^[Si]qi of each link i
 
-    @lazy
+    @cached_property
     def T_links(self) -> Array:
         """`T_world_link` of each link, (n, 4, 4)."""
         return self._moved @ self._c.T_zero
 
-    @lazy
+    @cached_property
     def T_world_ee(self) -> Array:
         """Pose of the arm's end, (4, 4)."""
         return self._moved[-1] @ self._c.M_home
 
-    @lazy
+    @cached_property
     def coms_world(self) -> Array:
         """Centres of mass in the world, metres, (n, 3)."""
         T = self.T_links
         return (T[:, :3, :3] @ self._c.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
 
-    @lazy
+    @cached_property
     def _S(self) -> Array:
         """The joints' screws where they are now, (n, 6): the rows of J_space^T."""
         n = len(self.q)
@@ -177,37 +163,37 @@ class ArmState:
         S[:, 3:] += ((p @ SKEW).reshape(n, 3, 3) @ S[:, :3, None])[:, :, 0]
         return S
 
-    @lazy
+    @cached_property
     def J_space(self) -> Array:
         """Space Jacobian, (6, n)."""
         return self._S.T
 
-    @lazy
+    @cached_property
     def J_site(self) -> Array:
         """Jacobian of the arm's end: (omega; v of its origin) in world axes, (6, n)."""
         to_end = EYE.copy()
         to_end[:3, 3:] = (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
         return (self._S @ to_end).T
 
-    @lazy
+    @cached_property
     def G(self) -> Array:
         """Inertias of the links about the world's origin, (n, 6, 6)."""
         n = len(self.q)
         return (self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
 
-    @lazy
+    @cached_property
     def _P(self) -> Array:
         """Pseudo-inertias of the links about the world's origin, (n, 4, 4)."""
         return self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
 
-    @lazy
+    @cached_property
     def _momenta(self) -> Array:
         """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
         n = len(self.q)
         carried = (self._c.after @ self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]
 
-    @lazy
+    @cached_property
     def M(self) -> Array:
         """Mass matrix with the armature, kg m^2, (n, n)."""
         half = self._momenta @ self._S.T
@@ -215,7 +201,7 @@ class ArmState:
         M += self._c.armature
         return M
 
-    @lazy
+    @cached_property
     def gravity_torque(self) -> Array:
         """Torque that holds the arm still, N m, (n,)."""
         return self._momenta @ self._c.A_base

@@ -5,7 +5,8 @@ turns), never to compute the answer. Only the seven arm joints, whatever else th
 model holds. Units: metres, radians, kilograms; screws are (omega; v).
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -31,6 +32,20 @@ class Inertias(NamedTuple):
     inertias: (
         Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
     )
+
+    def carrying(self, carry: Callable[..., Array], *load: Any) -> "Inertias":
+        """Return the same bodies, the last one with a load that carry makes part of it.
+
+        Args:
+            carry: as `robo47.trajectory.carry`.
+            load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
+        """
+        masses, coms, inertias = (part.copy() for part in self)
+        ten = carry(masses[-1], coms[-1], inertias[-1], *load)
+        xx, yy, zz, xy, xz, yz = ten[4:]
+        masses[-1], coms[-1] = ten[0], ten[1:4]
+        inertias[-1] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+        return Inertias(masses, coms, inertias)
 
 
 def screws(model: mujoco.MjModel) -> Array:

@@ -114,12 +114,8 @@ def carried(model: mujoco.MjModel, carry: Function, q: Array, seed: int) -> Arra
         q: configurations, (n, 7).
         seed: of the velocities.
     """
-    masses, coms, inertias = (part.copy() for part in panda.inertias(model))
-    ten = carry(masses[6], coms[6], inertias[6], *panda.hand_inertia(model))
-    xx, yy, zz, xy, xz, yz = ten[4:]
-    masses[6], coms[6] = ten[0], ten[1:4]
-    inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-    arm = replace(panda.arm(model), masses=masses, coms=coms, inertias=inertias)
+    heavier = panda.inertias(model).carrying(carry, *panda.hand_inertia(model))
+    arm = replace(panda.arm(model), **heavier._asdict())
     qd = np.random.default_rng(seed).uniform(-2, 2, q.shape)
     closed, still = np.zeros((len(q), model.nq - 7)), np.zeros((len(q), model.nv - 7))
     truth = mujoco_bias(model, np.hstack([q, closed]), np.hstack([qd, still]))
