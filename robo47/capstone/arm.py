@@ -16,7 +16,7 @@ import numpy as np
 from robo47 import panda, simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.panda import ARM_JOINTS
+from robo47.panda.reading import joint_ids
 
 Law = Callable[[float, Array, Array], Array]  # (t, q, qd) to torques, (7,)
 
@@ -46,7 +46,7 @@ class Arm:
     def __init__(self, fns: Any, model: mujoco.MjModel):
         """Read the model's numbers; `fns` turns them into screws and inertias."""
         self.fns = fns
-        bodies = [int(model.joint(name).bodyid[0]) for name in ARM_JOINTS]
+        bodies = model.jnt_bodyid[joint_ids(model)]
         frames = [(model.body_pos[b], model.body_quat[b]) for b in bodies]
         self.T_parent_link = [fns.link_T(p.copy(), quat.copy()) for p, quat in frames]
         body = model.body("hand")
