@@ -8,9 +8,9 @@ x' = c x + s y and y' = c y - s x. A slide touches only p.
 Units: metres and radians; quaternions (w, x, y, z).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,10 +37,7 @@ class Chunk(NamedTuple):
     sin: Numbers
 
 
-class Step(Protocol):
-    """An elementary move: takes the frame before it to the one after it."""
-
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes: ...
+Step = Callable[[Axes, Chunk], Axes]  # takes the frame before it to the one after it
 
 
 class Shift:

@@ -179,10 +179,8 @@ def arm(model: mujoco.MjModel) -> Arm:
 
 def _drawn(model: mujoco.MjModel) -> Array:
     """Return qpos with hinges and slides at 0; a free body where the file has it."""
-    q = model.qpos0.copy()
-    for joint in range(model.njnt):
-        if model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
-            q[model.jnt_qposadr[joint]] = 0.0
+    q, single = model.qpos0.copy(), model.jnt_type >= int(mujoco.mjtJoint.mjJNT_SLIDE)
+    q[model.jnt_qposadr[single]] = 0.0
     return q
 
 

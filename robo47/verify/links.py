@@ -62,27 +62,22 @@ def motions(
     return Motions(q, qd, qdd, J, T, coms, links, armature, damping, g, M)
 
 
-def cloud(rng: np.random.Generator) -> tuple[Array, Array, tuple]:
-    """Return eight random points, what each weighs, and their mass, centre, inertia."""
-    points, weights = rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)
-    c = weights @ points / weights.sum()
-    d = points - c
-    inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
-    return points, weights, (weights.sum(), c, inertia)
-
-
-def momentum(points: Array, weights: Array, V: Array) -> Array:
-    """Return the momentum (angular; linear) of points that move with V, one by one."""
-    p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
-    return np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
-
-
 def momenta(spatial_inertia: Function, n: int, rng: np.random.Generator) -> Array:
-    """Return G V of n clouds of points minus their momenta, (n, 6)."""
-    points, weights, own = zip(*[cloud(rng) for _ in range(n)], strict=True)
-    V = rng.normal(size=(n, 6))
-    by_hand = each(lambda one, v: spatial_inertia(*one) @ v, own, V)
-    return by_hand - each(momentum, points, weights, V)
+    """Return G V of n random clouds of points minus their momenta, (n, 6).
+
+    A momentum (angular; linear) is added up point by point; G is given the cloud's
+    mass, centre and inertia.
+    """
+    clouds = [(rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)) for _ in range(n)]
+    off = []
+    for (points, weights), V in zip(clouds, rng.normal(size=(n, 6)), strict=True):
+        c = weights @ points / weights.sum()
+        d = points - c
+        inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
+        p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
+        momentum = np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
+        off.append(spatial_inertia(weights.sum(), c, inertia) @ V - momentum)
+    return np.array(off)
 
 
 def crosses(ad: Function, n: int, rng: np.random.Generator) -> Array:

@@ -57,9 +57,7 @@ def mujoco_inverse_dynamics(
     """Return the torque that MuJoCo finds for an acceleration, by mj_inverse.
 
     Args:
-        model: any compiled model.
-        qpos: configurations, (..., nq).
-        qvel: joint velocities, rad/s, (..., nv).
+        model, qpos, qvel: as in `mujoco_bias`.
         qacc: joint accelerations, rad/s^2, (..., nv).
 
     Returns:
@@ -92,10 +90,7 @@ def mujoco_step(
     """Return the joint velocities one simulation step later, by mj_step.
 
     Args:
-        model: any compiled model; with `drive="torque"` ctrl is a torque.
-        qpos: configurations, (..., nq).
-        qvel: joint velocities, rad/s, (..., nv).
-        ctrl: of the motors, (..., nu).
+        model, qpos, qvel, ctrl: as in `mujoco_acceleration`.
 
     Returns:
         qvel, rad/s, (..., nv).
