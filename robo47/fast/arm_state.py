@@ -77,41 +77,27 @@ SPATIAL = _spatial_map()
 
 
 class Constants:
-    """What does not depend on q.
-
-    Attributes:
-        powers: what 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
-            1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq.
-            3.85).
-        ones: n of them.
-        pairs: omega and v of each joint as two rows, (n, 2, 3).
-        pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
-        before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
-        twice: 2 below the diagonal, 1 on it, (n, n).
-        after: 1 on and above it: after @ x sums x inwards, from the tip.
-        lower: true on and below the diagonal, (n, n).
-        armature: on a diagonal, (n, n).
-        A_base: acceleration of a base that feels like gravity, (6,).
-        W_base: the same as a matrix, [A_base], (16,).
-        M_home, T_zero, coms: as `robo47.arm.Arm` has them.
-    """
+    """What does not depend on q, of a `robo47.arm.Arm`."""
 
     def __init__(self, arm: Any) -> None:
         n = len(arm.masses)
         S = np.zeros((n, 4, 4))
         S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
         S2, S3 = S @ S, S @ S @ S
+        # What 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
+        # 1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
-        self.powers = powers.reshape(n, 4, 16)
-        self.ones = np.ones(n)
-        self.pairs = arm.screws.reshape(n, 2, 3).copy()
+        self.powers, self.ones = powers.reshape(n, 4, 16), np.ones(n)
+        self.pairs = arm.screws.reshape(n, 2, 3).copy()  # omega and v of each joint
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
+        # Of the links at q = 0, about the world's origin, (n, 4, 4).
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
-        self.before = np.tri(n)
-        self.twice = 2 * self.before - np.eye(n)
-        self.after = self.before.T.copy()
+        self.before = np.tri(n)  # before @ x sums x outwards
+        self.after = self.before.T.copy()  # after @ x sums x inwards, from the tip
+        self.twice = 2 * self.before - np.eye(n)  # 2 below the diagonal, 1 on it
         self.lower = self.before.astype(bool)
         self.armature = np.diag(arm.armature)
+        # The acceleration of a base that feels like gravity, and it as a matrix, (16,).
         self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
         self.W_base = self.A_base @ HAT
         self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms

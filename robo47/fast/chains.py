@@ -106,9 +106,11 @@ class Cursor:
         self._step(moves.Ball(name, adr))
 
     def free(self, name: str, adr: int) -> None:
-        """Add a free joint, which forgets everything before it."""
-        self.R, self.t = np.eye(3), np.zeros(3)
-        self._step(moves.Free(name, adr))
+        """Add a free joint (position, quaternion), which forgets what is before it."""
+        self.node, self.R, self.t = 0, np.eye(3), np.zeros(3)
+        for axis in range(3):
+            self.slide(np.eye(3)[axis], adr + axis, 0.0)
+        self.ball(name, adr + 3)
 
     def _rotate(self, R: Array) -> None:
         """Really turn the moving frame by R."""

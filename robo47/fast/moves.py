@@ -9,7 +9,6 @@ Units: metres and radians; quaternions (w, x, y, z).
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -96,32 +95,24 @@ class Slide:
         return (*at[:3], moved(at[3], (x * q, y * q, z * q)))
 
 
-@dataclass(frozen=True)
 class Ball:
     """Ball: turn by the quaternion in q."""
 
-    name: str
-    adr: int
+    def __init__(self, name: str, adr: int) -> None:
+        self.name, self.adr = name, adr
 
     def __call__(self, at: Axes, chunk: Chunk) -> Axes:
-        columns = _rotation(chunk.q, self.adr, self.name)
+        try:
+            R = se3.quat_to_R(np.array(chunk.q[self.adr : self.adr + 4]).T)
+        except ValueError:
+            raise ValueError(
+                f"{self.name}: its quaternion in qpos has length 0"
+            ) from None
         x, y, z = (
             tuple(a * u + b * v + c * w for a, b, c in zip(*at[:3], strict=True))
-            for u, v, w in columns
+            for u, v, w in np.moveaxis(R, (-1, -2), (0, 1))
         )
         return x, y, z, at[3]
-
-
-@dataclass(frozen=True)
-class Free:
-    """Free: the pose (position, quaternion) in q, whatever the frame was."""
-
-    name: str
-    adr: int
-
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
-        columns = _rotation(chunk.q, self.adr + 3, self.name)
-        return (*columns, tuple(chunk.q[self.adr : self.adr + 3]))
 
 
 def combine(at: Axes, terms: Terms) -> Triple:
@@ -144,12 +135,3 @@ def moved(p: Triple, by: Triple) -> Triple:
 def terms_of(weights: Array) -> Terms:
     """Return fixed weights of the axes, (3,), as terms."""
     return [(i, w) for i, w in enumerate(weights.tolist()) if w != 0.0]
-
-
-def _rotation(q: Numbers, adr: int, name: str) -> list[Triple]:
-    """Return the columns of R of the quaternion at adr; joints named in the error."""
-    try:
-        R = se3.quat_to_R(np.array(q[adr : adr + 4]).T)
-    except ValueError:
-        raise ValueError(f"{name}: its quaternion in qpos has length 0") from None
-    return [(R[..., 0, j], R[..., 1, j], R[..., 2, j]) for j in range(3)]

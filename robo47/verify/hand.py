@@ -23,21 +23,14 @@ Function = Callable[..., Array]  # one of the lab's own
 
 
 class State(NamedTuple):
-    """A random state of the arm, and random things to ask of it.
+    """A random state of the arm, and random things to ask of it."""
 
-    Attributes:
-        now: the arm at its configuration.
-        qd: joint velocities in rad/s, (7,).
-        torque: of the joints in N m, (7,).
-        wrench, acc, e: at the hand, (6,): to push with, to ask for, to be off by.
-    """
-
-    now: ArmState
-    qd: Array
-    torque: Array
-    wrench: Array
-    acc: Array
-    e: Array
+    now: ArmState  # the arm at its configuration
+    qd: Array  # joint velocities in rad/s, (7,)
+    torque: Array  # of the joints in N m, (7,)
+    wrench: Array  # at the hand, (6,), to push with
+    acc: Array  # at the hand, (6,), to ask for
+    e: Array  # at the hand, (6,), to be off by
 
 
 def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State]:

@@ -21,29 +21,19 @@ Function = Callable[..., Array]  # one of the lab's own
 
 
 class Motions(NamedTuple):
-    """The arm, ready and then at n - 1 random configurations, each with a motion.
+    """The arm, ready and then at n - 1 random configurations, each with a motion."""
 
-    Attributes:
-        q, qd, qdd: configurations, speeds and accelerations, (n, 7).
-        J: space Jacobians, (n, 6, 7).
-        T: poses of link1 to link7, (n, 7, 4, 4).
-        coms: their centres of mass in the world, (n, 7, 3).
-        links: masses, centres and inertias in the links' own axes, each n times.
-        armature, damping, g: of the arm, each n times.
-        M: MuJoCo's mass matrices, (n, 7, 7).
-    """
-
-    q: Array
-    qd: Array
-    qdd: Array
-    J: Array
-    T: Array
-    coms: Array
-    links: list[Array]
-    armature: Array
-    damping: Array
-    g: Array
-    M: Array
+    q: Array  # configurations, (n, 7)
+    qd: Array  # their speeds
+    qdd: Array  # and accelerations
+    J: Array  # space Jacobians, (n, 6, 7)
+    T: Array  # poses of link1 to link7, (n, 7, 4, 4)
+    coms: Array  # their centres of mass in the world, (n, 7, 3)
+    links: list[Array]  # masses, centres, inertias in the links' own axes, each n times
+    armature: Array  # of the arm, n times
+    damping: Array  # likewise
+    g: Array  # likewise
+    M: Array  # MuJoCo's mass matrices, (n, 7, 7)
 
 
 def motions(

@@ -21,18 +21,12 @@ REST = 0.1  # s, before and after a move, to see how it starts and stops
 
 
 class Moves(NamedTuple):
-    """Random moves of the seven joints, long and short.
+    """Random moves of the seven joints, long and short."""
 
-    Attributes:
-        q0, q1: from where to where, (n, 7).
-        T: how long each takes, (n,).
-        t: an instant of each, also before its start and after its end, (n,).
-    """
-
-    q0: Array
-    q1: Array
-    T: Array
-    t: Array
+    q0: Array  # from where, (n, 7)
+    q1: Array  # to where, (n, 7)
+    T: Array  # how long each takes, (n,)
+    t: Array  # an instant of each, also before its start and after its end, (n,)
 
 
 def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
