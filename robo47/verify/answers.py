@@ -11,6 +11,8 @@ import numpy as np
 
 from robo47 import jacobian, panda, screws, se3
 from robo47.checks import Array
+from robo47.fast.arm_state import HAT
+from robo47.fast.vectors import times
 from robo47.verify.motion import mujoco_site_jacobian
 from robo47.verify.poses import mujoco_poses, mujoco_rotation, random_q
 
@@ -50,7 +52,7 @@ def random_screws(n: int, seed: int) -> tuple[Array, Array]:
 def off_cross(skew: Callable[..., Array], n: int, seed: int = SEED) -> Array:
     """Return how far [a] b is from the cross product, (n, 3), of random a and b."""
     a, b = np.random.default_rng(seed).normal(size=(2, n, 3))
-    return (each(skew, a) @ b[..., None])[..., 0] - np.cross(a, b)
+    return times(each(skew, a), b) - np.cross(a, b)
 
 
 def off_rotation(exp_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Array:
@@ -75,15 +77,9 @@ def off_adjoint(adjoint: Callable[..., Array], T: Array, seed: int = SEED) -> Ar
         seed: of the screws S.
     """
     S, _ = random_screws(len(T), seed)
-    told = (each(adjoint, T) @ S[..., None])[..., 0]
-    return _bracket(told) - T @ _bracket(S) @ se3.inverse(T)
-
-
-def _bracket(S: Array) -> Array:
-    """Return [S], (n, 4, 4), of any six numbers."""
-    B = np.zeros((len(S), 4, 4))
-    B[:, :3, :3], B[:, :3, 3] = screws.skew(S[:, :3]), S[:, 3:]
-    return B
+    told = times(each(adjoint, T), S)
+    seen, own = ((rows @ HAT).reshape(-1, 4, 4) for rows in (told, S))  # [S]
+    return seen - T @ own @ se3.inverse(T)
 
 
 def off_log(log_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Array:
@@ -142,13 +138,10 @@ def off_least_squares(
     """
     e = np.random.default_rng(seed).normal(size=(len(J), 6))
     damping = np.resize([0.05, 1.0], len(J))
-    rows = [np.vstack([A, d * np.eye(7)]) for A, d in zip(J, damping, strict=True)]
+    rows = np.concatenate([J, damping[:, None, None] * np.eye(7)], axis=1)
     right = np.hstack([e, np.zeros((len(J), 7))])
-    return each(dls_step, J, e, damping) - each(_solved, np.array(rows), right)
-
-
-def _solved(A: Array, b: Array) -> Array:
-    return np.asarray(np.linalg.lstsq(A, b)[0], dtype=np.float64)
+    truth = each(lambda A, b: np.linalg.lstsq(A, b)[0], rows, right)
+    return each(dls_step, J, e, damping) - truth
 
 
 def off_null_vector(
