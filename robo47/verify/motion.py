@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
+SITE = "attachment_site"  # where the arm without a hand ends
+
 
 def mujoco_mass_matrix(model: mujoco.MjModel, qpos: ArrayLike) -> Array:
     """Return MuJoCo's mass matrix, armature included.
@@ -99,7 +101,7 @@ def mujoco_step(
 
 
 def mujoco_site_jacobian(
-    model: mujoco.MjModel, qpos: ArrayLike, site: str = "attachment_site"
+    model: mujoco.MjModel, qpos: ArrayLike, site: str = SITE
 ) -> Array:
     """Return MuJoCo's Jacobian of a site, as twists (omega; v).
 
@@ -128,19 +130,13 @@ def mujoco_site_jacobian(
     return _ask(model, read, qpos=qpos)
 
 
-def mujoco_push(
-    model: mujoco.MjModel,
-    qpos: ArrayLike,
-    wrench: ArrayLike,
-    site: str = "attachment_site",
-) -> Array:
-    """Return the joint torques that MuJoCo puts in the place of a wrench at a site.
+def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Array:
+    """Return the joint torques that MuJoCo puts in the place of a wrench at the hand.
 
     Args:
         model: any compiled model.
         qpos: configurations, (n, nq).
-        wrench: moment about the site's point and force, world axes, (n, 6).
-        site: its MJCF name.
+        wrench: moment about `attachment_site` and force, world axes, (n, 6).
 
     Returns:
         Torques by mj_applyFT, N m, (n, nv).
@@ -148,7 +144,7 @@ def mujoco_push(
     Raises:
         Robo47Error: the model has no such site.
     """
-    number, data, answers = _site(model, site), mujoco.MjData(model), []
+    number, data, answers = _site(model, SITE), mujoco.MjData(model), []
     body = int(model.site_bodyid[number])
     for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
         data.qpos[:] = q
