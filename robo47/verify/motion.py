@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
+from robo47 import simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
@@ -144,15 +145,12 @@ def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Ar
     Raises:
         Robo47Error: the model has no such site.
     """
-    number, data, answers = _site(model, SITE), mujoco.MjData(model), []
-    body = int(model.site_bodyid[number])
+    _site(model, SITE)
+    data, answers = mujoco.MjData(model), []
     for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
-        data.qpos[:] = q
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        at, tau = data.site_xpos[number], np.zeros(model.nv)
-        mujoco.mj_applyFT(model, data, F[3:], F[:3], at, body, tau)
-        answers.append(tau)
+        data.qpos[:], data.qfrc_applied[:] = q, 0.0
+        simulate.push_at(SITE, F)(model, data)
+        answers.append(data.qfrc_applied.copy())
     return np.array(answers)
 
 
