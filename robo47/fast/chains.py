@@ -7,35 +7,26 @@ plan of the elementary moves of `robo47.fast.moves`, which uses what the chain k
   goes in plain floats, since NumPy spends its time on calls there, not on numbers.
 - Fixed rotations between joints cost nothing. The moving frame does not follow them:
   the next joint's axis is expressed in the frame as it stands (the idea behind the
-  product of exponentials, Modern Robotics section 4.1), and what is left of them is
-  multiplied on once, where a frame is asked for. Only where an axis is none of the
-  frame's own three is the frame really turned.
+  product of exponentials, Modern Robotics section 4.1). It is really turned only where
+  an axis is none of its own three, and where a frame is asked for.
 
 Units: metres and radians.
 """
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from copy import copy
 
 import numpy as np
 
 from robo47.checks import Array
 from robo47.fast import moves
-from robo47.fast.moves import WORLD, Axes, Chunk, Terms, combine, moved, terms_of
+from robo47.fast.moves import WORLD, Axes, Chunk
 from robo47.fast.vectors import Number
 
 CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
 LAST_ROW = (0.0, 0.0, 0.0, 1.0)  # of a pose
 ROUNDING = 2e-15  # what products of unit quaternions leave instead of 0 and 1
-
-
-class Frame(NamedTuple):
-    """A frame that is asked for: a fixed pose seen from a moving frame."""
-
-    node: int
-    columns: list[Terms]  # of its rotation
-    t: Terms
 
 
 class Plan:
@@ -46,7 +37,7 @@ class Plan:
         self.nq, self.ref = nq, np.zeros((nq, 1))
         self.steps: list[tuple[int, moves.Step]] = []
         self.joints: list[tuple[int, moves.Turn | moves.Slide]] = []  # with their nodes
-        self.frames: dict[str, Frame] = {}
+        self.frames: dict[str, int] = {}  # the node of each that is asked for
 
     def nodes(self, chunk: Chunk) -> list[Axes]:
         """Return every node's frame, of configurations measured from `ref`."""
@@ -69,8 +60,9 @@ class Cursor:
 
     def mark(self, name: str) -> None:
         """Ask for the frame at this place."""
-        columns = [terms_of(column) for column in self.R.T]
-        self.plan.frames[name] = Frame(self.node, columns, terms_of(self.t))
+        end = copy(self)
+        end._settle()
+        self.plan.frames[name] = end.node
 
     def fixed(self, T: Array) -> None:
         """Add a fixed pose, (4, 4)."""
@@ -100,9 +92,7 @@ class Cursor:
 
     def ball(self, name: str, adr: int) -> None:
         """Add a ball joint."""
-        self._flush_shift()
-        if not np.array_equal(self.R, np.eye(3)):
-            self._rotate(self.R)
+        self._settle()
         self._step(moves.Ball(name, adr))
 
     def free(self, name: str, adr: int) -> None:
@@ -111,6 +101,12 @@ class Cursor:
         for axis in range(3):
             self.slide(np.eye(3)[axis], adr + axis, 0.0)
         self.ball(name, adr + 3)
+
+    def _settle(self) -> None:
+        """Take the moving frame to this place."""
+        self._flush_shift()
+        if not np.array_equal(self.R, np.eye(3)):
+            self._rotate(self.R)
 
     def _rotate(self, R: Array) -> None:
         """Really turn the moving frame by R."""
@@ -149,8 +145,8 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     if only and all(map(math.isfinite, only)):
         nodes, shape = plan.nodes(one_of(only)), (*qpos.shape[:-1], 4, 4)
         return {
-            name: np.array([*_numbers(seen(nodes, frame)), *LAST_ROW]).reshape(shape)
-            for name, frame in plan.frames.items()
+            name: np.array([*_numbers(nodes[node]), *LAST_ROW]).reshape(shape)
+            for name, node in plan.frames.items()
         }
     flat = qpos.reshape(math.prod(qpos.shape[:-1]), plan.nq)
     poses = {name: np.zeros((len(flat), 4, 4)) for name in plan.frames}
@@ -167,8 +163,8 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
 def _write(plan: Plan, q: Array, poses: list[Array]) -> None:
     """Write the frames' poses at q, (nq, n), into arrays that are zero, (n, 4, 4)."""
     nodes = plan.nodes(chunk_of(q))
-    for T, frame in zip(poses, plan.frames.values(), strict=True):
-        rows = rows_of(seen(nodes, frame), len(T))
+    for T, node in zip(poses, plan.frames.values(), strict=True):
+        rows = rows_of(nodes[node], len(T))
         T.reshape(-1, 16)[:, :12] = rows.T  # one pass over the output
         T[:, 3, 3] = 1.0
 
@@ -207,13 +203,6 @@ def chunk_of(q: Array) -> Chunk:
     t = np.tan(0.5 * q)
     r = 2.0 / (1.0 + t * t)
     return Chunk(q, r - 1.0, t * r)
-
-
-def seen(nodes: list[Axes], frame: Frame) -> Axes:
-    """Return a frame that is asked for, as the nodes are."""
-    at = nodes[frame.node]
-    axes = [combine(at, terms) for terms in frame.columns]
-    return (*axes, moved(at[3], combine(at, frame.t)))
 
 
 def rows_of(at: Axes, n: int) -> Array:

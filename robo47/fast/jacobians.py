@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.chains import Plan, chunk_of, in_chunks, one_of, rows_of, seen
+from robo47.fast.chains import Plan, chunk_of, in_chunks, one_of, rows_of
 from robo47.fast.exponentials import END, plan_of
 from robo47.fast.moves import ZERO, Chunk, Slide, moved
 
@@ -57,7 +57,7 @@ def columns_of(plan: Plan, chunk: Chunk, at_end: bool) -> tuple[list[Any], Any]:
             True for that of the end effector, in world axes.
     """
     nodes = plan.nodes(chunk)
-    end = seen(nodes, plan.frames[END])
+    end = nodes[plan.frames[END]]
     x, y, z = end[3] if at_end else ZERO
     J: list[Any] = [(*ZERO, *ZERO)] * plan.nq
     for node, step in plan.joints:
