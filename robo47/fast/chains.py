@@ -43,7 +43,7 @@ class Plan:
         """Return every node's frame, of configurations measured from `ref`."""
         nodes = [WORLD]
         for source, step in self.steps:
-            nodes.append(step(nodes[source], chunk))
+            nodes.append(step.move(nodes[source], chunk))
         return nodes
 
 

@@ -8,7 +8,7 @@ x' = c x + s y and y' = c y - s x. A slide touches only p.
 Units: metres and radians; quaternions (w, x, y, z).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -36,16 +36,13 @@ class Chunk(NamedTuple):
     sin: Numbers
 
 
-Step = Callable[[Axes, Chunk], Axes]  # takes the frame before it to the one after it
-
-
 class Shift:
     """Move the origin by a fixed vector, in the frame's own axes, metres."""
 
     def __init__(self, vector: Array) -> None:
         self.vector, self._terms = vector, terms_of(vector)
 
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
         x, y, z, p = at
         return x, y, z, moved(p, combine(at, self._terms))
 
@@ -56,8 +53,9 @@ class Rotate:
     def __init__(self, R: Array) -> None:
         self.R, self._terms = R, [terms_of(column) for column in R.T]
 
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
-        return (*(combine(at, terms) for terms in self._terms), at[3])
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        x, y, z = self._terms
+        return combine(at, x), combine(at, y), combine(at, z), at[3]
 
 
 class Turn:
@@ -69,7 +67,7 @@ class Turn:
         # A turn about -k is a turn about k with the other two axes swapped.
         self._turned = (one, two) if sign > 0 else (two, one)  # from one to the other
 
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
         i, j = self._turned
         _, cos, sin = chunk
         c, s = cos[self.adr], sin[self.adr]
@@ -90,7 +88,7 @@ class Slide:
         """Return where q = 1 would move the origin, in world axes."""
         return combine(at, self._terms)
 
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
         (x, y, z), q = self.along(at), chunk.q[self.adr]
         return (*at[:3], moved(at[3], (x * q, y * q, z * q)))
 
@@ -101,7 +99,7 @@ class Ball:
     def __init__(self, name: str, adr: int) -> None:
         self.name, self.adr = name, adr
 
-    def __call__(self, at: Axes, chunk: Chunk) -> Axes:
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
         try:
             R = se3.quat_to_R(np.array(chunk.q[self.adr : self.adr + 4]).T)
         except ValueError:
@@ -113,6 +111,9 @@ class Ball:
             for u, v, w in np.moveaxis(R, (-1, -2), (0, 1))
         )
         return x, y, z, at[3]
+
+
+Step = Shift | Rotate | Turn | Slide | Ball  # each takes a frame to the next one
 
 
 def combine(at: Axes, terms: Terms) -> Triple:
