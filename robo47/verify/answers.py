@@ -16,6 +16,8 @@ from robo47.fast.vectors import times
 from robo47.verify.motion import mujoco_site_jacobian
 from robo47.verify.poses import mujoco_poses, mujoco_rotation, random_q
 
+Function = Callable[..., Array]  # one of the lab's own
+Check = Callable[[str, Array], None]  # is given a name and differences
 SEED = 47  # the same random numbers at every run
 SITE = "site:attachment_site"
 
@@ -45,26 +47,26 @@ def _screws(n: int) -> tuple[Array, Array]:
     return S, rng.uniform(-np.pi, np.pi, n)
 
 
-def off_cross(skew: Callable[..., Array], n: int) -> Array:
+def off_cross(skew: Function, n: int) -> Array:
     """Return how far [a] b is from the cross product, (n, 3), of random a and b."""
     a, b = np.random.default_rng(SEED).normal(size=(2, n, 3))
     return times(each(skew, a), b) - np.cross(a, b)
 
 
-def off_rotation(exp_rotation: Callable[..., Array], n: int) -> Array:
+def off_rotation(exp_rotation: Function, n: int) -> Array:
     """Return how far rotations about random axes are from MuJoCo's, (n, 3, 3)."""
     S, theta = _screws(2 * n)
     given = S[1::2, :3], theta[1::2]  # no slides
     return each(exp_rotation, *given) - each(mujoco_rotation, *given)
 
 
-def off_motion(exp_screw: Callable[..., Array], n: int) -> Array:
+def off_motion(exp_screw: Function, n: int) -> Array:
     """Return how far motions along random screws are from the library's, (n, 4, 4)."""
     given = _screws(n)
     return each(exp_screw, *given) - screws.exp_screw(*given)
 
 
-def off_adjoint(adjoint: Callable[..., Array], T: Array) -> Array:
+def off_adjoint(adjoint: Function, T: Array) -> Array:
     """Return how far screws told by Ad(T) are from T [S] inv(T), (n, 4, 4).
 
     Args:
@@ -77,7 +79,7 @@ def off_adjoint(adjoint: Callable[..., Array], T: Array) -> Array:
     return seen - T @ own @ se3.inverse(T)
 
 
-def off_log(log_rotation: Callable[..., Array], n: int) -> Array:
+def off_log(log_rotation: Function, n: int) -> Array:
     """Return how far the logarithms of n known turns are off, (n, 3).
 
     Some are next to 0, or next to pi down to 1e-9 rad; one is half a turn about y.
@@ -97,7 +99,7 @@ def off_log(log_rotation: Callable[..., Array], n: int) -> Array:
     return each(log_rotation, R) - angles[:, None] * axes
 
 
-def off_goal(pose_error: Callable[..., Array], T: Array, goal: Array) -> Array:
+def off_goal(pose_error: Function, T: Array, goal: Array) -> Array:
     """Return how far from its goal a hand is that was moved by its error.
 
     Args:
@@ -117,7 +119,7 @@ def off_goal(pose_error: Callable[..., Array], T: Array, goal: Array) -> Array:
     return (moved - goal)[:, :3]
 
 
-def off_least_squares(dls_step: Callable[..., Array], J: Array) -> Array:
+def off_least_squares(dls_step: Function, J: Array) -> Array:
     """Return how far damped steps are from those of numpy.linalg.lstsq, (n, 7).
 
     With seven more rows, damping times the identity, |J dq - e|^2 + damping^2 |dq|^2 is
@@ -135,7 +137,7 @@ def off_least_squares(dls_step: Callable[..., Array], J: Array) -> Array:
     return each(dls_step, J, e, damping) - truth
 
 
-def off_null_vector(null_step: Callable[..., Array], J: Array) -> Array:
+def off_null_vector(null_step: Function, J: Array) -> Array:
     """Return how far unfelt motions are from those along the null vector, (n, 7).
 
     Args:

@@ -5,7 +5,7 @@ row of differences a state. Twists, accelerations and wrenches have the rotation
 in world axes at the hand's site; J is the site Jacobian. SI units.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import mujoco
@@ -15,11 +15,9 @@ from robo47 import contact, jacobian, panda, simulate, task_space
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
-from robo47.verify.answers import each
+from robo47.verify.answers import Check, Function, each
 from robo47.verify.motion import mujoco_site_jacobian
 from robo47.verify.poses import random_q
-
-Function = Callable[..., Array]  # one of the lab's own
 
 
 class State(NamedTuple):
@@ -136,9 +134,7 @@ def kinematic(J: Array, M: Array, Lambda: Array, tau: Array) -> Array:
     return jacobian.null_step(J, tau)
 
 
-def compare(
-    check: Callable[[str, Array], None], found: Sequence[State], **own: Function
-) -> None:
+def compare(check: Check, found: Sequence[State], **own: Function) -> None:
     """Check functions against those of `robo47.task_space` of the same names."""
     rng, n = np.random.default_rng(len(found)), len(found)
     J, M = np.array([s.now.J_site for s in found]), np.array([s.now.M for s in found])

@@ -3,7 +3,6 @@
 Inertias are 6x6 about the world's origin, (angular; linear), in world axes. SI units.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import mujoco
@@ -13,11 +12,9 @@ from robo47 import panda, simulate
 from robo47.checks import Array
 from robo47.fast import dynamics
 from robo47.panda import READY_Q
-from robo47.verify.answers import each
+from robo47.verify.answers import Function, each
 from robo47.verify.motion import mujoco_acceleration, mujoco_mass_matrix, mujoco_step
 from robo47.verify.poses import random_q
-
-Function = Callable[..., Array]  # one of the lab's own
 
 
 class Motions(NamedTuple):

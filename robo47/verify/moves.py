@@ -3,7 +3,6 @@
 Radians, metres, seconds, kilograms.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -12,11 +11,10 @@ import numpy as np
 
 from robo47 import control, panda, se3, simulate, trajectory
 from robo47.checks import Array
-from robo47.verify.answers import each
+from robo47.verify.answers import Check, Function, each
 from robo47.verify.motion import mujoco_bias
 from robo47.verify.poses import random_q
 
-Function = Callable[..., Array]  # one of the lab's own
 REST = 0.1  # s, before and after a move, to see how it starts and stops
 
 
@@ -38,9 +36,7 @@ def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
     return Moves(q0, q1, T, rng.uniform(-0.2, 1.2, n) * T)
 
 
-def compare(
-    check: Callable[[str, Array], None], at: Moves, seed: int, **own: Function
-) -> None:
+def compare(check: Check, at: Moves, seed: int, **own: Function) -> None:
     """Check functions against those of `robo47.trajectory` of the same names."""
     rng, n = np.random.default_rng(seed), len(at.T)
     L, v, a = _ramps(n, seed)
