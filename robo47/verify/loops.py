@@ -65,10 +65,7 @@ def motors(
 
 
 def rest(
-    sag_step: Function,
-    q_goal: Array,
-    load: Callable[[Array], Array],
-    kp: Any,
+    sag_step: Function, q_goal: Array, load: Callable[[Array], Array], kp: Any
 ) -> Array:
     """Return where sag_step stays when it is asked 100 times, at its own answer."""
     q = q_goal
