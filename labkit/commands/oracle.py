@@ -67,8 +67,8 @@ def ask_for_poses() -> dict:
     """Return Pinocchio's poses of both entries at seeded configurations."""
     answers = {}
     for entry in ("panda", "panda_nohand"):
-        pin, model, data = read_robot(entry)
         q = verify.random_q(panda.load(entry), CONFIGURATIONS, SEED).round(6)
+        pin, model, data = read_robot(entry)
         frames = [f.name for f in model.frames if f.type in (pin.BODY, pin.OP_FRAME)]
         poses: dict[str, list] = {name: [] for name in frames if name != "universe"}
         for row in q:
