@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -90,13 +90,10 @@ def start_options() -> dict[str, object]:
     return {"start_new_session": True}
 
 
-def run(
-    command: Sequence[str], *, env: Mapping[str, str], **more: Any
-) -> subprocess.CompletedProcess[str]:
+def run(command: Sequence[str], **more: Any) -> subprocess.CompletedProcess[str]:
     """Run a program that reads no input; return what it printed, bad bytes as "?"."""
     return subprocess.run(
         command,
-        env=env,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,

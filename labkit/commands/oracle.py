@@ -16,7 +16,6 @@ It is 480 MB installed and has no Windows wheel, so it gets an environment of it
 
 import importlib
 import json
-import os
 import site
 import sys
 from importlib.util import find_spec
@@ -45,7 +44,7 @@ def bring_pinocchio() -> None:
         return
     print(f"installing {PIN} (about 100 MB) into {shown(ENVIRONMENT)} ...", flush=True)
     install = [sys.executable, "-m", "pip", "install", "-q", "--upgrade", "--target"]
-    done = processes.run([*install, str(ENVIRONMENT), PIN, TEXTBOOK], env=os.environ)
+    done = processes.run([*install, str(ENVIRONMENT), PIN, TEXTBOOK])
     if done.returncode != 0:
         raise Robo47Error(f"{PIN} could not be installed: {done.stderr.strip()[-300:]}")
     importlib.invalidate_caches()
