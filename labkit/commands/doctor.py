@@ -22,7 +22,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from labkit.base import cli
+from labkit.base import cli, processes
 from robo47.paths import ROOT
 
 IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
@@ -104,22 +104,16 @@ def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
     if not gl:
         kept.pop("MUJOCO_GL", None)
     try:
-        done = subprocess.run(
-            [python, "-c", code],
-            cwd=str(ROOT),
-            env=kept,
-            capture_output=True,
-            timeout=SECONDS,
-            check=False,
-        )
+        command = [python, "-c", code]
+        done = processes.run(command, cwd=ROOT, env=kept, timeout=SECONDS)
     except subprocess.TimeoutExpired:
-        return None, "no answer after {} s".format(SECONDS)  # noqa: UP032
+        return None, f"no answer after {SECONDS} s"
     except OSError as error:
         return None, str(error.strerror)
     try:
-        return json.loads(done.stdout.decode("utf-8", "replace").splitlines()[-1]), ""
+        return json.loads(done.stdout.splitlines()[-1]), ""
     except (ValueError, IndexError):
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        said = done.stderr.strip().splitlines()
         return None, said[-1] if said else f"ended with code {done.returncode}"
 
 
@@ -272,9 +266,7 @@ def check_git() -> Line:
 
 def git(*words: str) -> str:
     """Return what git says of the clone; "" where it says no."""
-    command = ["git", "-C", str(ROOT), *words]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return done.stdout.strip()
+    return processes.run(["git", "-C", str(ROOT), *words]).stdout.strip()
 
 
 def discreet(text: str) -> str:

@@ -2,7 +2,6 @@
 
 import json
 import shutil
-import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
+from labkit.base import processes
 from labkit.inspector.recording import Recording
 from labkit.lesson import folder
 from labkit.lesson.day import all_days
@@ -96,9 +96,7 @@ def _static(into: Path) -> Path:
         json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
     )
     command = ["npm", "run", "--silent", "build", "--", f"--outfile={into}/arm.js"]
-    done = subprocess.run(
-        command, cwd=SOURCES, capture_output=True, text=True, check=False
-    )
+    done = processes.run(command, cwd=SOURCES)
     if done.returncode:
         raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
     return into
