@@ -98,11 +98,8 @@ SOURCES = {
 }
 
 
-def fetch(root: Path) -> dict[str, Any]:
+def fetch(root: Path) -> None:
     """Fill a folder with the Panda from the first source that answers.
-
-    Returns:
-        The provenance.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
@@ -117,7 +114,7 @@ def fetch(root: Path) -> dict[str, Any]:
             try:
                 found = source(staging)
                 check_complete(staging / files.PANDA)
-                record = write_record(staging, found)
+                write_record(staging, found)
             except (Robo47Error, OSError) as error:  # a full disk is an OSError
                 print(f"robot: not from there: {error}", flush=True)
                 continue
@@ -125,7 +122,7 @@ def fetch(root: Path) -> dict[str, Any]:
             os.replace(staging / files.PANDA, root / files.PANDA)
             os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
             add_licence(root)
-            return record
+            return
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
         "to try again: make robot"
@@ -150,8 +147,8 @@ def check_complete(folder: Path) -> None:
         )
 
 
-def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
-    """Write PROVENANCE.json for the robot in root, and return it."""
+def write_record(root: Path, found: dict[str, Any]) -> None:
+    """Write PROVENANCE.json for the robot in root."""
     record = {
         "robot": files.PANDA,
         **found,
@@ -161,7 +158,6 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
     }
     text = json.dumps(record, indent=1) + "\n"
     store.replace(root / "PROVENANCE.json", text.encode())
-    return record
 
 
 def verify(root: Path) -> int:
@@ -171,10 +167,9 @@ def verify(root: Path) -> int:
     if "files" not in record:
         print(f"robot: {shown(folder)} is complete; no hashes were recorded for it")
         return cli.EXIT_OK
-    changed = files.changed_files(folder, record["files"])
+    changed, total = files.changed_files(folder, record["files"]), len(record["files"])
     for line in changed:
         print(line)
-    total = len(record["files"])
     print(f"robot: {total - len(changed)} of {total} files match their sha256")
     if changed:
         print(files.remedy())
@@ -205,10 +200,10 @@ def main() -> int:
             raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
         if options.verify:
             return verify(root)
-        show(files.read_provenance())
-        return cli.EXIT_OK
-    with store.alone("robot"):
-        bring(root)
+    else:
+        with store.alone("robot"):
+            bring(root)
+    show(files.read_provenance())
     return cli.EXIT_OK
 
 
@@ -216,14 +211,12 @@ def bring(root: Path) -> None:
     """Fetch the robot, or record the one that is there; note where nobody answers."""
     if files.panda_folder() is None:
         try:
-            show(fetch(root))
+            fetch(root)
         except Robo47Error:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
-        return
     check_complete(root / files.PANDA)
     # Somebody else's folder gets no file of ours.
     if not (files.record_of(root) or os.environ.get("MENAGERIE_ROOT")):
         add_licence(root)
         write_record(root, files.describe_copy(root))
-    show(files.read_provenance())
