@@ -164,15 +164,14 @@ def check_mujoco(python: str) -> Line:
     installed = probe(python, VERSIONS_PROBE)[0] or {}
     if "mujoco" not in installed:
         return Line("todo", "MuJoCo", "not installed", "make setup")
-    found = "{} does not work: {}".format(installed["mujoco"], why)
+    remedy = "make setup"
     if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
-        own = python == str(VENV_PYTHON)
-        where = VENV_PYTHON.relative_to(ROOT).as_posix() if own else "python"
+        where = ".venv/" + IN_VENV if python == str(VENV_PYTHON) else "python"
         remedy = where + " -m pip install --force-reinstall --no-deps"
         remedy += " mujoco mujoco-core mujoco-studio"
-        return Line("todo", "MuJoCo", found, remedy)
-    return Line("todo", "MuJoCo", found, "make setup")
+    found = "{} does not work: {}".format(installed["mujoco"], why)
+    return Line("todo", "MuJoCo", found, remedy)
 
 
 def check_robot(python: str) -> Line:
@@ -257,11 +256,11 @@ def check_git() -> Line:
         return Line("todo", "git", "not installed", "https://git-scm.com/downloads")
     values = {"user.name": '"Your Name"', "user.email": "you@example.org"}
     missing = [key for key in values if not git("config", key)]
-    if missing:
-        each = [f"git config --global {key} {values[key]}" for key in missing]
-        found = "does not know your " + " and ".join(missing)
-        return Line("todo", "git", found, " && ".join(each))
-    return Line("good", "git", "name and e-mail are set")
+    if not missing:
+        return Line("good", "git", "name and e-mail are set")
+    each = [f"git config --global {key} {values[key]}" for key in missing]
+    found = "does not know your " + " and ".join(missing)
+    return Line("todo", "git", found, " && ".join(each))
 
 
 def git(*words: str) -> str:
