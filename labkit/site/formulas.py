@@ -7,7 +7,7 @@ formula is written twice, and the page's poses are those of the day's own code.
 
 import tomllib
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
@@ -81,8 +81,7 @@ class Symbol:
         """Stand for what no ghost needs, and a mistake beside its own makes."""
         return Symbol(self.tape, "?")
 
-    __abs__ = __truediv__ = __rtruediv__ = __ge__ = __le__ = _unknown
-    deg2rad = rad2deg = _unknown
+    __truediv__ = __rtruediv__ = _unknown
 
 
 def line_of(tape: Tape, *operation: Any) -> int:
@@ -104,16 +103,11 @@ def _is(value: Any, number: int) -> bool:
 def symbols_allowed() -> Iterator[None]:
     """Let NumPy's empty matrices and the library's checks take symbols."""
     eye, zeros = np.eye, np.zeros
-
-    def as_it_is(value: Any, *_: Any) -> Any:
-        return np.asarray(value)
-
-    with ExitStack() as stack:
-        for name, make in (("eye", eye), ("zeros", zeros)):
-            made = lambda *a, make=make, **k: make(*a, **k).astype(object)  # noqa: E731
-            stack.enter_context(patch.object(np, name, made))
-        for name in ("array", "rotation", "pose", "unit_vector", "screws"):
-            stack.enter_context(patch.object(checks, name, as_it_is))
+    with (
+        patch.object(np, "eye", lambda *a, **k: eye(*a, **k).astype(object)),
+        patch.object(np, "zeros", lambda *a, **k: zeros(*a, **k).astype(object)),
+        patch.object(checks, "array", lambda value, *_: np.asarray(value)),
+    ):
         yield
 
 
