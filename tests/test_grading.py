@@ -633,7 +633,7 @@ class TestHistory:
             asked.append(arguments)
             raise git._SlowError
 
-        monkeypatch.setattr(git, "run_bytes", slow)
+        monkeypatch.setattr(git, "run", slow)
         assert not git.read_history(tmp_path, [SCRIPT]).readable
         assert len(asked) == 1
 
