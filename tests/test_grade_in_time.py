@@ -13,13 +13,13 @@ from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
 from labkit.grade import in_time, sheet
+from labkit.grade.course import Graded, percent
 from labkit.grade.in_time import read_in_time
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Mark, Result, counted
 from labkit.grade.roster import Student
-from labkit.grade.sheet import Graded
 from labkit.handin.deliverables import item_names
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -260,12 +260,12 @@ def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
 
 @pytest.mark.parametrize(
     ("minutes", "late", "expected"),
-    [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, ("", ""))],
+    [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, (None, None))],
 )
 def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expected):
     one = Graded(Student("A", "a", Path()), result(4), "", minutes, late=late)
     assert one.late_by == expected
-    assert one.percent == 50.0
+    assert percent(one) == "50.0"
 
 
 def test_a_table_for_handing_on_says_nothing_of_who_it_is():

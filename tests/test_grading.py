@@ -2,11 +2,11 @@
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import replace
@@ -28,16 +28,17 @@ from make_class import (
 
 from labkit.base import git
 from labkit.check.tasks import TaskResult
-from labkit.grade import charts, child, classroom, engine, overview, people, similar
+from labkit.grade import charts, child, classroom, engine, page, similar
 from labkit.grade import grader as graders
 from labkit.grade.child import _tidy
+from labkit.grade.course import Course, Graded
 from labkit.grade.grader import Grader, grade_behind_wall, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
 from labkit.grade.result import Mark, Result, from_json, ungraded
 from labkit.grade.roster import Student, file_names, find_students
-from labkit.grade.sheet import Graded, plain
+from labkit.grade.sheet import plain
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.handin import Handin
@@ -262,8 +263,7 @@ class TestTheGrader:
         assert found.tasks[0].passed
         assert found.refused == ("read /etc/shadow",)
         one = Graded(Student("A", "a", Path()), found)
-        course = overview.Course(DAY, [one], [], 0, deadline=False)
-        assert "read /etc/shadow" in people.list_refused(course)
+        assert ">read /etc/shadow</p>" in page.render(Course(DAY, [one]))
 
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):
@@ -723,8 +723,17 @@ def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = Non
     return Graded(Student(name, name, Path()), result(*statuses, mistakes=mistakes))
 
 
-def tasks(found: Result) -> Sequence[Mark]:
-    return found.tasks
+def standing(class_: Sequence[Graded]) -> list[tuple[str, ...]]:
+    """Return what the page says beside each task, and the colours of its bar."""
+    _, _, chart = page.render(Course(DAY, class_)).partition('aria-label="Tasks">')
+    rows = chart.partition("</svg>")[0].split('<text x="0"')[1:]
+    return [
+        (
+            re.search(r">([^<]*)</text><rect", row)[1],
+            *re.findall(r'fill="var\(--(?!grid)([\w-]+)\)" stroke', row),
+        )
+        for row in rows
+    ]
 
 
 class TestTheOverview:
@@ -736,8 +745,8 @@ class TestTheOverview:
             graded("wrong", "wrong", *passed[2:], name="b", mistakes=both),
             graded("todo", *passed[1:], name="c", mistakes={0: "unwritten"}),
         ]
-        (only,) = overview.diagnoses(DAY, class_)
-        assert (only.mistake, only.task, only.who) == ("shape", "1.1", ("a", "b"))
+        ((mark, who),) = Course(DAY, class_).mistakes()
+        assert (mark.mistake, mark.id, who) == ("shape", "1.1", ["a", "b"])
 
     @pytest.mark.parametrize(
         ("statuses", "state"),
@@ -752,21 +761,21 @@ class TestTheOverview:
     )
     def test_says_where_a_student_is(self, statuses, state):
         wrong = {i: "name" for i, s in enumerate(statuses) if s in ("close", "wrong")}
-        assert overview.state(graded(*statuses, mistakes=wrong)) == state
+        assert graded(*statuses, mistakes=wrong).state == state
 
     def test_a_file_that_does_not_load_is_no_mistake_in_a_task(self):
         broken = dict.fromkeys(range(8), "does-not-load")
         one = graded(*["todo"] * 8, mistakes=broken)
-        assert overview.state(one) == "does not load"
-        assert overview.diagnoses(DAY, [one]) == []
-        standing = overview.standings([one], tasks)
-        assert (standing[0].stopped, standing[0].counts["does not load"]) == (0, 1)
+        assert one.state == "does not load"
+        assert Course(DAY, [one]).mistakes() == []
+        assert standing([one]) == [("0 pass", "broken")] * 8
 
     def test_counts_who_stops_where(self):
         class_ = [graded("passed", *["wrong"] * 7)] * 2
-        standing = overview.standings(class_, tasks)
-        assert [s.stopped for s in standing] == [0, 2, 0, 0, 0, 0, 0, 0]
-        assert standing[1].counts == Counter({"wrong": 2})
+        first, second, *others = standing(class_)
+        assert first == ("2 pass", "bar-pass")
+        assert second == ("0 pass, 2 stopped here", "bar-fail")
+        assert others == [("0 pass", "bar-fail")] * 6
 
 
 def test_equal_marks_are_held_once_for_the_whole_class():

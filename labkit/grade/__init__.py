@@ -18,10 +18,10 @@ Wherever grading happens, here or on a worker:
 
 What comes out:
 
-    sheet       the table, one row per student, and a file for each of them
+    course      everybody's grades for a day, and the mistakes that they share
+    sheet       the tables, one row per student, and a file for each of them
     platforms   the table as Canvas and Moodle import it
-    overview    what the class stumbles over, and who is stuck
-    page, people, charts   the same as one HTML page
+    page        a day as one HTML page; week_page of several days; both draw charts
 
 Student code only ever runs in the checker's sandbox, and nothing of a student's clone
 (its robo47/, manifests, conftest.py, Makefile or git configuration) takes part. What a

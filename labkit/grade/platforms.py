@@ -8,9 +8,9 @@ Grades"); docs.moodle.org/405/en/Grade_import.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from labkit.grade.course import Course, by_student, percent
 from labkit.grade.roster import Student
-from labkit.grade.sheet import csv_of, percent_of, plain
-from labkit.grade.week import Week
+from labkit.grade.sheet import lines_of, plain
 from robo47.errors import Robo47Error
 
 
@@ -62,27 +62,27 @@ def known(platform: Platform, students: Sequence[Student]) -> None:
             )
 
 
-def as_csv(platform: Platform, week: Week, title: str) -> bytes:
+def as_csv(platform: Platform, courses: Sequence[Course], title: str) -> bytes:
     """Return the table for a platform, grades in per cent of the tasks.
 
     Whoever could not be graded has no row: an empty grade would wipe one out.
 
     Args:
         platform: of PLATFORMS.
-        week: the graded days.
+        courses: the graded days of a class.
         title: of a day's column, as the assignment is called there: "Lab {day}".
     """
-    head = [title.replace("{day}", str(day.number)) for day in week.days]
-    rows = []
+    titles = [title.replace("{day}", str(course.day.number)) for course in courses]
+    rows = [[*platform.columns, *map(plain, titles)]]
     if platform.points:
         blank = [""] * (len(platform.columns) - 1)
-        rows.append([platform.points, *blank, *(["100"] * len(head))])
-    for student in week.students:
-        grades = [one.percent for one in week.of(student)]
-        if None not in grades:
+        rows.append([platform.points, *blank, *(["100"] * len(titles))])
+    for days in by_student(courses):
+        if percent(*days):
+            student = days[0].student
             about = [_cell(platform, student, name) for name in platform.columns]
-            rows.append([*about, *map(percent_of, grades)])
-    return csv_of([*platform.columns, *map(plain, head)], rows)
+            rows.append([*about, *map(percent, days)])
+    return lines_of(rows)
 
 
 def _cell(platform: Platform, student: Student, column: str) -> str:

@@ -37,6 +37,11 @@ class Mark:
         return self.status == "passed"
 
     @property
+    def shown(self) -> str:
+        """The status; a task of a file that does not load has one of its own."""
+        return "does not load" if self.mistake == "does-not-load" else self.status
+
+    @property
     def is_mistake(self) -> bool:
         """Whether something was written and is not right, or cannot be read."""
         return not self.passed and self.mistake not in NO_MISTAKES

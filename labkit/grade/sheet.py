@@ -6,70 +6,20 @@ import io
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from labkit.base.text import visible
-from labkit.grade.result import UNGRADED, Result
+from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.result import Mark
 from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
+Cell = str | int | None
 _SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets split
-
-
-@dataclass(frozen=True)
-class Graded:
-    """One student with all that the table and the page show.
-
-    Attributes:
-        student: from the roster.
-        result: the grade.
-        commit: the hash of the last commit, or "".
-        minutes: from there to the deadline, by the student's own clock, negative past
-            it; None without a commit.
-        note: what this run has to add to the result's error, such as a failed pull.
-        fault: whether this machine failed; the next run grades them.
-        feedback: the file's name in feedback/.
-        late: how many commits came after the deadline; None without one.
-    """
-
-    student: Student
-    result: Result
-    commit: str = ""
-    minutes: int | None = None
-    note: str = ""
-    fault: bool = False
-    feedback: str = ""
-    late: int | None = None
-
-    @property
-    def error(self) -> str:
-        """Why something could not be graded or updated; "" where all was."""
-        return "; ".join(filter(None, (self.result.error, self.note)))
-
-    @property
-    def tasks_passed(self) -> int:
-        """How many tasks are passed."""
-        return self.result.score[0]
-
-    @property
-    def percent(self) -> float | None:
-        """The share of tasks that pass; None where nobody could look at them."""
-        tasks = self.result.tasks
-        if any(task.status == UNGRADED for task in tasks):
-            return None
-        return 100 * self.tasks_passed / max(1, len(tasks))
-
-    @property
-    def late_by(self) -> tuple[int, int] | tuple[str, str]:
-        """Minutes and begun days from the deadline to the commit that counts."""
-        if self.late is None or self.minutes is None:
-            return "", ""
-        minutes = max(0, -self.minutes)
-        return minutes, -(-minutes // (24 * 60))
 
 
 def as_csv(class_: Sequence[Graded]) -> bytes:
@@ -81,26 +31,25 @@ def as_csv(class_: Sequence[Graded]) -> bytes:
     Returns:
         CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
     """
-    return table(list(map(_row, class_)))
+    return csv_of(list(map(_row, class_)))
 
 
-def table(rows: Sequence[Mapping[str, str | int]]) -> bytes:
-    """Return a table as every grades.csv is written: rows by column as CSV."""
-    return csv_of(list(rows[0]), (row.values() for row in rows))
+def of_days(courses: Sequence[Course]) -> bytes:
+    """Return the table of several days: a row per student, in per cent of the tasks."""
+    numbers = [course.day.number for course in courses]
+    return csv_of([_row_of_days(numbers, days) for days in by_student(courses)])
 
 
-def csv_of(head: Iterable[str], rows: Iterable[Iterable[str | int]]) -> bytes:
-    """Return columns and rows as CSV."""
+def csv_of(rows: Sequence[Mapping[str, Cell]]) -> bytes:
+    """Return rows by column as every grades.csv is written."""
+    return lines_of([list(rows[0]), *(row.values() for row in rows)])
+
+
+def lines_of(rows: Iterable[Iterable[Cell]]) -> bytes:
+    """Return rows of cells as CSV, a cell that is None as an empty one."""
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue().encode("utf-8-sig")
-
-
-def percent_of(share: float | None) -> str:
-    """Return a share as a table has it; "" where there is none."""
-    return "" if share is None else f"{share:.1f}"
 
 
 def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
@@ -122,45 +71,54 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
     return sorted(found, key=lambda graded: graded.student.name)
 
 
-def _row(graded: Graded) -> dict[str, str | int]:
-    result, mistake = graded.result, graded.result.first_mistake
+def _row(graded: Graded) -> dict[str, Cell]:
+    result, mistake = graded.result, graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
     return {
-        **who(graded.student),
-        "percent": percent_of(graded.percent),
-        "tasks_passed": graded.tasks_passed,
-        **{task.id: _cell(graded, task.status) for task in result.tasks},
+        **_who(graded.student),
+        "percent": percent(graded),
+        "tasks_passed": result.score[0],
+        **{task.id: task.shown for task in result.tasks},
         "deliverables_passed": result.score[1],
         **{item.id: item.status for item in result.items},
-        "first_mistake": plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
-        "what_it_says": plain(mistake.message if mistake else ""),
-        "minutes_since_commit_own_clock": _or_nothing(graded.minutes),
+        "first_mistake": plain(f"{mistake.id} {mistake.mistake}"),
+        "what_it_says": plain(mistake.message),
+        "minutes_since_commit_own_clock": graded.minutes,
         "late_minutes": minutes,
         "late_days": days,
-        "commits_after_deadline": _or_nothing(graded.late),
+        "commits_after_deadline": graded.late,
         "commit_hash": graded.commit[:10],
         "kit": result.kit,
-        "seed": result.seed if result.kit else "",
+        "seed": result.seed if result.kit else None,
         "refused": plain("; ".join(result.refused)),
         "error": plain(graded.error),
     }
 
 
-def who(student: Student) -> dict[str, str | int]:
+def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, Cell]:
+    days = dict(zip(numbers, class_, strict=True))
+    results = [one.result for one in class_]
+    errors = [f"day {n}: {one.error}" for n, one in days.items() if one.error]
+    return {
+        **_who(class_[0].student),
+        "percent": percent(*class_),
+        **{f"day{n}_percent": percent(one) for n, one in days.items()},
+        **{f"day{n}_deliverables": one.result.score[1] for n, one in days.items()},
+        **{
+            f"day{n}_late_{unit}": late
+            for n, one in days.items()
+            for unit, late in zip(("minutes", "days"), one.late_by, strict=True)
+        },
+        "kit": plain(", ".join(sorted({one.kit for one in results} - {""}))),
+        "seed": plain(", ".join(sorted({str(one.seed) for one in results if one.kit}))),
+        "error": plain("; ".join(errors)),
+    }
+
+
+def _who(student: Student) -> dict[str, Cell]:
     """Return the first cells of a student's row: who it is."""
     folder = plain(printable(student.folder))
     return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
-
-
-def _or_nothing(number: int | None) -> int | str:
-    return "" if number is None else number
-
-
-def _cell(graded: Graded, status: str) -> str:
-    """Return a task's status; a file that does not load is more than a task to do."""
-    if status == "todo" and graded.result.does_not_load:
-        return "does not load"
-    return status
 
 
 def plain(text: str) -> str:
