@@ -239,11 +239,11 @@ def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
         journal.keep("mia", packages[-1], result(passed))
     journal.close()
     journal = Journal(*facts, deadline=True, seed=4711)  # also tomorrow
-    best, package = journal.best("mia", packages[-1])
-    assert (best.score[0], package.commit) == (8, packages[1].commit)
+    best = journal.best("mia")
+    assert (best.result.score[0], best.commit) == (8, packages[1].commit)
     assert journal.find("mia", packages[-1]).score[0] == 2
     journal.keep("mia", packages[0], result(1, seed=5))  # other inputs: begins anew
-    assert journal.best("mia", packages[-1])[0].score[0] == 1
+    assert journal.best("mia").result.score[0] == 1
     journal.close()
 
 

@@ -13,7 +13,7 @@ from labkit.base.text import visible
 from labkit.grade import page, similar
 from labkit.grade.course import Course, Graded
 from labkit.grade.engine import Engine, grade_all
-from labkit.grade.journal import Journal
+from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
@@ -115,16 +115,18 @@ class Classroom:
         package: Package,
         result: Result | FaultError,
     ) -> Graded:
+        given: Package | Kept = package
         fault, late = isinstance(result, FaultError), package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
-            result, package = self.journal.best(student.folder, package)
+            given = self.journal.best(student.folder)
+            result = given.result
         minutes = None
-        if package.committed is not None:
-            minutes = (self.journal.reference - package.committed) // 60
+        if given.committed is not None:
+            minutes = (self.journal.reference - given.committed) // 60
         note = self.notes.get(student.folder, "")
-        facts = (package.commit, minutes, note, fault, file)
+        facts = (given.commit, minutes, note, fault, file)
         return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(

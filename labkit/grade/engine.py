@@ -144,11 +144,9 @@ def _finished(
 ) -> Iterator[tuple[str, Package, Result | FaultError]]:
     """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
-
-    def some() -> set[Future[Result]]:
-        return wait(under_way, PATIENCE, FIRST_COMPLETED).done
-
-    while not (done := some()) and time.monotonic() < silent:
+    while not (done := wait(under_way, PATIENCE, FIRST_COMPLETED).done):
+        if time.monotonic() >= silent:
+            break
         if not engine.workers():
             raise Robo47Error(
                 f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded "
@@ -156,11 +154,11 @@ def _finished(
             )
     for future in done or list(under_way):
         key, package = under_way.pop(future)
-        if not future.done():
+        if future.done():
+            yield key, package, _answer(future, package, engine)
+        else:
             future.cancel()
             yield key, package, FaultError(f"no answer for {SILENCE:.0f} s")
-            continue
-        yield key, package, _answer(future, package, engine)
 
 
 def _answer(
@@ -171,10 +169,7 @@ def _answer(
     Raises:
         Robo47Error: no worker like that one can grade.
     """
-    try:
-        error = future.exception()
-    except CancelledError as cancelled:
-        error = cancelled
+    error = CancelledError() if future.cancelled() else future.exception()
     if error is None:
         return _believed(future.result(), package)
     if isinstance(error, FaultError):

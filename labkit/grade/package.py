@@ -96,8 +96,8 @@ def collect(
     Raises:
         OSError, GitError: this machine failed.
     """
-    package = Package(day.number, fingerprint(day.number))
-    package = replace(package, seed=seed, version=version())
+    kit = fingerprint(day.number)
+    package = Package(day.number, kit, seed=seed, version=version())
     problem = student.problem
     if not problem and not student.path.is_dir():
         problem = "there is no such folder"
