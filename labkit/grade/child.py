@@ -15,7 +15,7 @@ import shutil
 import sys
 import tempfile
 import threading
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -52,26 +52,17 @@ def main() -> None:
             package = pickle.load(sys.stdin.buffer)  # from our own parent
         except EOFError:
             break
-        day = find_day(package.day)
         try:
-            answer = signed(grade(package, day), package).to_json()
+            answer = asdict(grade(package, find_day(package.day)))
         except (FaultError, OSError, MemoryError) as error:  # not the student's
             name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
             answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
         except Exception as error:  # a hole in the checker costs one grade
             why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
-            answer = signed(ungraded(day, why), package).to_json()
+            answer = asdict(ungraded(find_day(package.day), why))
         out.write(json.dumps(answer).encode("ascii") + b"\n")
         out.flush()
     shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone
-
-
-def signed(result: Result, package: Package) -> Result:
-    """Return a result with what another machine needs to come to the same."""
-    again = f'make check DAY={package.day} ARGS="--seed {package.seed} --explain"'
-    text = f"{result.text}\nGraded by robo47 {package.version} with the seed "
-    text += f"{package.seed}, for everybody.\nThe same on your machine: {again}\n"
-    return replace(result, text=text, kit=package.version, seed=package.seed)
 
 
 def grade(package: Package, day: Day) -> Result:

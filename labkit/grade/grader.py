@@ -12,11 +12,10 @@ import queue
 import shutil
 import socket
 import tempfile
+from typing import Any
 
 from labkit.base import processes
 from labkit.grade.package import Package, fingerprint
-from labkit.grade.result import Result, from_json
-from labkit.lesson.day import find_day
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
@@ -46,8 +45,8 @@ class Grader(processes.Child):
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
 
-    def grade(self, package: Package, seconds: float = SECONDS) -> Result:
-        """Return a package's result.
+    def grade(self, package: Package, seconds: float = SECONDS) -> dict[str, Any]:
+        """Return a package's result as JSON, which `result.from_json` reads.
 
         Args:
             package: one submission.
@@ -60,10 +59,10 @@ class Grader(processes.Child):
             self.send(pickle.dumps(package))
             answer = self.process.stdout.readline()
         if answer.endswith(b"\n"):
-            found = json.loads(answer)
+            found: dict[str, Any] = json.loads(answer)
             if "fault" in found:
                 raise FaultError(found["fault"])
-            return from_json(found, find_day(package.day))
+            return found
         self.close()
         why = f"it took more than {seconds:.0f} s" if self.late else "it was killed"
         raise FaultError(f"grading it was stopped: {why}")
@@ -77,11 +76,11 @@ class Grader(processes.Child):
 _idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
 
 
-def grade_package(package: Package) -> Result:
-    """Return a package's result; any thread may call it, each call has its process.
+def grade_package(package: Package) -> dict[str, Any]:
+    """Return a package's result as JSON; each call has a process of its own.
 
     Args:
-        package: one submission.
+        package: one submission; any thread may bring one.
 
     Raises:
         Robo47Error: this machine has another kit than the one that sent it.
@@ -107,8 +106,8 @@ def grade_package(package: Package) -> Result:
             _idle.put(grader)
 
 
-def grade_behind_wall(package: Package) -> Result:
-    """Return a package's result, where this machine keeps such code from itself.
+def grade_behind_wall(package: Package) -> dict[str, Any]:
+    """Return what `grade_package` does, where a wall keeps such code from here.
 
     Args:
         package: one submission.

@@ -9,6 +9,7 @@ import contextlib
 import json
 import os
 import secrets
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -120,7 +121,7 @@ class Journal:
         facts = (package.fingerprint, package.kit, package.commit, package.committed)
         kept = Kept(*facts, result)
         self._note(folder, kept)
-        told = {**kept._asdict(), "result": result.to_json()}
+        told = {**kept._asdict(), "result": asdict(result)}
         self._append({"day": package.day, "folder": folder, **told})
 
     def _note(self, folder: str, kept: Kept) -> None:

@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from labkit.handin.deliverables import item_names
@@ -89,17 +89,8 @@ class Result:
         """Whether there is a file that Python, or we, cannot read."""
         return any(task.mistake == "does-not-load" for task in self.tasks)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return it as plain data."""
-        return asdict(self)
 
-    def lean(self) -> "Result":
-        """Return it with marks that others have too: a class has few different ones."""
-        marks, items = (tuple(map(_one, group)) for group in (self.tasks, self.items))
-        return replace(self, tasks=marks, items=items)
-
-
-@functools.lru_cache(4096)
+@functools.lru_cache(4096)  # a class has few different marks, and holds each once
 def _one(mark: Mark) -> Mark:
     """Return the mark that was there first of all that are equal."""
     return mark
@@ -133,7 +124,8 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    return result.lean()
+    tasks, items = (tuple(map(_one, some)) for some in (result.tasks, result.items))
+    return replace(result, tasks=tasks, items=items)
 
 
 def counted(day: Day) -> Sequence[str]:
