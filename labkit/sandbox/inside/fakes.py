@@ -8,7 +8,7 @@ compute an answer refuses, saying what it was.
 import enum
 import importlib
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -100,49 +100,42 @@ class FakeLab:
         return lambda *args, **kwargs: None
 
 
-class Fakes:
-    """Makes each fake module when it is first imported."""
+def contents(
+    refuse: Refuse, models: Mapping[str, Callable[[], Any]], facts: Any
+) -> dict[str, dict[str, Any]]:
+    """Return what each fake module has, by its dotted name.
 
-    def __init__(self, refuse: Refuse, models: Any, facts: dict[str, Any]) -> None:
-        """Note what the fakes have.
+    Args:
+        refuse: takes what was tried, returns the exception to raise.
+        models: by entry of the Panda, what makes a fresh copy of it.
+        facts: see `labkit.sandbox.messages`.
+    """
 
-        Args:
-            refuse: takes what was tried, returns the exception to raise.
-            models: by entry of the Panda, what makes a fresh copy of it.
-            facts: see `labkit.sandbox.messages`.
-        """
-        self._refuse, self._models = refuse, models
-        constants = {
-            name: np.array(value) if isinstance(value, list) else value
-            for name, value in facts["constants"].items()
-        }
-        self._has: dict[str, dict[str, Any]] = {
-            "mujoco": _mujoco(refuse, facts),
-            "robo47": {},
-            "kit": {},  # a lab's first import, which finds the kit's Python
-            "robo47.panda": {
-                **constants,
-                "load": self._load,
-                "describe": lambda entry="panda_nohand": "robot: the checker's copy",
-            },
-            "robo47.lesson.lab": {"Lab": FakeLab},
-            "labkit.lesson.lab": {"Lab": FakeLab},
-            "robo47.errors": {"Robo47Error": type("Robo47Error", (Exception,), {})},
-            "robo47.cli": {"run": lambda main: None},
-        }
-        self.known = {*self._has, *facts["modules"], "mujoco.viewer", "robo47.lesson"}
-
-    def make(self, name: str) -> FakeModule:
-        """Return the fake of a known module."""
-        return FakeModule(name, self._refuse, self.known, **self._has.get(name, {}))
-
-    def _load(self, entry: str = "panda_nohand", **options: Any) -> Any:
+    def load(entry: str = "panda_nohand", **options: Any) -> Any:
         """Return a copy of the Panda, as `robo47.panda.load` would."""
         if options.get("edit"):
-            raise self._refuse("call robo47.panda.load with edit")
-        if entry not in self._models:
-            raise self._refuse(f"load {entry!r}, which the checker has no copy of")
-        return self._models[entry]()
+            raise refuse("call robo47.panda.load with edit")
+        if entry not in models:
+            raise refuse(f"load {entry!r}, which the checker has no copy of")
+        return models[entry]()
+
+    panda = {
+        name: np.array(value) if isinstance(value, list) else value
+        for name, value in facts["constants"].items()
+    }
+    panda["load"] = load
+    panda["describe"] = lambda entry="panda_nohand": "robot: the checker's copy"
+    empty = (*facts["modules"], "mujoco.viewer", "robo47", "robo47.lesson")
+    return {
+        **{name: {} for name in empty},
+        "mujoco": _mujoco(refuse, facts),
+        "kit": {},  # a lab's first import, which finds the kit's Python
+        "robo47.panda": panda,
+        "robo47.lesson.lab": {"Lab": FakeLab},
+        "labkit.lesson.lab": {"Lab": FakeLab},
+        "robo47.errors": {"Robo47Error": type("Robo47Error", (Exception,), {})},
+        "robo47.cli": {"run": lambda main: None},
+    }
 
 
 def _mujoco(refuse: Refuse, facts: dict[str, Any]) -> dict[str, Any]:
