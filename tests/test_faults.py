@@ -245,7 +245,7 @@ class TestAMachineThatStartsNoProcess:
             raise MemoryError
 
         monkeypatch.setattr(classroom, "collect", fails)
-        journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
+        journal = Journal(tmp_path / "j", DAY)
         room = classroom.Classroom([Student("A", "a", tmp_path)], DAY, journal)
         with engine.local(1) as here:
             course = room.grade(here, tmp_path)

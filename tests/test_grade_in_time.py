@@ -230,15 +230,15 @@ def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:
 
 
 def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
-    facts = (tmp_path / "j", DAY, DEADLINE)
-    journal = Journal(*facts, deadline=True, seed=4711)
+    facts = (tmp_path / "j", DAY, DEADLINE, 4711)
+    journal = Journal(*facts)
     packages = []
     for i, passed in enumerate((3, 8, 2)):
         save(clone, f"x = {i}", DEADLINE - HOUR + i)
         packages.append(collected(clone)[0])
         journal.keep("mia", packages[-1], result(passed))
     journal.close()
-    journal = Journal(*facts, deadline=True, seed=4711)  # also tomorrow
+    journal = Journal(*facts)  # also tomorrow
     best = journal.best("mia")
     assert (best.result.score[0], best.commit) == (8, packages[1].commit)
     assert journal.find("mia", packages[-1]).score[0] == 2
@@ -248,7 +248,7 @@ def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
 
 
 def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
-    journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
+    journal = Journal(tmp_path / "j", DAY)
     save(clone, "x = 1", DEADLINE)
     package = collected(clone)[0]
     journal.keep("mia", package, result(8, kit="0.1.0"))

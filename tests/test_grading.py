@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import asdict, replace
@@ -369,13 +370,14 @@ class TestTheJournal:
     PACKAGE = Package(1, "k", Handin({"a": b"1"}))
 
     @pytest.fixture
-    def opened(self, tmp_path):
+    def opened(self, tmp_path, monkeypatch):
         """Return what opens the journal, whatever has it open already."""
         last = contextlib.ExitStack()
 
-        def open_it(reference=99):
+        def open_it(now=99):
             last.close()
-            journal = Journal(tmp_path / "j", DAY, reference, deadline=False)
+            monkeypatch.setattr(time, "time", lambda: now)
+            journal = Journal(tmp_path / "j", DAY)
             return last.enter_context(contextlib.closing(journal))
 
         with last:

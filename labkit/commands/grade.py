@@ -28,7 +28,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -240,7 +239,12 @@ def grade_days(
     with where or engine.local(options.processes) as it:
         for day in days:
             own = out.parent / f"day{day.number}" / out.name if len(days) > 1 else out
-            with contextlib.closing(journal_of(day, own.parent, options)) as journal:
+            # What is no folder is named by the journal.
+            with contextlib.suppress(FileExistsError, FileNotFoundError):
+                own.parent.mkdir(parents=True, exist_ok=True)
+            path = own.parent / "grading.jsonl"
+            journal = Journal(path, day, options.deadline, options.seed)
+            with contextlib.closing(journal):
                 if not courses:
                     options.seed = journal.seed  # one for all days
                     drawn = f"fresh inputs for everybody: --seed {journal.seed}"
@@ -259,17 +263,6 @@ def grade_days(
             print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
             courses.append(course.lean())
     return courses
-
-
-def journal_of(day: Day, folder: Path, options: argparse.Namespace) -> Journal:
-    """Return the journal of a day, in a folder that is made where it is not there."""
-    # What is no folder is named by the journal.
-    with contextlib.suppress(FileExistsError, FileNotFoundError):
-        folder.mkdir(parents=True, exist_ok=True)
-    given = options.deadline is not None
-    since = options.deadline if given else int(time.time())
-    path = folder / "grading.jsonl"
-    return Journal(path, day, since, deadline=given, seed=options.seed)
 
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:

@@ -17,7 +17,7 @@ from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
-from labkit.grade.roster import Student, file_names
+from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, write, write_feedback
 from labkit.lesson.day import Day
 from labkit.lesson.starter import make_starter, read_script
@@ -65,41 +65,35 @@ class Classroom:
         """
         graded: dict[str, Graded] = {}
         runs: dict[str, list[array[int]]] = {}
-        students = {student.folder: student for student in self.students}
-        files, starter, now = file_names(students), _starter(self.day), 0
+        starter, now = _starter(self.day), 0
+        due = self.journal.reference if self.journal.deadline else None
 
-        def note(folder: str, package: Package, result: Result | FaultError) -> None:
-            one = self._graded(students[folder], files[folder], package, result)
-            graded[folder] = one
-            write_feedback(feedback, one)
+        def note(one: Student, package: Package, result: Result | FaultError) -> None:
+            graded[one.folder] = self._graded(one, package, result)
+            write_feedback(feedback, graded[one.folder])
             bar.update()
 
-        def changed() -> Iterator[tuple[str, Package]]:
-            for folder, student in students.items():
-                package = self._collected(student)
-                if isinstance(package, FaultError):
-                    note(folder, Package(self.day.number, ""), package)
+        def changed() -> Iterator[tuple[Student, Package]]:
+            for student in self.students:
+                try:
+                    package = collect(student, self.day, self.journal.seed, due)
+                except (OSError, GitError, MemoryError) as error:
+                    why = visible(error) or type(error).__name__
+                    note(student, Package(self.day.number, ""), FaultError(why))
                     continue
-                runs[folder] = _runs(package, self.day, starter)
-                if known := self._known(folder, package):
-                    note(folder, package, known)
+                runs[student.folder] = _runs(package, self.day, starter)
+                if known := self._known(student.folder, package):
+                    note(student, package, known)
                 else:
-                    yield folder, package
+                    yield student, package
 
-        with _bar(len(students), "grading") as bar:
-            for folder, package, result in grade_all(changed(), engine):
+        with _bar(len(self.students), "grading") as bar:
+            for student, package, result in grade_all(changed(), engine):
                 if isinstance(result, Result):
-                    self.journal.keep(folder, package, result)
+                    self.journal.keep(student.folder, package, result)
                     now += 1
-                note(folder, package, result)
-        return self._course([graded[folder] for folder in students], runs, now)
-
-    def _collected(self, student: Student) -> Package | FaultError:
-        due = self.journal.reference if self.journal.deadline else None
-        try:
-            return collect(student, self.day, self.journal.seed, due)
-        except (OSError, GitError, MemoryError) as error:
-            return FaultError(visible(error) or type(error).__name__)
+                note(student, package, result)
+        return self._course([graded[one.folder] for one in self.students], runs, now)
 
     def _known(self, folder: str, package: Package) -> Result | None:
         """Return the result that stays, or None for who is to be graded."""
@@ -108,11 +102,7 @@ class Classroom:
         return None if self.again is None or folder in self.again else known
 
     def _graded(
-        self,
-        student: Student,
-        file: str,
-        package: Package,
-        result: Result | FaultError,
+        self, student: Student, package: Package, result: Result | FaultError
     ) -> Graded:
         given: Package | Kept = package
         fault, late = isinstance(result, FaultError), package.late
@@ -125,7 +115,7 @@ class Classroom:
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60
         note = self.notes.get(student.folder, "")
-        facts = (given.commit, minutes, note, fault, file)
+        facts = (given.commit, minutes, note, fault)
         return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(
@@ -149,7 +139,7 @@ def pull(students: Sequence[Student]) -> dict[str, str]:
 
     Who cannot be updated is graded as they are.
     """
-    done = _bar(len(students), "pulling", pull_all(list(students)))
+    done = _bar(len(students), "pulling", pull_all(students))
     return {one.folder: f"not pulled: {problem}" for one, problem in done if problem}
 
 

@@ -23,7 +23,6 @@ class Graded:
             it; None without a commit.
         note: what this run has to add to the result's error, such as a failed pull.
         fault: whether this machine failed; the next run grades them.
-        feedback: the file's name in feedback/.
         late: how many commits came after the deadline; None without one.
     """
 
@@ -33,7 +32,6 @@ class Graded:
     minutes: int | None = None
     note: str = ""
     fault: bool = False
-    feedback: str = ""
     late: int | None = None
 
     @property

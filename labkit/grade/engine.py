@@ -30,6 +30,7 @@ from labkit.grade.grader import (
 )
 from labkit.grade.package import Package
 from labkit.grade.result import Result, from_json
+from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from robo47.errors import FaultError, Robo47Error
 
@@ -116,21 +117,22 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
 
 
 def grade_all(
-    packages: Iterable[tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | FaultError]]:
+    packages: Iterable[tuple[Student, Package]], engine: Engine
+) -> Iterator[tuple[Student, Package, Result | FaultError]]:
     """Yield each package's result as it comes, in any order.
 
     Args:
-        packages: each with a key, the student's folder; taken as there is room.
+        packages: whose each is, and it; taken as there is room.
         engine: where to grade.
 
     Raises:
         Robo47Error: no worker is left, or one cannot run this kit.
     """
-    under_way: dict[Future[Any], tuple[str, Package]] = {}
+    under_way: dict[Future[Any], tuple[Student, Package]] = {}
     try:
-        for key, package in packages:
-            under_way[engine.executor.submit(engine.grade, package)] = (key, package)
+        for student, package in packages:
+            future = engine.executor.submit(engine.grade, package)
+            under_way[future] = (student, package)
             while len(under_way) >= PER_WORKER * max(1, engine.workers()):
                 yield from _finished(under_way, engine)
         while under_way:
@@ -141,8 +143,8 @@ def grade_all(
 
 
 def _finished(
-    under_way: dict[Future[Any], tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | FaultError]]:
+    under_way: dict[Future[Any], tuple[Student, Package]], engine: Engine
+) -> Iterator[tuple[Student, Package, Result | FaultError]]:
     """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
     while not (done := wait(under_way, PATIENCE, FIRST_COMPLETED).done):
@@ -154,12 +156,12 @@ def _finished(
                 "is kept: start workers and run the same command again"
             )
     for future in done or list(under_way):
-        key, package = under_way.pop(future)
+        student, package = under_way.pop(future)
         if future.done():
-            yield key, package, _answer(future, package, engine)
+            yield student, package, _answer(future, package, engine)
         else:
             future.cancel()
-            yield key, package, FaultError(f"no answer for {SILENCE:.0f} s")
+            yield student, package, FaultError(f"no answer for {SILENCE:.0f} s")
 
 
 def _answer(

@@ -9,6 +9,7 @@ import contextlib
 import json
 import os
 import secrets
+import time
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -47,31 +48,24 @@ class Journal:
     """
 
     def __init__(
-        self,
-        path: Path,
-        day: Day,
-        reference: int,
-        *,
-        deadline: bool,
-        seed: int | None = None,
+        self, path: Path, day: Day, deadline: int | None = None, seed: int | None = None
     ) -> None:
         """Open it for ourselves alone and read what is there.
 
         Args:
             path: the file.
             day: what is graded; a journal of another day is refused.
-            reference: see above.
-            deadline: see above; any other reference gives way to one that is there.
+            deadline: seconds since 1970; None is the one that is there, if any.
             seed: see above; None is the one that is there, or a new one.
 
         Raises:
             Robo47Error: the file cannot be written, is another day's, or somebody else
                 is grading into it.
         """
-        self.path, self.reference, self.deadline = path, reference, deadline
-        self.odd = self.outdated = 0
+        self.path, self._day = path, day
+        self.reference, self.deadline = int(time.time()), False
         self.seed = secrets.randbits(32)
-        self._day = day
+        self.odd = self.outdated = 0
         self._last: dict[str, Kept] = {}  # by folder
         self._best: dict[str, Kept] = {}
         try:
@@ -81,18 +75,20 @@ class Journal:
         try:
             self._lock()
             self._file.seek(0)
-            known = sum([self._takes(line) for line in self._file]) > 0
+            known = sum(map(self._takes, self._file)) > 0
         except BaseException:
             self._file.close()
             raise
-        kept = (self.reference, self.deadline, self.seed)
-        if not known or deadline:
-            self.reference, self.deadline = reference, deadline
+        kept = self._head() if known else {}
+        if deadline is not None:
+            self.reference, self.deadline = deadline, True
         self.seed = self.seed if seed is None else seed
-        if not known or kept != (self.reference, self.deadline, self.seed):
-            since = {"reference": self.reference, "deadline": self.deadline}
-            head = {"kind": KIND, "days": [day.number], "seed": self.seed}
-            self._append({**head, **since})
+        if kept != self._head():
+            self._append(self._head())
+
+    def _head(self) -> dict[str, Any]:
+        since = {"reference": self.reference, "deadline": self.deadline}
+        return {"kind": KIND, "days": [self._day.number], "seed": self.seed, **since}
 
     def find(
         self, folder: str, package: Package, *, frozen: bool = False
@@ -186,8 +182,8 @@ class Journal:
                 )
             if type(reference) is not int or not 0 <= reference < _LATEST:
                 raise ValueError(reference)
-            self.reference, self.deadline = reference, record["deadline"] is True
-            self.seed = int(record["seed"])
+            seed, self.deadline = int(record["seed"]), record["deadline"] is True
+            self.reference, self.seed = reference, seed
             return True
         if record["day"] != self._day.number:
             raise ValueError(record["day"])

@@ -198,8 +198,8 @@ def _name(graded: Graded) -> str:
     """Return a student's name, which leads to their feedback."""
     student = graded.student
     name = escape(student.name)
-    if graded.feedback:
-        address = quote(f"feedback/{graded.feedback}.txt".encode())
+    if student.file:
+        address = quote(f"feedback/{student.file}.txt".encode())
         name = f'<a href="{address}">{name}</a>'
     folder = visible(printable(student.folder), 120)
     if student.name == folder:

@@ -10,7 +10,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -36,6 +36,7 @@ class Student:
         problem: why the folder cannot be used; "" where it can.
         id: what a learning platform knows the student by; "" where the roster has none.
         cells: all that the roster says, by column, in small letters.
+        file: a name for files about them, without its ending.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Student:
     problem: str = ""
     id: str = ""
     cells: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
+    file: str = ""
 
 
 def find_students(root: Path, roster: Path | None = None) -> list[Student]:
@@ -77,7 +79,8 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
             f"{shown(root)} has no folders; expected one clone per student, or a "
             "roster.csv and --pull"
         )
-    return students
+    files = file_names(student.folder for student in students)
+    return [replace(student, file=files[student.folder]) for student in students]
 
 
 def file_names(folders: Iterable[str]) -> dict[str, str]:

@@ -139,7 +139,7 @@ def write_feedback(folder: Path, graded: Graded) -> None:
         Robo47Error: it cannot be written.
     """
     text = f"{graded.student.name}\n\n{graded.result.text}"
-    write(folder / f"{graded.feedback}.txt", printable(text).encode("utf-8"))
+    write(folder / f"{graded.student.file}.txt", printable(text).encode("utf-8"))
 
 
 def write(path: Path, content: bytes) -> None:
