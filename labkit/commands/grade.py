@@ -119,11 +119,9 @@ def positive(text: str) -> int:
 
 def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
-    if options.dask:
-        print("wall: each worker's own; without one it refuses", flush=True)
-        return
-    print(f"wall: {wall().says}", flush=True)
-    why = "" if options.i_know_them else refusal()
+    says = "each worker's own; without one it refuses" if options.dask else wall().says
+    print(f"wall: {says}", flush=True)
+    why = "" if options.dask or options.i_know_them else refusal()
     if why:
         raise Robo47Error(
             f"{why}, use a container (docs/teaching.md), or add --i-know-them"
@@ -230,7 +228,7 @@ def grade_days(
     Args:
         days: one after the other: a week takes the memory of a day.
         students: from the roster.
-        out: the table; of several days the table of all.
+        out: the table; of several days that of all, with a folder for each beside it.
         options: the command line.
         notes: filled with who could not be pulled, and why, by folder.
     """
@@ -238,7 +236,8 @@ def grade_days(
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:
-            own = out.parent / f"day{day.number}" / out.name if len(days) > 1 else out
+            folder = out.parent / f"day{day.number}"
+            own = folder / "grades.csv" if len(days) > 1 else out
             # What is no folder is named by the journal.
             with contextlib.suppress(FileExistsError, FileNotFoundError):
                 own.parent.mkdir(parents=True, exist_ok=True)

@@ -18,7 +18,7 @@ from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student
-from labkit.grade.sheet import as_csv, nameless, write, write_feedback
+from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.lesson.day import Day
 from labkit.lesson.starter import make_starter, read_script
 from labkit.sandbox.messages import file_of
@@ -70,7 +70,8 @@ class Classroom:
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
             graded[one.folder] = self._graded(one, package, result)
-            write_feedback(feedback, graded[one.folder])
+            text = f"{one.name}\n\n{graded[one.folder].result.text}"
+            write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
             bar.update()
 
         def changed() -> Iterator[tuple[Student, Package]]:

@@ -132,16 +132,6 @@ def printable(text: str) -> str:
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
-def write_feedback(folder: Path, graded: Graded) -> None:
-    """Write a student's file.
-
-    Raises:
-        Robo47Error: it cannot be written.
-    """
-    text = f"{graded.student.name}\n\n{graded.result.text}"
-    write(folder / f"{graded.student.file}.txt", printable(text).encode("utf-8"))
-
-
 def write(path: Path, content: bytes) -> None:
     """Replace a file whole, or leave it as it was; nothing to do where it is equal.
 
