@@ -19,7 +19,7 @@ from conftest import ROOT, need
 from labkit.base import git, processes
 from labkit.base.exchange import Question
 from labkit.grade import child, classroom, engine
-from labkit.grade.grader import Grader, grade_package
+from labkit.grade.engine import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, fingerprint
 from labkit.grade.roster import Student
@@ -235,8 +235,8 @@ class TestAMachineThatStartsNoProcess:
             def fails(*_, error=error, **__):
                 raise error
 
-            monkeypatch.setattr("labkit.grade.grader.Grader", fails)
-            monkeypatch.setattr("labkit.grade.grader._idle", SimpleQueue())
+            monkeypatch.setattr("labkit.grade.engine.Grader", fails)
+            monkeypatch.setattr("labkit.grade.engine._idle", SimpleQueue())
             with pytest.raises(FaultError):
                 grade_package(solved())
 
@@ -327,7 +327,7 @@ class TestAGrader:
         loops = SOLVED.replace("    T = np.eye(4)\n", "    while True: pass\n", 1)
         code = (
             "import sys\n"
-            "from labkit.grade.grader import Grader\n"
+            "from labkit.grade.engine import Grader\n"
             "from labkit.grade.package import Package, fingerprint\n"
             "from labkit.handin.handin import Handin\n"
             "one = Grader()\n"

@@ -341,7 +341,7 @@ class TestFaultsOfTheMachine:
         hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
         full = f"""
 import resource, runpy, subprocess, sys
-from labkit.grade import grader  # before Popen is another
+from labkit.grade import engine  # before Popen is another
 start = subprocess.Popen
 def limited(*a, **k):
     it = start(*a, **k)

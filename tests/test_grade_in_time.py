@@ -12,11 +12,11 @@ from make_class import DAY, DEADLINE, WEEK, commit, put
 from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
-from labkit.grade import in_time, sheet
+from labkit.grade import package as packages
+from labkit.grade import sheet
 from labkit.grade.course import Graded, percent
-from labkit.grade.in_time import read_in_time
 from labkit.grade.journal import Journal
-from labkit.grade.package import collect
+from labkit.grade.package import collect, read_in_time
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Mark, Result, counted
 from labkit.grade.roster import Student
@@ -117,17 +117,17 @@ def test_one_blob_under_many_names_fills_no_disk(clone, monkeypatch):
             monkeypatch.setenv(f"GIT_{role}_DATE", f"{when} +0000")
         git(clone, *who, "commit", "-q", "--allow-empty", "-m", "x")
     taken: list[int] = []
-    asked = in_time.read_handin
+    asked = packages.read_handin
 
     def seen(day, folder):
         files = [path.stat() for path in folder.rglob("*.py")]
         taken.extend((len(files), sum(512 * file.st_blocks for file in files)))
         return asked(day, folder)
 
-    monkeypatch.setattr(in_time, "read_handin", seen)
+    monkeypatch.setattr(packages, "read_handin", seen)
     handin, _, late = read_in_time(DAY, clone, DEADLINE)
     assert (late, handin.files[SCRIPT]) == (1, b"import m0")
-    assert taken[-2] <= in_time.MOST + 1
+    assert taken[-2] <= packages.MOST + 1
     assert taken[-1] < 100_000
 
 

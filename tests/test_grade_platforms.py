@@ -10,9 +10,9 @@ from test_grade_in_time import result
 
 from conftest import ROOT
 from labkit.grade.course import Course, Graded
-from labkit.grade.platforms import PLATFORMS, as_csv, known
 from labkit.grade.result import ungraded
 from labkit.grade.roster import find_students
+from labkit.grade.sheet import PLATFORMS, for_platform, known
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -48,7 +48,7 @@ def read(content):
 def test_canvas_finds_its_header_its_points_and_everybody(tmp_path):
     courses = class_of(tmp_path)
     known(CANVAS, find_students(tmp_path))
-    head, points, *rows = read(as_csv(CANVAS, courses, "Lab {day} (471{day})"))
+    head, points, *rows = read(for_platform(CANVAS, courses, "Lab {day} (471{day})"))
     # What its importer asks of a header: row_has_student_headers?, update_column_count.
     assert "Student" in head[0]
     assert "ID" in head[1]
@@ -64,14 +64,14 @@ def test_canvas_finds_its_header_its_points_and_everybody(tmp_path):
 
 
 def test_moodle_finds_everybody_by_number_or_email(tmp_path):
-    head, *rows = read(as_csv(MOODLE, class_of(tmp_path), "Day {day}"))
+    head, *rows = read(for_platform(MOODLE, class_of(tmp_path), "Day {day}"))
     assert head == ["ID number", "Email address", "Day 1", "Day 2"]
     assert [row[:2] for row in rows] == [[f"0{i}", f"s{i}@x.org"] for i in range(9)]
 
 
 @pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS)
 def test_no_cell_is_a_formula_or_splits_a_row(tmp_path, platform):
-    content = as_csv(platform, class_of(tmp_path), "=1+{day}")
+    content = for_platform(platform, class_of(tmp_path), "=1+{day}")
     table = read(content)
     assert {len(row) for row in table} == {len(table[0])}
     cells = [cell for row in table for cell in row]
@@ -81,7 +81,7 @@ def test_no_cell_is_a_formula_or_splits_a_row(tmp_path, platform):
 
 def test_who_is_not_graded_has_no_row_that_would_wipe_a_grade_out(tmp_path):
     for platform in PLATFORMS.values():
-        table = read(as_csv(platform, class_of(tmp_path), "Day {day}"))
+        table = read(for_platform(platform, class_of(tmp_path), "Day {day}"))
         assert not [row for row in table if "" in row[-2:] or "login9" in row]
 
 
@@ -102,5 +102,5 @@ def test_the_teachers_guide_shows_what_is_written(tmp_path):
         (CANVAS, "Lab {day}", canvas),
         (MOODLE, "Day {day}", moodle),
     ):
-        content = as_csv(platform, [Course(find_day(1), class_)], title)
+        content = for_platform(platform, [Course(find_day(1), class_)], title)
         assert content.decode("utf-8-sig") == table

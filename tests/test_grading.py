@@ -30,10 +30,9 @@ from make_class import (
 from labkit.base import git
 from labkit.check.tasks import TaskResult
 from labkit.grade import charts, child, classroom, engine, page, similar
-from labkit.grade import grader as graders
 from labkit.grade.child import _tidy
 from labkit.grade.course import Course, Graded
-from labkit.grade.grader import Grader, grade_behind_wall, grade_package
+from labkit.grade.engine import Grader, grade_behind_wall, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
@@ -272,10 +271,10 @@ class TestTheGrader:
 
     def test_refuses_on_a_worker_that_nothing_protects(self, monkeypatch):
         package = Package(1, fingerprint(1), problem="nobody")
-        monkeypatch.setattr(graders, "refusal", lambda: "you are root")
+        monkeypatch.setattr(engine, "refusal", lambda: "you are root")
         with pytest.raises(Robo47Error, match=r"a worker on .* refuses: you are root"):
             grade_behind_wall(package)
-        monkeypatch.setattr(graders, "refusal", lambda: "")
+        monkeypatch.setattr(engine, "refusal", lambda: "")
         assert grade_behind_wall(package)["error"] == "nobody"
 
     def test_ends_when_whoever_started_it_is_gone(self, tmp_path):

@@ -37,10 +37,8 @@ from labkit.grade.classroom import Classroom, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
-from labkit.grade.platforms import PLATFORMS, known
-from labkit.grade.platforms import as_csv as platforms_csv
 from labkit.grade.roster import Student, find_students
-from labkit.grade.sheet import of_days, write
+from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
 from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
@@ -174,7 +172,7 @@ def main() -> int:
         write(out.parent / "class.html", week_page.render(courses).encode("utf-8"))
     if platform:
         own = out.with_name(f"{options.format}.csv")
-        write(own, platforms_csv(platform, courses, options.assignment))
+        write(own, for_platform(platform, courses, options.assignment))
         print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
     if options.proof:
         week = days[-1].week.number

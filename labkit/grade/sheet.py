@@ -1,12 +1,17 @@
-"""The grades as files: a table, one row per student, and a file for each of them."""
+"""The grades as tables, one row per student; those that learning platforms import, too.
+
+Sources: Canvas' importer (github.com/instructure/canvas-lms, lib/gradebook_importer.rb)
+and its users' guides (teaching.resources.osu.edu, "Import a CSV File to Carmen
+Grades"); docs.moodle.org/405/en/Grade_import.
+"""
 
 import csv
 import hashlib
 import io
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -23,7 +28,7 @@ _SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets s
 
 
 def as_csv(class_: Sequence[Graded]) -> bytes:
-    """Return the table.
+    """Return the table of a day.
 
     Args:
         class_: everybody, in the order to show them.
@@ -31,21 +36,18 @@ def as_csv(class_: Sequence[Graded]) -> bytes:
     Returns:
         CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
     """
-    return csv_of(list(map(_row, class_)))
+    rows = list(map(_row, class_))
+    return _csv([rows[0], *(row.values() for row in rows)])
 
 
 def of_days(courses: Sequence[Course]) -> bytes:
     """Return the table of several days: a row per student, in per cent of the tasks."""
     numbers = [course.day.number for course in courses]
-    return csv_of([_row_of_days(numbers, days) for days in by_student(courses)])
+    rows = [_row_of_days(numbers, days) for days in by_student(courses)]
+    return _csv([rows[0], *(row.values() for row in rows)])
 
 
-def csv_of(rows: Sequence[Mapping[str, Cell]]) -> bytes:
-    """Return rows by column as every grades.csv is written."""
-    return lines_of([list(rows[0]), *(row.values() for row in rows)])
-
-
-def lines_of(rows: Iterable[Iterable[Cell]]) -> bytes:
+def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
     """Return rows of cells as CSV, a cell that is None as an empty one."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
@@ -119,6 +121,84 @@ def _who(student: Student) -> dict[str, Cell]:
     """Return the first cells of a student's row: who it is."""
     folder = plain(printable(student.folder))
     return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
+
+
+@dataclass(frozen=True)
+class Platform:
+    """What a platform's import asks for.
+
+    Attributes:
+        name: as its makers write it.
+        columns: of the file, before the grades, in order; the roster's are called the
+            same, in letters of any size, or by the other names here.
+        known_by: by one of these columns it finds a student.
+        points: how a row begins that says what a grade is out of; "" where none does.
+    """
+
+    name: str
+    columns: dict[str, tuple[str, ...]]
+    known_by: tuple[str, ...]
+    points: str = ""
+
+
+PLATFORMS = {
+    "canvas": Platform(
+        "Canvas",
+        {"Student": (), "ID": (), "SIS Login ID": ("login",), "Section": ()},
+        ("ID", "SIS Login ID"),
+        "    Points Possible",
+    ),
+    "moodle": Platform(
+        "Moodle",
+        {"ID number": ("id", "number"), "Email address": ("email",)},
+        ("ID number", "Email address"),
+    ),
+}
+
+
+def known(platform: Platform, students: Sequence[Student]) -> None:
+    """Check that a platform can find everybody, before anybody is graded.
+
+    Raises:
+        Robo47Error: somebody's row of the roster does not say as whom.
+    """
+    for student in students:
+        if not any(_as_known(platform, student, name) for name in platform.known_by):
+            asked = " or ".join(platform.known_by)
+            raise Robo47Error(
+                f"{platform.name} cannot know {student.name}: give roster.csv a column "
+                f"{asked}, with what the platform's own export has there"
+            )
+
+
+def for_platform(platform: Platform, courses: Sequence[Course], title: str) -> bytes:
+    """Return the table for a platform, grades in per cent of the tasks.
+
+    Whoever could not be graded has no row: an empty grade would wipe one out.
+
+    Args:
+        platform: of PLATFORMS.
+        courses: the graded days of a class.
+        title: of a day's column, as the assignment is called there: "Lab {day}".
+    """
+    titles = [title.replace("{day}", str(course.day.number)) for course in courses]
+    rows = [[*platform.columns, *map(plain, titles)]]
+    if platform.points:
+        blank = [""] * (len(platform.columns) - 1)
+        rows.append([platform.points, *blank, *(["100"] * len(titles))])
+    for days in by_student(courses):
+        if percent(*days):
+            student = days[0].student
+            about = [_as_known(platform, student, name) for name in platform.columns]
+            rows.append([*about, *map(percent, days)])
+    return _csv(rows)
+
+
+def _as_known(platform: Platform, student: Student, column: str) -> str:
+    """Return what the roster has in a platform's column, "" for nothing."""
+    names = (column.lower(), *platform.columns[column])
+    found = next((student.cells[n] for n in names if student.cells.get(n)), "")
+    return plain(found or (student.name if column == "Student" else ""))
 
 
 def plain(text: str) -> str:
