@@ -30,24 +30,16 @@ FAULT = "this machine failed ({}); the same command tries again"
 
 @dataclass
 class Classroom:
-    """One class on the way to its grades for a day.
+    """One class on the way to its grades for a day."""
 
-    Attributes:
-        students: from the roster.
-        day: from the kit's manifest.
-        journal: results so far.
-        again: folders to grade though they have a result; None is everybody.
-        frozen: what another version of the kit gave stays.
-        keep: "last", or "best" of all results of somebody.
-        notes: what to add to a student's error, by folder.
-    """
-
-    students: Sequence[Student]
-    day: Day
-    journal: Journal
+    students: Sequence[Student]  # from the roster
+    day: Day  # from the kit's manifest
+    journal: Journal  # results so far
+    # Folders to grade though they have a result; None is everybody.
     again: Collection[str] | None = ()
-    frozen: bool = False
-    keep: str = "last"
+    frozen: bool = False  # what another version of the kit gave stays
+    keep: str = "last"  # or "best" of all results of somebody
+    # What to add to a student's error, by folder.
     notes: Mapping[str, str] = field(default_factory=dict)
 
     def grade(self, engine: Engine, feedback: Path) -> Course:

@@ -13,26 +13,17 @@ from labkit.lesson.day import Day
 
 @dataclass(frozen=True)
 class Graded:
-    """One student with all that the table and the page show.
+    """One student with all that the table and the page show."""
 
-    Attributes:
-        student: from the roster.
-        result: the grade.
-        commit: the hash of the last commit, or "".
-        minutes: from there to the deadline, by the student's own clock, negative past
-            it; None without a commit.
-        note: what this run has to add to the result's error, such as a failed pull.
-        fault: whether this machine failed; the next run grades them.
-        late: how many commits came after the deadline; None without one.
-    """
-
-    student: Student
-    result: Result
-    commit: str = ""
+    student: Student  # from the roster
+    result: Result  # the grade
+    commit: str = ""  # the hash of the last commit, or ""
+    # From there to the deadline, by the student's own clock, negative past it; None
+    # without a commit.
     minutes: int | None = None
-    note: str = ""
-    fault: bool = False
-    late: int | None = None
+    note: str = ""  # what this run has to add to the result's error, as a failed pull
+    fault: bool = False  # whether this machine failed; the next run grades them
+    late: int | None = None  # how many commits came after the deadline; None without
 
     @property
     def error(self) -> str:
@@ -76,29 +67,17 @@ def percent(*days: Graded) -> str:
 
 @dataclass(frozen=True)
 class Course:
-    """A class on one day.
+    """A class on one day."""
 
-    Attributes:
-        day: from the manifest.
-        class_: everybody, in the order to show them.
-        alike: similar submissions, by folder.
-        reference: what commit times count to, seconds since 1970.
-        deadline: whether that is the deadline.
-        seed: of the fresh inputs.
-        graded_now: how many results are new.
-        outdated: how many another version of the kit had given.
-        odd: on lines of the journal that are no result, "" where there are none.
-    """
-
-    day: Day
-    class_: Sequence[Graded]
-    alike: Sequence[Group] = ()
-    reference: int = 0
-    deadline: bool = False
-    seed: int = 0
-    graded_now: int = 0
-    outdated: int = 0
-    odd: str = ""
+    day: Day  # from the manifest
+    class_: Sequence[Graded]  # everybody, in the order to show them
+    alike: Sequence[Group] = ()  # similar submissions, by folder
+    reference: int = 0  # what commit times count to, seconds since 1970
+    deadline: bool = False  # whether that is the deadline
+    seed: int = 0  # of the fresh inputs
+    graded_now: int = 0  # how many results are new
+    outdated: int = 0  # how many another version of the kit had given
+    odd: str = ""  # on lines of the journal that are no result, "" where there are none
 
     @property
     def counts(self) -> Counter[str]:

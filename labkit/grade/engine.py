@@ -165,17 +165,11 @@ def close_graders() -> None:
 
 @dataclass(frozen=True)
 class Engine:
-    """Where packages are graded.
+    """Where packages are graded."""
 
-    Attributes:
-        executor: runs `grade`.
-        workers: returns how many packages can be graded at the same time now.
-        lost: the exception that a package brings back whose workers all died.
-        grade: what is run.
-    """
-
-    executor: Executor
-    workers: Callable[[], int]
+    executor: Executor  # runs `grade`
+    workers: Callable[[], int]  # how many packages can be graded at the same time now
+    # What a package brings back whose workers all died.
     lost: type[BaseException] = FaultError
     grade: Callable[[Package], Any] = grade_package
 

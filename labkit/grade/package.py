@@ -55,31 +55,20 @@ _DECIDES = (
 
 @dataclass(frozen=True)
 class Package:
-    """One submission for one day, without the student's name.
+    """One submission for one day, without the student's name."""
 
-    Attributes:
-        day: its number.
-        kit: fingerprint of the kit that collected it; no other may grade it.
-        handin: the files.
-        commit_item: the deliverable "commit", which only the clone can tell.
-        commit: the hash of the commit that counts; "" without one.
-        committed: its time by the student's own clock, seconds since 1970, or None.
-        problem: why there is nothing to grade; "" where there is.
-        seed: of the fresh inputs, the same for everybody.
-        version: of the kit that collected it, in words.
-        late: how many commits came after the deadline.
-    """
-
-    day: int
-    kit: str
-    handin: Handin = field(default_factory=Handin)
+    day: int  # its number
+    kit: str  # fingerprint of the kit that collected it; no other may grade it
+    handin: Handin = field(default_factory=Handin)  # the files
+    # The deliverable "commit", which only the clone can tell.
     commit_item: Item = field(default_factory=lambda: Item("commit", "todo"))
-    commit: str = ""
+    commit: str = ""  # the hash of the commit that counts; "" without one
+    # Its time by the student's own clock, seconds since 1970, or None.
     committed: int | None = None
-    problem: str = ""
-    seed: int = 0
-    version: str = ""
-    late: int = 0
+    problem: str = ""  # why there is nothing to grade; "" where there is
+    seed: int = 0  # of the fresh inputs, the same for everybody
+    version: str = ""  # of the kit that collected it, in words
+    late: int = 0  # how many commits came after the deadline
 
     @property
     def fingerprint(self) -> str:

@@ -17,19 +17,12 @@ NO_MISTAKES = ("", "unwritten", "waits", "inherited", "borrowed", "not-started")
 
 @dataclass(frozen=True)
 class Mark:
-    """How a task or a deliverable stands.
+    """How a task or a deliverable stands."""
 
-    Attributes:
-        id: "1.4", or "figure".
-        status: one of STATUSES.
-        mistake: its name, "chain-reversed"; "" where nothing has one.
-        message: in the student's words.
-    """
-
-    id: str
-    status: str
-    mistake: str = ""
-    message: str = ""
+    id: str  # "1.4", or "figure"
+    status: str  # one of STATUSES
+    mistake: str = ""  # its name, "chain-reversed"; "" where nothing has one
+    message: str = ""  # in the student's words
 
     @property
     def passed(self) -> bool:
@@ -49,25 +42,16 @@ class Mark:
 
 @dataclass(frozen=True)
 class Result:
-    """One student's grade for one day.
+    """One student's grade for one day."""
 
-    Attributes:
-        tasks: those that count, in the manifest's order.
-        items: the deliverables.
-        text: what `make check` would have told the student.
-        error: why something could not be graded; "" where all was.
-        refused: what the code wanted and was refused, though its answers may be right.
-        kit: version of the kit that gave it; "" where nothing was graded.
-        seed: of its fresh inputs.
-    """
-
-    tasks: tuple[Mark, ...]
-    items: tuple[Mark, ...]
-    text: str = ""
-    error: str = ""
+    tasks: tuple[Mark, ...]  # those that count, in the manifest's order
+    items: tuple[Mark, ...]  # the deliverables
+    text: str = ""  # what `make check` would have told the student
+    error: str = ""  # why something could not be graded; "" where all was
+    # What the code wanted and was refused, though its answers may be right.
     refused: tuple[str, ...] = ()
-    kit: str = ""
-    seed: int = 0
+    kit: str = ""  # version of the kit that gave it; "" where nothing was graded
+    seed: int = 0  # of its fresh inputs
 
     @property
     def stopped_at(self) -> Mark | None:

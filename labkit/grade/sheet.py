@@ -125,20 +125,14 @@ def _who(student: Student) -> dict[str, Cell]:
 
 @dataclass(frozen=True)
 class Platform:
-    """What a platform's import asks for.
+    """What a platform's import asks for."""
 
-    Attributes:
-        name: as its makers write it.
-        columns: of the file, before the grades, in order; the roster's are called the
-            same, in letters of any size, or by the other names here.
-        known_by: by one of these columns it finds a student.
-        points: how a row begins that says what a grade is out of; "" where none does.
-    """
-
-    name: str
+    name: str  # as its makers write it
+    # Of the file, before the grades, in order; the roster's are called the same, in
+    # letters of any size, or by the other names here.
     columns: dict[str, tuple[str, ...]]
-    known_by: tuple[str, ...]
-    points: str = ""
+    known_by: tuple[str, ...]  # by one of these columns it finds a student
+    points: str = ""  # how a row begins that says what a grade is out of, if one does
 
 
 PLATFORMS = {
