@@ -1,16 +1,23 @@
-"""Mistakes made with a finished rotation or pose, whatever function it came from.
+"""Mistakes made with a finished answer, whatever function it came from.
 
-Each `redo` takes the right answer: R, (n, 3, 3), or T, (n, 4, 4).
+Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
-from labkit.judge.kinds import TRUNCATED
 from labkit.judge.matrices import pose, rigid_inverse, split
 from labkit.judge.mistake import Mistake
 from robo47.checks import Array
+
+NEGATED = Mistake("all-signs", "every sign is wrong", np.negative, "its negative")
+TRUNCATED = Mistake(
+    "whole-numbers",
+    "only whole numbers are left: an array of integers cuts off what is stored in it",
+    np.trunc,
+    "the right one cut to whole numbers",
+)
 
 Change = Callable[[Array], Array]
 

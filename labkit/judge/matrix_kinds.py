@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from labkit.judge.compare import difference, gap
-from labkit.judge.kinds import NEAR, NEGATED, TRUNCATED, Kind, one_factor
+from labkit.judge.finished import NEGATED, TRUNCATED
+from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
@@ -143,40 +144,3 @@ class Covariance(Symmetric):
             f"It has a negative eigenvalue ({least:.3g}), so it is no covariance; off "
             f"by up to {self.apart(S, T)}.",
         )
-
-
-def few_entries(
-    kind: Kind, S: Array, T: Array, ignored: int | None = None
-) -> Finding | None:
-    """Return which entries are wrong if they are one or two, or one row or column.
-
-    Args:
-        kind: of the answers.
-        S: the student's, (n, m, k).
-        T: the right ones.
-        ignored: a row and column that has a name of its own, such as a pose's last.
-    """
-    apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
-    if not len(rows):
-        return None
-    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
-    if last and len(rows) > 1:
-        return None
-    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
-    if len(rows) <= 2:
-        where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
-        where += ", counted from 0"
-    elif one_row:
-        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
-    elif one_column:
-        name = names[1][columns[0]] if names[1] else ""
-        where = name or f"column {columns[0]}, counted from 0"
-    else:
-        return None
-    return Finding(
-        "few-entries-off",
-        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
-        "for a wrong sign, letter or factor.",
-    )
