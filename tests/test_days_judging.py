@@ -11,9 +11,8 @@ from judged import judged, right, round_of
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question
+from labkit.judge.answers import InTurn, difference, matches, off_by, parts
 from labkit.judge.ask import stacked
-from labkit.judge.compare import difference, matches, off_by, parts
-from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day

@@ -9,8 +9,8 @@ import numpy as np
 from labkit.author.sheet import worksheet_of
 from labkit.base.exchange import Exchange, Question
 from labkit.handin.worksheet import split_sections
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import stacked
-from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
 from labkit.lesson import folder
 from labkit.lesson.day import Day

@@ -7,7 +7,8 @@
                 counts, yes or no, paths, pixels, images)
     draw        inputs for questions
     problems    did an answer come back, of the right shape and type? If not, the words
-    mistake     a mistake that has a name, and the same mistake made on purpose
+    answers     made by a function; how far two sets of them are apart; in words
+    mistake     a mistake that has a name, and the verdict that says so
     finished    mistakes made with a finished answer
     argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits

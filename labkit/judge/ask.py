@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
-from labkit.judge.compare import Parts, parts
+from labkit.judge.answers import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake

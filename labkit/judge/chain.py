@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.compare import difference, matches
+from labkit.judge.answers import difference, matches
 from labkit.judge.kinds import Pose
 from labkit.judge.matrices import rigid_inverse
 from labkit.judge.mistake import Finding

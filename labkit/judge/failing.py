@@ -2,15 +2,22 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import problems
+from labkit.judge.answers import (
+    Parts,
+    as_one_size,
+    difference,
+    gaps,
+    own,
+    typed,
+    worst_part,
+)
 from labkit.judge.ask import Asked, HeldOut, right_answers
-from labkit.judge.compare import Parts, as_one_size, difference, gaps, worst_part
-from labkit.judge.mistake import Finding, own
+from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
 
@@ -121,54 +128,6 @@ def _only_known(main: Parts, S: Parts) -> bool:
         bool((difference(rest, np.broadcast_to(row, rest.shape)) < 1e-9).any())
         for row, rest in zip(rows, others, strict=True)
     )
-
-
-def typed(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a call as a student can type it; what is too long goes by its name."""
-    named = len(names) == len(question.args)
-    words = [
-        _value(arg) or (names[i] if named else "...")
-        for i, arg in enumerate(question.args)
-    ]
-    return f"{question.function}({', '.join(words)})"
-
-
-def in_words(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a question's input as a student can type it, or "" where it is too long.
-
-    Numbers and vectors can be typed; where a matrix is among them, the rest would
-    mislead.
-    """
-    args = question.args
-    if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
-        return ""
-    named = len(names) == len(args) > 1
-    words = [
-        f"{names[i]} = {says}" if named else says
-        for i, arg in enumerate(args)
-        if (says := _value(arg))  # not the robot, or a path along it
-    ]
-    return (", " if named else " and ").join(words)
-
-
-def _value(arg: Any) -> str:
-    """Return a number or a vector as it is typed, "" for anything else."""
-    if isinstance(arg, (int, float)):
-        return number(float(arg))
-    if isinstance(arg, np.ndarray) and arg.ndim == 1:
-        return "(" + ", ".join(number(float(x)) for x in arg) + ")"
-    return ""
-
-
-def number(x: float) -> str:
-    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
-    for over in (1, 2, 3, 4, 6):
-        times = x * over / np.pi
-        if times and times == round(times) and abs(times) <= 2 * over:
-            sign = "-" if times < 0 else ""
-            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
-            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
-    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
 
 
 def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:

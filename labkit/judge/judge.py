@@ -8,22 +8,26 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import near_miss, problems
-from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
-from labkit.judge.compare import (
+from labkit.judge.answers import (
+    InTurn,
     Parts,
     all_match,
     as_one,
+    capitalised,
     difference,
     gaps,
+    in_words,
     largest,
     matches,
     off_by,
+    own,
     parts,
     plain,
     worst_part,
 )
-from labkit.judge.failing import failing_call, for_fresh, in_words
-from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised, own
+from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
+from labkit.judge.failing import failing_call, for_fresh
+from labkit.judge.mistake import Finding, Mistake, Verdict
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.compare import (
+from labkit.judge.answers import (
     RIGID,
     degrees,
     difference,

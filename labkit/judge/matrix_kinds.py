@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.judge.compare import difference, gap
+from labkit.judge.answers import difference, gap
 from labkit.judge.finished import NEGATED, TRUNCATED
 from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake

@@ -5,7 +5,7 @@ S are the student's answers, (n, ...), T the right ones.
 
 import numpy as np
 
-from labkit.judge.compare import MATCHES, difference
+from labkit.judge.answers import MATCHES, difference
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from labkit.base.words import count
-from labkit.judge.compare import difference, millimetres, say_mm
+from labkit.judge.answers import capitalised, difference, millimetres, say_mm
 from labkit.judge.finished import NEGATED, TRUNCATED
 from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
-from labkit.judge.mistake import Finding, Mistake, capitalised
+from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 INVERTED = Mistake(

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Reply
+from labkit.judge.answers import InTurn, Parts, as_one, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
-from labkit.judge.compare import Parts, as_one, parts
 from labkit.judge.kinds import Kind
-from labkit.judge.mistake import Finding, InTurn, Verdict
+from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT

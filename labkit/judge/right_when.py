@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
+from labkit.judge.answers import InTurn, own, rigid, say_factor
 from labkit.judge.ask import Asked, as_plain
-from labkit.judge.compare import rigid, say_factor
-from labkit.judge.mistake import InTurn, own
 from labkit.judge.problems import flat
 from robo47.checks import Array
 

@@ -30,9 +30,10 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
-from labkit.judge.mistake import AtOnce, InTurn, Mistake, entry_of, once
+from labkit.judge.mistake import Mistake
 from labkit.lesson import folder
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error

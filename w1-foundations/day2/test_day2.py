@@ -11,7 +11,7 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need
-from labkit.judge.compare import degrees, matches
+from labkit.judge.answers import degrees, matches
 from labkit.judge.row import row_of
 from labkit.lesson import folder
 from labkit.lesson.day import find_day
