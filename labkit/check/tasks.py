@@ -8,14 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply
-from labkit.check.source import (
-    arguments,
-    kits_functions,
-    kits_own,
-    old_names,
-    renamed,
-    unfinished,
-)
 from labkit.judge.ask import Asked, make_round, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
@@ -23,7 +15,15 @@ from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
 from labkit.lesson.day import Day, Task
-from labkit.lesson.starter import borrowed_tasks
+from labkit.lesson.script import (
+    arguments,
+    borrowed_tasks,
+    kits_functions,
+    kits_own,
+    old_names,
+    renamed,
+    unfinished,
+)
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 

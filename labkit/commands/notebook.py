@@ -18,8 +18,8 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.script import make_starter, read_script
 from labkit.lesson.sealed import is_sealed
-from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -19,7 +19,7 @@ from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student, file_names
 from labkit.grade.sheet import Graded, as_csv, nameless, write, write_feedback
 from labkit.lesson.day import Day
-from labkit.lesson.starter import make_starter, read_script
+from labkit.lesson.script import make_starter, read_script
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown

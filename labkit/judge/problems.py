@@ -12,7 +12,7 @@ from labkit.judge.answers import InTurn, Parts, as_one, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
-from labkit.lesson.starter import function_lines
+from labkit.lesson.script import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 

@@ -34,8 +34,8 @@ from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.mistake import Mistake
-from labkit.lesson import folder
 from labkit.lesson.day import Day
+from labkit.lesson.script import lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -257,7 +257,7 @@ class Row:
     @property
     def lab(self) -> ModuleType:
         """The day's complete lab."""
-        return folder.lab(self._day)
+        return lab_of(self._day)
 
     @cached_property
     def ways(self) -> list[Way]:
@@ -329,7 +329,7 @@ def row_of(day: Day, function: str) -> Row:
     Raises:
         Robo47Error: the day has no such file, or it holds no row.
     """
-    module = folder.load(day, function)
+    module = day.module(function)
     if not isinstance(getattr(module, "row", None), Row):
         raise Robo47Error(f"day{day.number}/{function}.py has no `row = Row(...)`")
     return _bound(module, day)

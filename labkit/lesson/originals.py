@@ -5,7 +5,7 @@ is neither. The markers of the tasks tell the two apart, with or without git.
 """
 
 from labkit.lesson.day import Day
-from labkit.lesson.starter import find_regions, read_script
+from labkit.lesson.script import find_regions, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

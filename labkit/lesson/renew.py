@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from labkit.lesson.day import Day
 from labkit.lesson.merge import conflicts, keep_ours, merged
-from labkit.lesson.starter import function_lines, make_starter, put_back
+from labkit.lesson.script import function_lines, make_starter, put_back
 from robo47.errors import Robo47Error
 
 

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 from labkit.inspector.recording import Recording
-from labkit.lesson import folder
 from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
 
@@ -13,7 +12,7 @@ LARGEST = 2_000_000  # bytes of a page's film
 
 def films() -> dict[str, Callable[[], Recording]]:
     """Return what records the film beside each picture, by its name."""
-    some = (folder.offered(day, "films") for day in all_days())
+    some = (day.offered("films") for day in all_days())
     return {name: make for films in some for name, make in films.items()}
 
 

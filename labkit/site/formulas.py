@@ -16,8 +16,8 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge.row import Row, Way, row_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from labkit.lesson.script import lab_of
 from robo47 import checks
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
@@ -178,7 +178,7 @@ def chosen() -> list[tuple[int, Row, Way]]:
 
 def questions(number: int, q: Any) -> dict[str, tuple]:
     """Return {frame: what a day's inspector asks the arm's function} at q, (7,)."""
-    ghost = folder.load(find_day(number), "inspector").GHOST
+    ghost = find_day(number).module("inspector").GHOST
     asked = zip(ghost.frames, ghost.questions(twin(), q), strict=True)
     return {
         frame: tuple(list(x.pairs) if isinstance(x, Path) else x for x in question)
@@ -193,7 +193,7 @@ def tables() -> dict[str, Any]:
     for number, row, way in chosen():
         asked = questions(number, tape.q)
         # A mistake of an argument is made with the lab's own: MuJoCo takes no symbols.
-        own = getattr(folder.lab(find_day(number)), row.function)
+        own = getattr(lab_of(find_day(number)), row.function)
         with symbols_allowed(), patch.object(row, "truth", own):
             drawn = {frame: way.code(*of) for frame, of in asked.items()}
         mistakes.append(
