@@ -201,9 +201,9 @@ class Day:
         Raises:
             Robo47Error: it has no such file, or that stops while it is loaded.
         """
-        file = f"{shown(self.own / name)}.py"
+        file = self.own / f"{name}.py"
         if not self.has(name):
-            raise Robo47Error(f"{file} is not there")
+            raise Robo47Error(f"{shown(file)} is not there")
         package = f"lesson_day{self.number}"
         known = sys.modules.get(package)
         if known is None or list(known.__path__) != [str(self.own)]:
@@ -220,7 +220,7 @@ class Day:
             where = f" ({Path(last.filename).name}, line {last.lineno})"
             where = "" if isinstance(error, SyntaxError) else where  # it says so itself
             why = f"{type(error).__name__}: {error}{where}"
-            raise Robo47Error(f"{file} does not load: {why}") from error
+            raise Robo47Error(f"{shown(file)} does not load: {why}") from error
 
     def offered(self, name: str, lab: Path | None = None) -> dict[str, Any]:
         """Return what its figures.py or films.py offers: {"dayN_name": function}.

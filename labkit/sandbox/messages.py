@@ -19,13 +19,14 @@ from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Limits, Path, Question, 
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.lesson.day import Day, days_before
+from labkit.lesson.script import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-PANDA = Robot()  # what a file that loads the robot at its top is given
+PANDA = Robot()  # what a file that may load the robot is given
 MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
@@ -62,7 +63,7 @@ def request(
     told = {**_code_of(script, added), "library": dict(library or {}), **others}
     copies = [_copy_of(robot) for robot in robots]
     known = [copy["entry"] for copy in copies]
-    if PANDA.entry not in known and _names_panda(told):
+    if PANDA.entry not in known and _loads_panda(told):
         copies.append(_copy_of(PANDA))
     return {**told, "models": copies, "facts": _facts()}
 
@@ -94,11 +95,23 @@ def library_of(day: Day) -> dict[str, str]:
     return found
 
 
-def _names_panda(told: dict[str, Any]) -> bool:
-    """Return whether code that is sent may load the robot."""
-    own = map(base64.b64decode, [told["code"], *told["beside"].values()])
-    kits = any("panda" in it for it in [told["added"], *told["library"].values()])
-    return kits or any(b"panda" in source for source in own)
+def _loads_panda(told: dict[str, Any]) -> bool:
+    """Return whether code that is sent may load the robot; a lab's `main` is not run.
+
+    To compile it and send it takes longer than to ask a task's questions.
+    """
+    sent = map(base64.b64decode, [told["code"], *told["beside"].values()])
+    own = [code.decode("utf-8", "replace") for code in sent if b"panda" in code]
+    texts = [*map(_without_main, own), told["added"], *told["library"].values()]
+    return any("panda" in it and re.search(r"\bload\b", it) for it in texts)
+
+
+def _without_main(text: str) -> str:
+    """Return a file without its `main`; whole, where not its last line alone has it."""
+    start, end, _ = function_lines(text, "main")
+    lines = text.splitlines()
+    rest = "\n".join(lines[:start] + lines[end:]) if start >= 0 else text
+    return rest if len(re.findall(r"\bmain\b", rest)) <= 1 else text
 
 
 def robots_of(questions: Iterable[Question]) -> Robots:
