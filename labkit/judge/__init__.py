@@ -6,7 +6,8 @@
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
                 counts, yes or no, paths, pixels, images)
     draw        inputs for questions
-    problems    did an answer come back, of the right shape and type? If not, the words
+    problems    did an answer come back, of the right shape and type? If not, the words;
+                the call that failed
     answers     made by a function; how far two sets of them are apart; in words
     mistake     a mistake that has a name, and the verdict that says so
     finished    mistakes made with a finished answer

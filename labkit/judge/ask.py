@@ -201,11 +201,6 @@ class Asked:
     held_out: list[list[Exchange]]  # per entry of `ask.held_out`
     probes: list[Exchange]  # those of `ask.probe`
 
-    @cached_property
-    def right(self) -> Parts:
-        """The right answers to the main questions."""
-        return right_answers(self.ask, self.main)
-
     @property
     def exchanges(self) -> list[Exchange]:
         """All of them, in the order in which they are asked."""

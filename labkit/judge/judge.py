@@ -26,8 +26,8 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
-from labkit.judge.failing import failing_call, for_fresh
 from labkit.judge.mistake import Finding, Mistake, Verdict
+from labkit.judge.problems import failing_call, for_fresh
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -68,7 +68,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
-    T = asked.right
+    T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
     measured = _measured(case, S, T)
     off = off_by(ask.kinds, S, T)
@@ -91,7 +91,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
         return found
     with np.errstate(all="ignore"):
-        T = rest.right
+        T = right_answers(asked.ask, good)
         if off_by(asked.ask.kinds, S, T) <= asked.ask.near:
             return found
         case = _case(rest, S, T, names)
@@ -107,7 +107,7 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
-    if off <= near_miss.SINGLE and problems.single_precision(replies(asked.main), S):
+    if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
         says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
