@@ -3,12 +3,12 @@
 Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from labkit.judge.matrices import pose, rigid_inverse, split
-from labkit.judge.mistake import Mistake
+from labkit.judge.mistake import REDONE, Mistake, told
 from robo47.checks import Array
 
 NEGATED = Mistake("all-signs", "every sign is wrong", np.negative, "its negative")
@@ -35,16 +35,12 @@ def _mirrored(R: Array) -> Array:
     return R * [1.0, 1.0, -1.0]
 
 
-def _nothing(part: Array) -> Array:
-    return np.zeros_like(part)
-
-
 def _unturned(R: Array) -> Array:
     return np.broadcast_to(np.eye(3), R.shape)
 
 
 def _in_last_row(T: Array) -> Array:
-    out = _parts(t=_nothing)(T)
+    out = _parts(t=np.zeros_like)(T)
     out[..., 3, :3] = T[..., :3, 3]
     return out
 
@@ -61,22 +57,52 @@ def _ones_below(T: Array) -> Array:
     return out
 
 
+def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
+    """Return mistakes of a text with a line of each, as `told` reads it."""
+    lines = told(text)
+    return [Mistake(slug, says, redo[slug], its or REDONE) for slug, says, its in lines]
+
+
 OF_A_ROTATION = [
-    Mistake(
-        "R-transposed",
-        "the matrix is right except that it is transposed: it turns the other way",
-        np.matrix_transpose,
-        "its transpose",
+    *_mistakes(
+        """
+        R-transposed: the matrix is right except that it is transposed: it turns the
+          other way => its transpose
+        left-handed: the third axis points the wrong way: det R = -1, a left-handed
+          frame => the right one with that axis reversed
+        all-signs: every entry has the wrong sign => its negative
+        """,
+        {
+            "R-transposed": np.matrix_transpose,
+            "left-handed": _mirrored,
+            "all-signs": np.negative,
+        },
     ),
-    Mistake(
-        "left-handed",
-        "the third axis points the wrong way: det R = -1, a left-handed frame",
-        _mirrored,
-        "the right one with that axis reversed",
-    ),
-    Mistake("all-signs", "every entry has the wrong sign", np.negative, "its negative"),
     TRUNCATED,
 ]
+_OF_A_POSE = """
+    R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
+      right one with R transposed
+    inverse-returned: this is the inverse of what was asked for: it {wrong_way} => its
+      inverse
+    T-transposed: the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1) =>
+      its transpose
+    t-in-last-row: the translation is in the last row, and the last column is empty =>
+      the right one with t moved there
+    corner-zero: the bottom row is (0, 0, 0, 0): points lose their 1, and so every move
+      after this one
+    ones-below: the bottom row is all ones, not (0, 0, 0, 1)
+    t-lost: the rotation is right, but the translation is missing => the right one
+      without t
+    R-lost: the translation is right, but there is no rotation: R is the identity => the
+      right one without R
+    t-negated: the rotation is right, but the translation has the wrong sign => the
+      right one with t negated
+    left-handed: the third axis points the wrong way: det R = -1, a left-handed frame =>
+      the right one with that axis reversed
+    millimetres: the rotation is right, but the translation is in millimetres => the
+      right one in millimetres
+    """
 
 
 def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
@@ -85,69 +111,17 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
     Args:
         wrong_way: what its R does when transposed: "maps the world to the hand".
     """
-    return [
-        Mistake(
-            "R-transposed",
-            f"all is right except that R is transposed: T[:3, :3] {wrong_way}",
-            _parts(R=np.matrix_transpose),
-            "the right one with R transposed",
-        ),
-        Mistake(
-            "inverse-returned",
-            f"this is the inverse of what was asked for: it {wrong_way}",
-            rigid_inverse,
-            "its inverse",
-        ),
-        Mistake(
-            "T-transposed",
-            "the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1)",
-            np.matrix_transpose,
-            "its transpose",
-        ),
-        Mistake(
-            "t-in-last-row",
-            "the translation is in the last row, and the last column is empty",
-            _in_last_row,
-            "the right one with t moved there",
-        ),
-        Mistake(
-            "corner-zero",
-            "the bottom row is (0, 0, 0, 0): points lose their 1, and so every move "
-            "after this one",
-            _corner_zero,
-        ),
-        Mistake(
-            "ones-below", "the bottom row is all ones, not (0, 0, 0, 1)", _ones_below
-        ),
-        Mistake(
-            "t-lost",
-            "the rotation is right, but the translation is missing",
-            _parts(t=_nothing),
-            "the right one without t",
-        ),
-        Mistake(
-            "R-lost",
-            "the translation is right, but there is no rotation: R is the identity",
-            _parts(R=_unturned),
-            "the right one without R",
-        ),
-        Mistake(
-            "t-negated",
-            "the rotation is right, but the translation has the wrong sign",
-            _parts(t=np.negative),
-            "the right one with t negated",
-        ),
-        Mistake(
-            "left-handed",
-            "the third axis points the wrong way: det R = -1, a left-handed frame",
-            _parts(R=_mirrored),
-            "the right one with that axis reversed",
-        ),
-        Mistake(
-            "millimetres",
-            "the rotation is right, but the translation is in millimetres",
-            _parts(t=lambda t: 1000.0 * t),
-            "the right one in millimetres",
-        ),
-        TRUNCATED,
-    ]
+    redo: dict[str, Change] = {
+        "R-transposed": _parts(R=np.matrix_transpose),
+        "inverse-returned": rigid_inverse,
+        "T-transposed": np.matrix_transpose,
+        "t-in-last-row": _in_last_row,
+        "corner-zero": _corner_zero,
+        "ones-below": _ones_below,
+        "t-lost": _parts(t=np.zeros_like),
+        "R-lost": _parts(R=_unturned),
+        "t-negated": _parts(t=np.negative),
+        "left-handed": _parts(R=_mirrored),
+        "millimetres": _parts(t=lambda t: 1000.0 * t),
+    }
+    return [*_mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo), TRUNCATED]

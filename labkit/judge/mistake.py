@@ -1,8 +1,12 @@
 """A mistake that has a name, and the verdict that says so."""
 
-from collections.abc import Callable
+import inspect
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
+
+REDONE = "the answer with this mistake"
 
 
 class Finding(NamedTuple):
@@ -45,4 +49,17 @@ class Mistake:
     # a tuple of such where the function returns several.
     redo: Callable[..., Any]
     # What to call that answer, as in "0 from its transpose".
-    redone: str = "the answer with this mistake"
+    redone: str = REDONE
+
+
+def told(text: str) -> Iterator[tuple[str, str, str]]:
+    """Yield slug, sentence and what to call the answer of mistakes, "" where none says.
+
+    Args:
+        text: a line of each, "slug: sentence => what to call the answer"; an indented
+            line goes on with the one above.
+    """
+    for line in re.sub(r"\n +", " ", inspect.cleandoc(text)).splitlines():
+        slug, _, rest = line.partition(": ")
+        says, _, redone = rest.partition(" => ")
+        yield slug, says, redone

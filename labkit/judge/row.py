@@ -19,7 +19,6 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
-import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -33,14 +32,13 @@ import numpy as np
 from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
-from labkit.judge.mistake import Mistake
+from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.lesson.day import Day
 from labkit.lesson.script import lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 Code = Callable[..., Any]
-REDONE = "the answer with this mistake"
 
 
 @dataclass(frozen=True)
@@ -144,13 +142,11 @@ class Row:
         """
         if code is None:
             return partial(self.wrongs, redone=redone, hidden=hidden)
-        text = re.sub(r"\n +", " ", inspect.getdoc(code) or "")
-        said = dict(line.split(": ", 1) for line in text.splitlines())
+        said = {slug: texts for slug, *texts in told(code.__doc__ or "")}
         table = once(code)
-        for slug, line in said.items():
+        for slug, (says, called) in said.items():
             one = entry_of(table, slug, said.keys())
             update_wrapper(one, code, (), ())  # its arguments' names
-            says, _, called = line.partition(" => ")
             name = slug.partition(" ")[0]
             self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
         return code
