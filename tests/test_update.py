@@ -7,8 +7,7 @@ import pytest
 
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
-from labkit.lesson.merge import conflicts, keep_both, keep_ours, merged
-from labkit.lesson.renew import renewed
+from labkit.lesson.merge import conflicts, keep_both, keep_ours, merged, renewed
 from labkit.lesson.script import make_starter
 
 pytestmark = pytest.mark.kit

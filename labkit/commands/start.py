@@ -11,8 +11,7 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.originals import require_kits
-from labkit.lesson.script import make_starter, put_back, read_script
+from labkit.lesson.script import make_starter, put_back, read_script, require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -1,6 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -92,14 +92,12 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
         return found
     with np.errstate(all="ignore"):
         T = right_answers(asked.ask, good)
-        if off_by(asked.ask.kinds, S, T) <= asked.ask.near:
-            return found
-        case = _case(rest, S, T, names)
-        return _both(found, case, S, T)
+        return _both(found, _case(rest, S, T, names), S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    """Return why some answers cannot be judged and what is wrong with the others."""
+    if off_by(case.ask.kinds, S, T) <= case.ask.near:
+        return found
     named = diagnose(case, S, T)
     other = named or what_is_wrong(case, S, T)
     says = f"{found.message} The other answers are wrong, too. {other.message}"
@@ -169,9 +167,8 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     question, found = wrong[0]
     given = in_words(question, names)
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f" (For {often} of {len(questions)} inputs"
-    where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
-    return Verdict("wrong", found.slug, found.message + where)
+    where = f"For {often} of {len(questions)} inputs{_first([1], [given], 'first for')}"
+    return Verdict("wrong", found.slug, f"{found.message} ({where}.)")
 
 
 def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
@@ -223,7 +220,7 @@ def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     """Return that some answers are NaN, and what is wrong with the others."""
     good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
     S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
-    if not good.any() or off_by(case.ask.kinds, S, T) <= case.ask.near:
+    if not good.any():
         return found
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
@@ -246,7 +243,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
-def named_mistake(
+def _named(
     mistakes: Sequence[Mistake],
     arguments: tuple[Any, ...],
     kinds: Sequence[Any],
@@ -254,20 +251,11 @@ def named_mistake(
     T: Parts | None,
     near: float,
 ) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers.
-
-    Args:
-        mistakes: the candidates.
-        arguments: all questions' arguments stacked.
-        kinds: of the answer's parts.
-        S: the student's answers: per part, (n, ...).
-        T: the right ones, or None where many are right.
-        near: up to here a part is nearly right.
-    """
+    """Return the first mistake that, made on purpose, gives the student's answers."""
     first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
     for mistake in mistakes:
         try:
-            again = _made_again(mistake, arguments, kinds, S, first)
+            again = _made_again(mistake.redo, arguments, kinds, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
         if all_match(kinds, S, again):
@@ -284,7 +272,7 @@ def named_mistake(
 
 
 def _made_again(
-    mistake: Mistake,
+    redo: Callable[..., Any],
     arguments: tuple[Any, ...],
     kinds: Sequence[Any],
     S: Parts,
@@ -295,7 +283,6 @@ def _made_again(
     Raises:
         ValueError: it has no answer to one of the questions.
     """
-    redo = mistake.redo
     if isinstance(redo, InTurn):
         again = parts(redo.nth(first, arguments))
         for s, a, kind in zip(S, again, kinds, strict=False):
@@ -310,7 +297,7 @@ def redone(
     ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts | None
 ) -> Finding | None:
     """Return a named mistake of the function, or a general one of its kind."""
-    if found := named_mistake(ask.named, arguments, ask.kinds, S, T, ask.near):
+    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
         return found
     if T is None:
         return None
@@ -320,7 +307,7 @@ def redone(
         if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
             continue
         mine, its = (S[i],), (T[i],)
-        found = named_mistake(kind.general(), its, [kind], mine, its, ask.near)
+        found = _named(kind.general(), its, [kind], mine, its, ask.near)
         if found:
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)

@@ -299,3 +299,41 @@ def _functions(source: str) -> dict[str, ast.FunctionDef]:
 def _is_gap(node: ast.stmt) -> bool:
     names = (n.id for n in ast.walk(node) if isinstance(n, ast.Name))  # no recursion
     return isinstance(node, ast.Raise) and "NotImplementedError" in names
+
+
+def is_kits(day: Day) -> bool:
+    """Return whether a day's script in `src/` holds every task of the manifest.
+
+    The public course's own script has the same name and is saved over ours; what then
+    runs is neither.
+    """
+    return _fault(day) is None
+
+
+def require_kits(day: Day) -> None:
+    """Refuse a script in `src/` that lacks the marks of the kit's own."""
+    if fault := _fault(day):
+        author = f"Do you write this day? make author DAY={day.number}"
+        raise Robo47Error(f"{fault}. {author}. Else: make doctor")
+    if fault is not None:
+        raise Robo47Error(
+            f"{shown(day.source)} is not the kit's: the marks of its tasks are gone. "
+            f"Yours belongs in {shown(day.work.parent)}/; to get the kit's back: "
+            f"git checkout -- {shown(day.source)}"
+        )
+
+
+def _fault(day: Day) -> str | None:
+    """Return what is wrong with the marks of the kit's script, "" where it has none."""
+    wanted = {(task.id, f) for task in day.tasks for f in task.functions}
+    text = ""
+    try:
+        text = read_script(day.source)
+        wanted -= {(r.task, r.function) for r in find_regions(text, shown(day.source))}
+    except Robo47Error as error:  # gone, in another encoding, or with broken markers
+        return str(error) if "# region" in text else ""
+    if not wanted:
+        return None
+    task, function = min(wanted)
+    says = f"{shown(day.source)} has no region {task} in {function}"
+    return says if "# region" in text else ""
