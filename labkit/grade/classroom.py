@@ -188,7 +188,7 @@ def _starter(day: Day) -> str:
 
 def _runs_of_kit(day: Day) -> "array[int]":
     """Return the runs of a day's solution and of the library's modules that hold it."""
-    files = [day.source, *map(file_of, day.library)]
+    files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
     return similar.runs_of(texts.encode(), _starter(day))
 
