@@ -187,7 +187,7 @@ class TestALoop:
             Question("1.4", "fine", ()),
             Question("1.5", "fine", ()),
         ]
-        replies = ask(code, *questions, needs={"1.3": ["1.2"], "1.4": ["1.3"]})
+        replies = ask(code, *questions, needs={"1.3": ["1.2"], "1.4": ["1.2", "1.3"]})
         kinds = [reply.kind for reply in replies]
         assert kinds == ["", "", "stopped", "stopped", "waits", "waits", ""]
         assert [replies[i].again for i in (0, 6)] == [47, 47]

@@ -125,7 +125,7 @@ class _Check:
                 self.script,
                 [e for task in tasks for e in _exchanges(self.asked[task.id])],
                 library_of(self.day),
-                {task.id: set(self.day.needs(task.id)) for task in tasks},
+                {task.id: self.day.needs(task.id) for task in tasks},
                 self.added if added is None else added,
                 self.day.limits,
             )

@@ -19,10 +19,9 @@ from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student, file_names
 from labkit.grade.sheet import Graded, as_csv, nameless, write, write_feedback
 from labkit.lesson.day import Day
-from labkit.lesson.script import make_starter, read_script
+from labkit.lesson.script import read_script, starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
-from robo47.paths import shown
 
 FAULT = "this machine failed ({}); the same command tries again"
 
@@ -92,7 +91,7 @@ class Classroom:
         graded: dict[str, Graded] = {}
         runs: dict[str, list[array[int]]] = {}
         students = {student.folder: student for student in self.students}
-        files, starter = file_names(students), _starter(self.day)
+        files, starter = file_names(students), starter_of(self.day)
 
         def note(folder: str, package: Package, result: Result | FaultError) -> None:
             one = self._graded(students[folder], files[folder], package, result)
@@ -182,15 +181,11 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _starter(day: Day) -> str:
-    return make_starter(read_script(day.source), shown(day.source), day.number)
-
-
 def _runs_of_kit(day: Day) -> "array[int]":
     """Return the runs of a day's solution and of the library's modules that hold it."""
     files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
-    return similar.runs_of(texts.encode(), _starter(day))
+    return similar.runs_of(texts.encode(), starter_of(day))
 
 
 def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:

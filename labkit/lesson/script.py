@@ -105,6 +105,11 @@ def make_starter(text: str, name: str, day: int) -> str:
     return "\n".join(head + lines) + "\n"
 
 
+def starter_of(day: Day) -> str:
+    """Return the starter of a day's lab."""
+    return make_starter(read_script(day.source), shown(day.source), day.number)
+
+
 def solution(text: str, name: str, task: str) -> str:
     """Return the complete functions that a task asks for, without markers."""
     wanted = [r.function for r in find_regions(text, name) if r.task == task]
