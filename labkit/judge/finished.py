@@ -4,6 +4,8 @@ Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,15 +13,7 @@ from labkit.judge.matrices import pose, rigid_inverse, split
 from labkit.judge.mistake import REDONE, Mistake, told
 from robo47.checks import Array
 
-NEGATED = Mistake("all-signs", "every sign is wrong", np.negative, "its negative")
-TRUNCATED = Mistake(
-    "whole-numbers",
-    "only whole numbers are left: an array of integers cuts off what is stored in it",
-    np.trunc,
-    "the right one cut to whole numbers",
-)
-
-Change = Callable[[Array], Array]
+Change = Callable[[Array], Any]
 
 
 def _same(part: Array) -> Array:
@@ -63,6 +57,52 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
     return [Mistake(slug, says, redo[slug], its or REDONE) for slug, says, its in lines]
 
 
+GENERAL = _mistakes(
+    """
+    all-signs: every sign is wrong => its negative
+    whole-numbers: only whole numbers are left: an array of integers cuts off what is
+      stored in it => the right one cut to whole numbers
+    transposed: the matrix is transposed => its transpose
+    rows-swapped: the rows are (v; omega); omega's three come first => the right one
+      with its rows swapped
+    inverse: it is the inverse, which says how much is known; a covariance says how
+      little => its inverse
+    sigma-for-variance: its entries are sigma, and a covariance holds sigma squared =>
+      the root of each entry
+    halves-swapped: the two halves are swapped: {halves[0]} comes first, then
+      {halves[1]} => the right one with its halves swapped
+    inverted: True and False are swapped => the right one turned round
+    row-first: a pixel is (column, row), x before y; here the row comes first => the
+      right one with its two columns swapped
+    upside-down: the image stands on its head: row 0 is the top one => the right one
+      with its rows reversed
+    mirrored: left and right are swapped => the right one with its columns reversed
+    blue-first: the colours are (blue, green, red); here red comes first => the right
+      one with its colours reversed
+    """,
+    {
+        "all-signs": np.negative,
+        "whole-numbers": np.trunc,
+        "transposed": np.matrix_transpose,
+        "rows-swapped": lambda J: np.roll(J, 3, axis=-2),
+        "inverse": lambda P: np.linalg.inv(P),
+        "sigma-for-variance": lambda P: np.sign(P) * np.sqrt(np.abs(P)),
+        "halves-swapped": lambda answer: np.roll(answer, 3, axis=-1),
+        "inverted": lambda answer: 1.0 - answer,
+        "row-first": lambda answer: answer[..., ::-1],
+        "upside-down": lambda image: image[:, ::-1],
+        "mirrored": lambda image: image[:, :, ::-1],
+        "blue-first": lambda image: image[..., ::-1],
+    },
+)
+
+
+def general(*slugs: str, **words: Any) -> list[Mistake]:
+    """Return mistakes by their names; words are those that their sentences ask for."""
+    known = {mistake.slug: mistake for mistake in GENERAL}
+    return [replace(known[s], says=known[s].says.format(**words)) for s in slugs]
+
+
 OF_A_ROTATION = [
     *_mistakes(
         """
@@ -78,7 +118,7 @@ OF_A_ROTATION = [
             "all-signs": np.negative,
         },
     ),
-    TRUNCATED,
+    *general("whole-numbers"),
 ]
 _OF_A_POSE = """
     R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
@@ -124,4 +164,5 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         "left-handed": _parts(R=_mirrored),
         "millimetres": _parts(t=lambda t: 1000.0 * t),
     }
-    return [*_mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo), TRUNCATED]
+    mistakes = _mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo)
+    return [*mistakes, *general("whole-numbers")]

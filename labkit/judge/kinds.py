@@ -25,7 +25,7 @@ from labkit.judge.answers import (
     say_range,
     say_value,
 )
-from labkit.judge.finished import NEGATED, OF_A_ROTATION, TRUNCATED, of_a_pose
+from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -94,7 +94,7 @@ class Kind:
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
-        return (NEGATED, TRUNCATED)
+        return general("all-signs", "whole-numbers")
 
     def apart(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst, in words; "0" for rounding."""

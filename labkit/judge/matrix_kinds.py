@@ -6,14 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from labkit.judge.answers import difference, gap
-from labkit.judge.finished import NEGATED, TRUNCATED
+from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
-
-TRANSPOSED = Mistake(
-    "transposed", "the matrix is transposed", np.matrix_transpose, "its transpose"
-)
 
 
 @dataclass(frozen=True)
@@ -31,7 +27,7 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return (TRANSPOSED, NEGATED, TRUNCATED) if square else (NEGATED, TRUNCATED)
+        return general(*["transposed"] * square, "all-signs", "whole-numbers")
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -53,13 +49,7 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        swapped = Mistake(
-            "rows-swapped",
-            "the rows are (v; omega); omega's three come first",
-            lambda J: np.roll(J, 3, axis=-2),
-            "the right one with its rows swapped",
-        )
-        return (swapped, NEGATED, TRUNCATED)
+        return general("rows-swapped", "all-signs", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
@@ -110,20 +100,6 @@ class Symmetric(Matrix):
         return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
 
 
-INVERSE = Mistake(
-    "inverse",
-    "it is the inverse, which says how much is known; a covariance says how little",
-    lambda P: np.linalg.inv(P),
-    "its inverse",
-)
-ROOTS = Mistake(
-    "sigma-for-variance",
-    "its entries are sigma, and a covariance holds sigma squared",
-    lambda P: np.sign(P) * np.sqrt(np.abs(P)),
-    "the root of each entry",
-)
-
-
 @dataclass(frozen=True)
 class Covariance(Symmetric):
     """A covariance, compared up to what rounding leaves of its symmetry."""
@@ -133,7 +109,8 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (INVERSE, ROOTS, NEGATED, TRUNCATED)
+        slugs = ("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
+        return general(*slugs)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

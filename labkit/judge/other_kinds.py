@@ -7,42 +7,11 @@ import numpy as np
 
 from labkit.base.words import count
 from labkit.judge.answers import capitalised, difference, millimetres, say_mm
-from labkit.judge.finished import NEGATED, TRUNCATED
+from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
-
-INVERTED = Mistake(
-    "inverted",
-    "True and False are swapped",
-    lambda answer: 1.0 - answer,
-    "the right one turned round",
-)
-ROWS_FIRST = Mistake(
-    "row-first",
-    "a pixel is (column, row), x before y; here the row comes first",
-    lambda answer: answer[..., ::-1],
-    "the right one with its two columns swapped",
-)
-UPSIDE_DOWN = Mistake(
-    "upside-down",
-    "the image stands on its head: row 0 is the top one",
-    lambda image: image[:, ::-1],
-    "the right one with its rows reversed",
-)
-MIRRORED = Mistake(
-    "mirrored",
-    "left and right are swapped",
-    lambda image: image[:, :, ::-1],
-    "the right one with its columns reversed",
-)
-BLUE_FIRST = Mistake(
-    "blue-first",
-    "the colours are (blue, green, red); here red comes first",
-    lambda image: image[..., ::-1],
-    "the right one with its colours reversed",
-)
 
 
 @dataclass(frozen=True)
@@ -57,17 +26,8 @@ class _Halves(Kind):
         return f"six numbers ({'; '.join(self.halves)})"
 
     def general(self) -> Sequence[Mistake]:
-        first, second = self.halves
-        return (
-            Mistake(
-                "halves-swapped",
-                f"the two halves are swapped: {first} comes first, then {second}",
-                lambda answer: np.roll(answer, 3, axis=-1),
-                "the right one with its halves swapped",
-            ),
-            NEGATED,
-            TRUNCATED,
-        )
+        slugs = ("halves-swapped", "all-signs", "whole-numbers")
+        return general(*slugs, halves=self.halves)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
@@ -169,7 +129,7 @@ class Mask(Kind):
         return f"True or False{where if self.shape else ''}"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (INVERTED,)
+        return general("inverted")
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         return f"{np.mean(S != T):.0%} of them"
@@ -213,7 +173,7 @@ class Pixels(Kind):
     expected = "a pixel (x, y) per point"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (ROWS_FIRST, TRUNCATED)
+        return general("row-first", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up
@@ -242,8 +202,8 @@ class Image(Kind):
         return super().why_shape(got)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        colours = [BLUE_FIRST] * (len(self.shape) == 3)
-        return (UPSIDE_DOWN, MIRRORED, *colours, TRUNCATED)
+        colours = ["blue-first"] * (len(self.shape) == 3)
+        return general("upside-down", "mirrored", *colours, "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
