@@ -26,7 +26,7 @@ from labkit.check.tasks import check_tasks
 from labkit.figures import backends
 from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day
-from labkit.lesson.folder import load_lab as load_script  # noqa: F401 (days' tests)
+from labkit.lesson.script import load_lab as load_script  # noqa: F401 (days' tests)
 from labkit.lesson.week import weeks
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda

@@ -15,12 +15,11 @@ import pytest
 
 from labkit.base import exchange, git
 from labkit.base.exchange import Limits, Question
-from labkit.check.source import kits_own
 from labkit.check.tasks import check_tasks
 from labkit.grade import pull
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.starter import make_starter
+from labkit.lesson.script import kits_own, make_starter
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.messages import library_of
 from robo47.errors import Robo47Error

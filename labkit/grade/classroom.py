@@ -20,7 +20,7 @@ from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.lesson.day import Day
-from labkit.lesson.starter import make_starter, read_script
+from labkit.lesson.script import read_script, starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
@@ -57,7 +57,7 @@ class Classroom:
         """
         graded: dict[str, Graded] = {}
         runs: dict[str, list[array[int]]] = {}
-        starter, now = _starter(self.day), 0
+        starter, now = starter_of(self.day), 0
         due = self.journal.reference if self.journal.deadline else None
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
@@ -154,15 +154,11 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _starter(day: Day) -> str:
-    return make_starter(read_script(day.source), shown(day.source), day.number)
-
-
 def _runs_of_kit(day: Day) -> "array[int]":
     """Return the runs of a day's solution and of the library's modules that hold it."""
-    files = [day.source, *map(file_of, day.library)]
+    files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
-    return similar.runs_of(texts.encode(), _starter(day))
+    return similar.runs_of(texts.encode(), starter_of(day))
 
 
 def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
