@@ -20,7 +20,6 @@ from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
-from labkit.report.week_labs import name_of
 
 pytestmark = pytest.mark.kit
 
@@ -57,7 +56,7 @@ def facts(day, **changed):
 def test_a_number_is_called_by_its_check_and_by_its_metric_where_there_are_two(day):
     metrics = (SMALL, SHARE, Metric("right", "other", max=1.0))
     both = replace(day, metrics=metrics)
-    assert [name_of(both, m) for m in metrics] == ["fk", "right share", "right other"]
+    assert [both.name_of(m) for m in metrics] == ["fk", "right share", "right other"]
 
 
 def test_the_weeks_labs_stand_in_one_table(run_in, begun):

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
-from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import helpers_of
 from robo47.paths import ROOT
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def key_of(day: Day) -> str:
     """
     script = day.files["script"]
     content = day.work.read_bytes() if day.work.is_file() else b""
-    helpers = helpers_of(day.folder.parent, script, {script: content})
+    helpers = helpers_of(day.folder.parent, script, content)
     own = [f"{name}\0".encode() + helpers[name] for name in sorted(helpers)]
     given = hashlib.sha256(b"\0".join([content, *own, _kit()])).digest()
     digest = _digest(sorted(day.own.rglob("*.py")), given)

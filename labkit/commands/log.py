@@ -13,8 +13,9 @@ import argparse
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.base.words import command, count
+from labkit.base.text import count
 from labkit.log import append_row
+from labkit.log.logfile import command
 from labkit.log.rows import typed
 from labkit.log.scan import Line, watched
 from labkit.log.upkeep import came_back, restore, unsaved_rows

@@ -17,11 +17,12 @@ import datetime
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.base.words import command, count
+from labkit.base.text import count
 from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
 from labkit.lesson.week import Week
+from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
 from labkit.report.series import Report, collect, thresholds

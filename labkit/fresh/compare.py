@@ -7,12 +7,12 @@ be within its limit again. A physical one must be the same within a factor of tw
 from collections.abc import Mapping
 from pathlib import Path
 
-from labkit.base.words import number_of
+from labkit.base.text import number_of
 from labkit.handin.handin import read_handin
 from labkit.handin.rows import own_rows
 from labkit.lesson.day import Metric
 from labkit.log.rows import Row
-from labkit.report.week_labs import Ran, name_of
+from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error
 
 ROUNDING = 1e-9
@@ -36,7 +36,7 @@ def faults(ran: Ran, clone: Path) -> list[str]:
     found = []
     for metric in day.metrics:
         why = _fault(metric, ran, rows)
-        found += [f"day {day.number}, {name_of(day, metric)}: {why}"] if why else []
+        found += [f"day {day.number}, {day.name_of(metric)}: {why}"] if why else []
     return found
 
 

@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
-from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import helpers_of
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
 
@@ -55,9 +55,8 @@ def _only_here(
             rule = ignored_by(name, root)
             lacks[name] = f"ignored by git ({rule})" if rule else "not in the commit"
     for day in days:
-        script = day.files["script"]
-        own = {script: day.work.read_bytes()} if day.work.is_file() else {}
-        for name in helpers_of(root, script, own):
+        own = day.work.read_bytes() if day.work.is_file() else b""
+        for name in helpers_of(root, day.files["script"], own):
             if not (clone / name).is_file():
                 lacks[name] = f"{day.work.name} imports it; not in the commit"
     return lacks

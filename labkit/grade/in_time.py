@@ -8,9 +8,7 @@ from pathlib import Path
 from labkit.base.git import History, before, blob, files_of, read_history
 from labkit.handin.commit import wanted_names
 from labkit.handin.handin import (
-    HELPERS,
     LIMITS,
-    NO_NAME,
     PICTURES,
     Handin,
     image_names,
@@ -18,6 +16,7 @@ from labkit.handin.handin import (
     read_handin,
 )
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import HELPERS, NO_NAME
 
 FOLDER = "robo47-commit-"
 LARGEST = max(LIMITS.values())  # bytes of a file that is looked at

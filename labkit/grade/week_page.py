@@ -3,7 +3,7 @@
 from html import escape
 
 from labkit.base import html
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
 from labkit.grade.overview import state

@@ -2,8 +2,7 @@
 
 import re
 
-from labkit.base.text import visible
-from labkit.base.words import count
+from labkit.base.text import count, visible
 from labkit.handin.handin import Handin, image_names, picture_path
 from labkit.handin.item import Item
 from labkit.lesson.day import Day

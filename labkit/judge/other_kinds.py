@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.judge.compare import difference
 from labkit.judge.kinds import NEAR, TRUNCATED, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix

@@ -15,8 +15,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from labkit.base.git import short_sha
-from labkit.base.words import command, count
-from labkit.log.logfile import append_or_keep
+from labkit.base.text import count
+from labkit.log.logfile import append_or_keep, command
 from labkit.log.rows import COLUMNS, Row, encode, typed
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.log.logfile import CUT
 from labkit.log.rows import BOM, COLUMNS, HEAD, Row, decode, line_end, wrong_header
 from robo47.errors import Robo47Error

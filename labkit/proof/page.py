@@ -11,12 +11,11 @@ import mujoco
 
 import robo47
 from labkit.base import html
-from labkit.base.words import count, number_of
+from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
 from labkit.inspector.recording import ALLOWED
 from labkit.proof.facts import Clone, DayFacts, Number
 from labkit.proof.pick import Picked, film
-from labkit.report.week_labs import name_of
 
 STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
@@ -176,7 +175,7 @@ def _number(one: DayFacts, number: Number) -> str:
     value = "–" if number.again is None else number_of(number.again)
     return (
         f"<tr><td>{one.day.number}</td>"
-        f"<td class=wide>{escape(name_of(one.day, number.metric))}<br>"
+        f"<td class=wide>{escape(one.day.name_of(number.metric))}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
         f'<td class="n {again}">{value}</td><td>{escape(number.metric.limit)}</td></tr>'
     )

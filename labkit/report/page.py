@@ -5,7 +5,7 @@ from html import escape
 from itertools import groupby
 
 from labkit.base import html
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot

@@ -41,12 +41,6 @@ class Ran:
         return None if row is None else float(str(row["value"]))
 
 
-def name_of(day: Day, metric: Metric) -> str:
-    """Return what to call a number: its check, with the metric where it has several."""
-    alone = [m.check for m in day.metrics].count(metric.check) < 2
-    return metric.check if alone else f"{metric.check} {metric.metric}"
-
-
 def run_labs(
     days: Sequence[Day],
     python: str | Path = sys.executable,

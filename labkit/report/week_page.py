@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
-from labkit.base.words import number_of
+from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS
 from labkit.report.week_facts import DayFacts, Number
-from labkit.report.week_labs import name_of
 
 STYLE = """
 body { max-width: 980px; }
@@ -112,7 +111,7 @@ def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
         f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
-        f"<td>{escape(name_of(one.day, number.metric))}</td>"
+        f"<td>{escape(one.day.name_of(number.metric))}</td>"
         f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
         f"<td>{escape(number.metric.limit)}</td>"
         f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"

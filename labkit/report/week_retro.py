@@ -7,10 +7,9 @@ them is written anew; every other byte is the student's and stays as it is.
 from collections.abc import Sequence
 from pathlib import Path
 
-from labkit.base import blocks, store
-from labkit.base.words import number_of
+from labkit.base import store
+from labkit.base.text import blocks, number_of, refill
 from labkit.report.week_facts import DayFacts
-from labkit.report.week_labs import name_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -49,7 +48,7 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
         for number in one.numbers:
             latest, worst = map(_cell, (number.latest, number.worst))
             mark = _MARKS[number.status]
-            name = name_of(one.day, number.metric)
+            name = one.day.name_of(number.metric)
             limit = number.metric.limit
             rows.append(
                 f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
@@ -88,13 +87,13 @@ def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
 
 def no_numbers(text: str) -> bool:
     """Return whether a retrospective's numbers are still to be filled in."""
-    found = blocks.contents(text, "numbers")
+    found = blocks(text, "numbers")
     return len(found) == 1 and not found[0].strip()
 
 
 def without_numbers(text: str) -> str:
     """Return a retrospective as the student wrote it, without what is filled in."""
-    return blocks.refill(text, {"numbers": lambda *_: ""})
+    return refill(text, {"numbers": lambda *_: ""})
 
 
 def _cell(value: float | None) -> str:
@@ -105,9 +104,9 @@ def _fill(path: Path, text: str) -> bool:
     """Replace what is between the marks; return whether that changed the file."""
     try:
         before = path.read_bytes().decode("utf-8", "surrogateescape")
-        if len(blocks.contents(before, "numbers")) != 1:
+        if len(blocks(before, "numbers")) != 1:
             return False  # no marks, or somebody wrote about them: not ours
-        after = blocks.refill(before, {"numbers": lambda *_: text})
+        after = refill(before, {"numbers": lambda *_: text})
         if after != before:
             store.replace(path, after.encode("utf-8", "surrogateescape"))
         return after != before
