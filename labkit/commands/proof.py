@@ -62,7 +62,7 @@ def found(week: Week, clone: facts.Clone) -> page.Proof:
             folders.append(Path(stack.enter_context(kept)).resolve())
             with cli.busy(f"day {day.number}"):
                 known.append(facts.facts_of(day, clone, folders[-1], sandbox))
-            own, total = len(known[-1].own), len(known[-1].states)
+            own, total = len(known[-1].own), known[-1].functions
             print(f"  day {day.number}: {own} of {total} functions theirs", flush=True)
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")

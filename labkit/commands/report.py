@@ -40,7 +40,7 @@ def main() -> int:
     writers = {day.number: writers_of(day) for day in days}
     if not mine:  # nobody knows the files of another log
         writers = {n: Writers(known.kits) for n, known in writers.items()}
-    report = collect(lines, thresholds(), since, args.day, args.check, writers)
+    report = collect(lines, thresholds(days), since, args.day, args.check, writers)
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
@@ -70,8 +70,7 @@ def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
 
-    series = {(one.day, one.check, one.metric): one for one in report.series}
-    facts = [facts_of(day, series) for day in days_of(week)]
+    facts = [facts_of(day, report.series) for day in days_of(week)]
     page = week_page.render(facts, heading)
     write(out / f"report-week{week.number}.html", page.encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine

@@ -105,23 +105,23 @@ def _day(day: int | None, series: list[Series], checked: str) -> str:
 
 def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
-    best = "best" if series.threshold else "lowest"
-    latest = value_of(series.rows[-1]) if series.rows else None
+    best = "best" if series.wanted.limit else "lowest"
     facts = [
-        ("latest", plot.number(latest)),
+        ("latest", plot.number(series.latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
         ("threshold", escape(series.limits)),
     ]
     if series.kits:
-        facts.append(("the kit's", plot.number(value_of(series.kits[-1]))))
+        facts.append(("the kit's", plot.number(series.kit)))
     terms = "".join(
         f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
         for name, value in facts
     )
+    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
-        f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
-        f'<span class="muted">{_text(series.metric)}</span></div>'
+        f'<article class="card"><div class="top"><div><h3>{check}</h3>'
+        f'<span class="muted">{metric}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
         f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"

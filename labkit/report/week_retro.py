@@ -9,20 +9,21 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import blocks, number_of, refill
-from labkit.report.week_facts import DayFacts
+from labkit.report.week_facts import OwnDay
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 _MARKS = {  # after a number, what it is worth
     "pass": "",
     "none": "",
+    "kit": "",
     "fail": " (not yet)",
     "stale": " (my file changed since)",
     "borrowed": " (partly borrowed)",
 }
 
 
-def fill(facts: Sequence[DayFacts]) -> list[Path]:
+def fill(facts: Sequence[OwnDay]) -> list[Path]:
     """Write a week's numbers into its retrospectives; return those that have changed.
 
     Args:
@@ -38,7 +39,7 @@ def fill(facts: Sequence[DayFacts]) -> list[Path]:
     return [path for path in files if _fill(path, text)]
 
 
-def as_markdown(facts: Sequence[DayFacts]) -> str:
+def as_markdown(facts: Sequence[OwnDay]) -> str:
     """Return a week's numbers as a table and three lines."""
     rows = [
         "| day | number | mine | worst on the way | limit |",
@@ -48,23 +49,22 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
         for number in one.numbers:
             latest, worst = map(_cell, (number.latest, number.worst))
             mark = _MARKS[number.status]
-            name = one.day.name_of(number.metric)
-            limit = number.metric.limit
+            name = one.day.name_of(number.wanted)
+            limit = number.wanted.limit
             rows.append(
                 f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
             )
     met = [m for one in facts for m in one.met]
     left = sum(m.now == "left behind" for m in met)
-    passed, tasks, own, of = (
-        sum(getattr(one, name) for one in facts)
-        for name in ("passed", "tasks", "own", "functions")
-    )
+    graded = [passed for one in facts for passed in one.graded]
+    own, of = sum(len(one.own) for one in facts), sum(one.functions for one in facts)
     return "\n".join(
         [
             "",
             *rows,
             "",
-            f"Tasks passed: {passed} of {tasks}. Functions of my own: {own} of {of}.",
+            f"Tasks passed: {sum(graded)} of {len(graded)}."
+            f" Functions of my own: {own} of {of}.",
             *_borrowed(facts),
             *_not_checked(facts),
             f"Named mistakes met: {len(met)}; left behind: {left}.",
@@ -74,12 +74,12 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
     )
 
 
-def _borrowed(facts: Sequence[DayFacts]) -> list[str]:
+def _borrowed(facts: Sequence[OwnDay]) -> list[str]:
     tasks = ", ".join(task for one in facts for task in one.borrowed)
     return [f"Borrowed from the kit, and not counted: {tasks}."] if tasks else []
 
 
-def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
+def _not_checked(facts: Sequence[OwnDay]) -> list[str]:
     days = ", ".join(str(one.day.number) for one in facts if not one.checked)
     says = f"Not counted, since `make check` has not seen it as it is: day {days}."
     return [says] if days else []
