@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 from labkit.base.git import History, before, blob, files_of, read_history
-from labkit.handin.commit import wanted_names
+from labkit.handin.deliverables import wanted_names
 from labkit.handin.handin import (
     LIMITS,
     PICTURES,

@@ -9,9 +9,8 @@ from pathlib import Path, PurePosixPath
 from labkit.base.git import short_sha
 from labkit.grade.in_time import read_in_time
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit
-from labkit.handin.handin import Handin
-from labkit.handin.item import Item
+from labkit.handin.deliverables import check_commit
+from labkit.handin.handin import Handin, Item
 from labkit.lesson.day import Day, find_day
 from robo47 import __version__
 from robo47.paths import ROOT

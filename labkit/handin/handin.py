@@ -26,6 +26,20 @@ _IMAGE = re.compile(
 
 
 @dataclass(frozen=True)
+class Item:
+    """How one deliverable stands."""
+
+    name: str  # "figure", "definitions", ...
+    status: str = "passed"  # or "todo" (not there yet), "wrong" (there, but)
+    message: str = ""  # what to do; "" when passed
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.status == "passed"
+
+
+@dataclass(frozen=True)
 class Handin:
     """What a student hands in for a day, by path from the top, with "/" in it."""
 

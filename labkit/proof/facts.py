@@ -12,7 +12,7 @@ from labkit.check.memory import in_words
 from labkit.check.tasks import check_tasks
 from labkit.grade.package import Package, collect, unpack
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit, wanted_names
+from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import Handin
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
