@@ -1,23 +1,24 @@
 """Short clips, drawn without a display: the arm moving, another arm beside it.
 
-    frames = arm_clip(there_and_back(q0, q1, 40), ghost_of, caption_of)
-    save_clip(frames, Path("arm.gif"))
+    qs = there_and_back(q0, q1, 40)
+    save_clip(drawn((arm_scene(q), ("there and back", None)) for q in qs), path)
 
 GIF for what shows nothing else, WebP for a third of the size.
 """
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 from tqdm import tqdm
 
 from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
 from labkit.figures.scene import Camera, Ghost, Scene
+from labkit.figures.sheet import with_line
 from robo47 import se3
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -37,32 +38,32 @@ def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
     return start + s[:, None] * (end - start)
 
 
-def arm_clip(
-    qs: ArrayLike,
-    ghost_of: Callable[[Array], Mapping[str, Array]] = lambda q: {},
-    caption_of: Callable[[Array], Caption] = lambda q: ("", None),
-) -> list[Image.Image]:
-    """Return one picture of the Panda per configuration.
+def arm_scene(q: ArrayLike, other: Mapping[str, Array] | None = None) -> Scene:
+    """Return the Panda at a configuration, (7,).
 
     Args:
-        qs: the arm's configurations, (n, 7).
-        ghost_of: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
+        q: radians.
+        other: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
             link7 carries the hand along.
-        caption_of: what stands below.
     """
+    full = with_fingers(q)
+    true = link_frames(full)
+    ghosts = tuple(
+        Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
+        for link, T in (other or {}).items()
+        if link in LINKS
+    )
+    return Scene(full, SIZE, CAMERA, ghosts, fast=True)
+
+
+def drawn(shots: Iterable[tuple[Scene, Caption]]) -> list[Image.Image]:
+    """Return one picture per scene, with its caption below."""
     pictures = []
-    for q in tqdm(
-        np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
-    ):
-        full = with_fingers(q)
-        true = link_frames(full)
-        ghosts = tuple(
-            Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
-            for link, T in ghost_of(q).items()
-            if link in LINKS
-        )
-        scene = Scene(full, SIZE, CAMERA, ghosts, fast=True)
-        pictures.append(captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
+    waits = tqdm(list(shots), "drawing", delay=1, leave=False, disable=None)
+    for scene, (words, good) in waits:
+        picture = Image.fromarray(client.draw(scene))
+        colour = INK if good is None else GOOD if good else BAD
+        pictures.append(with_line(picture, words, colour, 15, 26, "mm"))
     return pictures
 
 
@@ -118,18 +119,3 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
         **({"quality": 70} if kind == "webp" else {}),
     )  # fmt: skip
     return buffer.getvalue()
-
-
-def captioned(picture: Image.Image, caption: Caption) -> Image.Image:
-    """Return a picture with words below it, as it is where there are none."""
-    words, good = caption
-    if not words:
-        return picture
-    font = ImageFont.load_default(15)
-    band = 26
-    sheet = Image.new("RGB", (picture.width, picture.height + band), "white")
-    sheet.paste(picture, (0, 0))
-    colour = INK if good is None else GOOD if good else BAD
-    middle = (picture.width / 2, picture.height + band / 2)
-    ImageDraw.Draw(sheet).text(middle, words, colour, font, anchor="mm")
-    return sheet

@@ -4,10 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from tqdm import tqdm
 
 from labkit.figures import client
-from labkit.figures.clip import Caption, captioned, kind_of, save_clip
+from labkit.figures.clip import Caption, drawn, kind_of, save_clip
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import scenes, se3
 from robo47.capstone.phases import Result
@@ -31,19 +30,19 @@ def clip(result: Result, path: Path) -> str:
     """Write a film of a pick, .gif or .webp; return a line about it."""
     kind_of(path)
     rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
-    frames = [
-        captioned(_drawn(result.qpos[row], CLIP_SIZE, fast=True), phase(result, row))
-        for row in tqdm(rows, "drawing", delay=1, leave=False, disable=None)
-    ]
-    size = save_clip(frames, path, seconds=result.seconds)
+    shots = (
+        (_scene(result.qpos[row], CLIP_SIZE, fast=True), phase(result, row))
+        for row in rows
+    )
+    size = save_clip(drawn(shots), path, seconds=result.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
 
 
 def picture(result: Result, path: Path) -> str:
     """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
-    drawn = [np.asarray(_drawn(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    whole = [client.draw(_scene(qpos, PICTURE_SIZE)) for qpos in moments(result)]
     quarter = PICTURE_SIZE[0] // 4
-    middles = [part[:, quarter:-quarter] for part in drawn]
+    middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
     try:
         sheet.save(path, "PNG")
@@ -68,13 +67,12 @@ def moments(result: Result) -> list[Array]:
             for t in times]  # fmt: skip
 
 
-def _drawn(qpos: Array, size: tuple[int, int], fast: bool = False) -> Image.Image:
-    """Return a picture of one configuration of arm and cube, (16,)."""
+def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:
+    """Return one configuration of arm and cube, (16,)."""
     table = se3.make_T(np.eye(3), [*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT / 2])
     cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
     boxes = (
         Box(table, (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2), TABLE),
         Box(cube, (scenes.CUBE_HALF,) * 3, CUBE),
     )
-    scene = Scene(qpos[:ARM], size, CAMERA, fast=fast, boxes=boxes)
-    return Image.fromarray(client.draw(scene))
+    return Scene(qpos[:ARM], size, CAMERA, fast=fast, boxes=boxes)
