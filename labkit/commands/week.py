@@ -29,12 +29,11 @@ def lines_of(ran: Ran) -> list[Line]:
     whose = "yours" if ran.mine else "kit's"
     if ran.mine and writers_of(ran.day).borrowed:
         whose = "part kit's"
-    for metric in ran.day.metrics:
-        value = ran.value(metric)
-        number = "none" if value is None else number_of(value)
-        verdict = "PASS" if ran.passes(metric) else "FAIL"
-        name = ran.day.name_of(metric)[:NAMED]
-        lines.append((str(ran.day.number), whose, name, number, metric.limit, verdict))
+    for one in ran.numbers:
+        number = "none" if one.latest is None else number_of(one.latest)
+        verdict = "PASS" if one.status == "pass" else "FAIL"
+        name, limit = ran.day.name_of(one.wanted)[:NAMED], one.wanted.limit
+        lines.append((str(ran.day.number), whose, name, number, limit, verdict))
     return lines
 
 

@@ -1,6 +1,5 @@
 """Facts of a proof: a clone's tasks and numbers, found now and in the sandbox."""
 
-import contextlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +16,7 @@ from labkit.handin.handin import Handin
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
 from labkit.lesson.marks import writers_with
-from labkit.report.series import Series
+from labkit.report.series import Series, series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -107,8 +106,7 @@ def _left(day: Day, package: Package, clone: Clone) -> str:
 def _numbers(day: Day, handin: Handin) -> list[Series]:
     """Return the runs of a day's numbers that are in the log."""
     writers = writers_with(day, handin.files.get(day.files["script"]))
-    found = {(m.check, m.metric): Series(day.number, m, writers) for m in day.metrics}
-    with contextlib.suppress(Robo47Error):  # no log that can be read
-        for row in rows_of(day, handin):
-            found[str(row["check"]), str(row["metric"])].add(row)
-    return list(found.values())
+    try:
+        return series_of(day, rows_of(day, handin), writers)
+    except Robo47Error:  # no log that can be read
+        return series_of(day, [], writers)

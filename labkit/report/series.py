@@ -116,6 +116,23 @@ def thresholds(days: Iterable[Day]) -> dict[Key, Metric]:
     return {(day.number, m.check, m.metric): m for day in days for m in day.metrics}
 
 
+def series_of(
+    day: Day, rows: Iterable[Row], writers: Writers | None = None
+) -> list[Series]:
+    """Return the runs of all numbers that a day asks for, in the manifest's order.
+
+    Args:
+        day: from its manifest.
+        rows: of its log, oldest first; those of other numbers are left out.
+        writers: who may have written them.
+    """
+    found = {(m.check, m.metric): Series(day.number, m, writers) for m in day.metrics}
+    for row in rows:
+        if one := found.get((str(row["check"]), str(row["metric"]))):
+            one.add(row)
+    return list(found.values())
+
+
 def value_of(row: Row) -> float | None:
     """Return a row's number."""
     value = row["value"]
