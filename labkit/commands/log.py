@@ -34,7 +34,10 @@ def main() -> int:
             raise Robo47Error(
                 "give fields to add a row, or --check, or --restore; not both."
             )
-        return show_check(args.file) if args.check else put_back(args.file)
+        if args.check:
+            return show_check(args.file)
+        print(f"{count(restore(args.file), 'row')} put back into {shown(args.file)}")
+        return cli.EXIT_OK
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
         args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
@@ -83,12 +86,6 @@ def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
     if faults:
         raise Robo47Error(f"not recorded: {'; '.join(faults)}. Example: {EXAMPLE}")
     return fields
-
-
-def put_back(path: Path) -> int:
-    """Add the refused rows again; return the exit code."""
-    print(f"{count(restore(path), 'row')} put back into {shown(path)}")
-    return cli.EXIT_OK
 
 
 def show_check(path: Path) -> int:

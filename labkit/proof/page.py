@@ -64,11 +64,14 @@ def render(proof: Proof) -> str:
     """
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
-    title = f"{escape(proof.clone.name)}: {_week(proof.days)}"
+    week = proof.days[0].day.week.heading
+    title = escape(f"{proof.clone.name}: {week[0].lower()}{week[1:]}")
+    who = "a teacher's kit" if proof.teacher else "the student's own kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
         title,
-        _about(proof),
+        f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
+        f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted.",
         _tiles(proof),
         _pick(proof.picked, place),
         _numbers(proof.days),
@@ -82,19 +85,6 @@ def render(proof: Proof) -> str:
         return page
     played = escape(film(proof.picked.result).page("The pick", nonce))
     return page.replace(place, played, 1)
-
-
-def _week(days: Sequence[RunDay]) -> str:
-    heading = days[0].day.week.heading
-    return escape(heading[0].lower() + heading[1:])
-
-
-def _about(proof: Proof) -> str:
-    who = "a teacher's kit" if proof.teacher else "the student's own kit"
-    return (
-        f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
-        f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted."
-    )
 
 
 def _tiles(proof: Proof) -> str:

@@ -163,15 +163,14 @@ def _counts(one: OwnDay) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
         return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
-    bar, borrowed = _bar(sum(one.graded), len(one.graded)), ""
+    passed, of, borrowed = sum(one.graded), len(one.graded), ""
     if one.borrowed:
         borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
-    return f"<td>{bar}</td><td>{len(one.own)} of {one.functions}{borrowed}</td>"
-
-
-def _bar(passed: int, of: int) -> str:
-    share = 100 * passed / max(1, of)
-    return f'<span class=bar><i style="width:{share:.0f}%"></i></span>{passed} of {of}'
+    share = f"{100 * passed / max(1, of):.0f}%"
+    return (
+        f'<td><span class=bar><i style="width:{share}"></i></span>{passed} of {of}</td>'
+        f"<td>{len(one.own)} of {one.functions}{borrowed}</td>"
+    )
 
 
 def _value(value: float | None) -> str:

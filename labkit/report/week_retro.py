@@ -47,42 +47,28 @@ def as_markdown(facts: Sequence[OwnDay]) -> str:
     ]
     for one in facts:
         for number in one.numbers:
-            latest, worst = map(_cell, (number.latest, number.worst))
-            mark = _MARKS[number.status]
-            name = one.day.name_of(number.wanted)
-            limit = number.wanted.limit
-            rows.append(
-                f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
+            name, limit = one.day.name_of(number.wanted), number.wanted.limit
+            latest, worst = (
+                "no row yet" if value is None else number_of(value)
+                for value in (number.latest, number.worst)
             )
+            mine = latest + _MARKS[number.status]
+            rows.append(f"| {one.day.number} | {name} | {mine} | {worst} | {limit} |")
     met = [m for one in facts for m in one.met]
     left = sum(m.now == "left behind" for m in met)
     graded = [passed for one in facts for passed in one.graded]
     own, of = sum(len(one.own) for one in facts), sum(one.functions for one in facts)
-    return "\n".join(
-        [
-            "",
-            *rows,
-            "",
-            f"Tasks passed: {sum(graded)} of {len(graded)}."
-            f" Functions of my own: {own} of {of}.",
-            *_borrowed(facts),
-            *_not_checked(facts),
-            f"Named mistakes met: {len(met)}; left behind: {left}.",
-            "",
-            "",
-        ]
-    )
-
-
-def _borrowed(facts: Sequence[OwnDay]) -> list[str]:
-    tasks = ", ".join(task for one in facts for task in one.borrowed)
-    return [f"Borrowed from the kit, and not counted: {tasks}."] if tasks else []
-
-
-def _not_checked(facts: Sequence[OwnDay]) -> list[str]:
-    days = ", ".join(str(one.day.number) for one in facts if not one.checked)
-    says = f"Not counted, since `make check` has not seen it as it is: day {days}."
-    return [says] if days else []
+    says = [
+        f"Tasks passed: {sum(graded)} of {len(graded)}."
+        f" Functions of my own: {own} of {of}."
+    ]
+    if tasks := ", ".join(task for one in facts for task in one.borrowed):
+        says.append(f"Borrowed from the kit, and not counted: {tasks}.")
+    if days := ", ".join(str(one.day.number) for one in facts if not one.checked):
+        since = "Not counted, since `make check` has not seen it as it is"
+        says.append(f"{since}: day {days}.")
+    says.append(f"Named mistakes met: {len(met)}; left behind: {left}.")
+    return "\n".join(["", *rows, "", *says, "", ""])
 
 
 def no_numbers(text: str) -> bool:
@@ -94,10 +80,6 @@ def no_numbers(text: str) -> bool:
 def without_numbers(text: str) -> str:
     """Return a retrospective as the student wrote it, without what is filled in."""
     return refill(text, {"numbers": lambda *_: ""})
-
-
-def _cell(value: float | None) -> str:
-    return "no row yet" if value is None else number_of(value)
 
 
 def _fill(path: Path, text: str) -> bool:
