@@ -64,6 +64,11 @@ def known(day: Day) -> dict[str, str]:
     return _of(store.read(STATES), key_of(day))
 
 
+def passing(day: Day, states: Mapping[str, str]) -> list[str]:
+    """Return the functions of a day's tasks that pass, by how its tasks stand."""
+    return [f for t in day.tasks if states.get(t.id) == "passed" for f in t.functions]
+
+
 def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
     """Keep the checker's word on files of a key taken before it; return it, by task."""
     states = {result.task.id: in_words(result.verdict) for result in results}

@@ -34,8 +34,7 @@ class DayFacts:
     @property
     def own(self) -> list[str]:
         """The functions that are the student's and right."""
-        passed = [t for t in self.day.tasks if self.states.get(t.id) == "passed"]
-        return [name for task in passed for name in task.functions]
+        return memory.passing(self.day, self.states)
 
     @property
     def functions(self) -> int:
