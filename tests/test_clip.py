@@ -93,12 +93,11 @@ def test_a_red_arm_is_really_drawn(gl):
 
 
 def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_path):
-    from labkit.figures import picking
     from robo47 import capstone
 
     result = capstone.pick(capstone.library(), rate=50.0)
     rows = [int(np.searchsorted(result.t, t)) for t in (0.0, result.t[-1])]
-    assert [picking.phase(result, row)[0] for row in rows] == [
+    assert [clip.phase(result, row)[0] for row in rows] == [
         "reach, 0.0 s",
         f"rest, {result.t[-1]:.1f} s",
     ]

@@ -5,14 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from labkit.base.exchange import LoadError
-from labkit.figures.clip import (
-    Caption,
-    arm_scene,
-    drawn,
-    kind_of,
-    save_clip,
-    there_and_back,
-)
+from labkit.figures import clip
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Difference, Ghost, Seen, compare
 from labkit.inspector.student import poses_of, source_of
@@ -26,9 +19,8 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 ENTRY, FRAMES = "panda_nohand", 40
-REACH_Q = np.array(
-    [0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6]
-)  # where the arm goes and back
+# Where the arm goes and back.
+REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])
 
 
 def film(path: Path, day: Day, file: Path | None = None) -> int:
@@ -45,25 +37,21 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     Raises:
         Robo47Error: nothing draws here, or another ending.
     """
-    kind_of(path)
+    clip.kind_of(path)
     script = file or day.work
     if file and not file.is_file():
         raise Robo47Error(f"{file} is not there")
     ghost = day_tabs(day).ghost
-    qs = there_and_back(panda.READY_Q, REACH_Q, FRAMES)
+    qs = clip.there_and_back(panda.READY_Q, REACH_Q, FRAMES)
+    alone = f"MuJoCo's arm; {shown(script)} is not there"
+    if ghost is None:
+        alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
+    shots: list[clip.Shot] = [(clip.arm_scene(q), (alone, None)) for q in qs]
     if ghost is not None and script.is_file():
-        said = zip(qs, _differences(ghost, day, script, qs), strict=True)
-        shots = [(arm_scene(q, one.drawn), _caption(one)) for q, one in said]
-    else:
-        alone = f"MuJoCo's arm; {shown(script)} is not there"
-        if ghost is None:
-            alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
-        shots = [(arm_scene(q), (alone, None)) for q in qs]
-    return save_clip(drawn(shots), path)
-
-
-def _caption(one: Difference) -> Caption:
-    return one.sentence.rstrip("."), one.good
+        for i, one in enumerate(_differences(ghost, day, script, qs)):
+            words = one.sentence.rstrip(".")
+            shots[i] = clip.arm_scene(qs[i], one.drawn), (words, one.good)
+    return clip.save_clip(clip.drawn(shots), path)
 
 
 def _differences(ghost: Ghost, day: Day, script: Path, qs: Array) -> list[Difference]:

@@ -1,4 +1,4 @@
-"""Short clips, drawn without a display: the arm moving, another arm beside it.
+"""Short clips, drawn without a display: the arm with another beside it, or its pick.
 
     qs = there_and_back(q0, q1, 40)
     save_clip(drawn((arm_scene(q), ("there and back", None)) for q in qs), path)
@@ -17,18 +17,31 @@ from tqdm import tqdm
 
 from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
-from labkit.figures.scene import Camera, Ghost, Scene
+from labkit.figures.scene import Box, Camera, Ghost, Scene
 from labkit.figures.sheet import with_line
-from robo47 import se3
+from robo47 import scenes, se3
+from robo47.capstone.phases import Result
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 SIZE, SECONDS = (480, 420), 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
 GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
+PICK_SIZE, PICTURE_SIZE, FRAMES = (420, 340), (1200, 800), 60
+AT_THE_TABLE = Camera(
+    lookat=(0.33, 0.0, 0.36),
+    distance=2.3,
+    azimuth=np.radians(215.0),
+    elevation=np.radians(-18.0),
+)
+ARM = 9  # numbers of qpos: seven joints and two fingers; the cube's seven follow
+TABLE, CUBE = (0.80, 0.74, 0.66, 1.0), (0.85, 0.35, 0.10, 1.0)
+MOMENTS = ("descend", "lift", "put down")  # whose ends a picture shows
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
+Shot = tuple[Scene, Caption]
 
 
 def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
@@ -56,7 +69,7 @@ def arm_scene(q: ArrayLike, other: Mapping[str, Array] | None = None) -> Scene:
     return Scene(full, SIZE, CAMERA, ghosts, fast=True)
 
 
-def drawn(shots: Iterable[tuple[Scene, Caption]]) -> list[Image.Image]:
+def drawn(shots: Iterable[Shot]) -> list[Image.Image]:
     """Return one picture per scene, with its caption below."""
     pictures = []
     waits = tqdm(list(shots), "drawing", delay=1, leave=False, disable=None)
@@ -119,3 +132,55 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
         **({"quality": 70} if kind == "webp" else {}),
     )  # fmt: skip
     return buffer.getvalue()
+
+
+def pick_clip(result: Result, path: Path) -> str:
+    """Write a film of a pick, .gif or .webp; return a line about it."""
+    kind_of(path)
+    rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
+    shots = (
+        (_scene(result.qpos[row], PICK_SIZE, fast=True), phase(result, row))
+        for row in rows
+    )
+    size = save_clip(drawn(shots), path, seconds=result.seconds)
+    return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
+
+
+def pick_picture(result: Result, path: Path) -> str:
+    """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
+    whole = [client.draw(_scene(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    quarter = PICTURE_SIZE[0] // 4
+    middles = [part[:, quarter:-quarter] for part in whole]
+    sheet = Image.fromarray(np.hstack(middles))
+    try:
+        sheet.save(path, "PNG")
+    except (OSError, ValueError) as error:
+        raise Robo47Error(f"cannot write {shown(path.absolute())}: {error}") from None
+    return f"{shown(path.absolute())}  {sheet.width} x {sheet.height}"
+
+
+def phase(result: Result, row: int) -> Caption:
+    """Return what the arm does at an instant, and when that is."""
+    t = float(result.t[row])
+    name = [name for name, begins in result.phases if begins <= t][-1]
+    return f"{name}, {t:.1f} s", None
+
+
+def moments(result: Result) -> list[Array]:
+    """Return everything's configuration at the ends of three phases, (16,) each."""
+    names = [name for name, _ in result.phases]
+    ends = [begins for _, begins in result.phases[1:]] + [result.seconds]
+    times = [ends[names.index(name)] for name in MOMENTS]
+    return [result.qpos[min(int(np.searchsorted(result.t, t)), len(result.t) - 1)]
+            for t in times]  # fmt: skip
+
+
+def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:
+    """Return one configuration of arm and cube, (16,)."""
+    table = se3.make_T(np.eye(3), [*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT / 2])
+    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
+    boxes = (
+        Box(table, (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2), TABLE),
+        Box(cube, (scenes.CUBE_HALF,) * 3, CUBE),
+    )
+    return Scene(qpos[:ARM], size, AT_THE_TABLE, fast=fast, boxes=boxes)

@@ -9,7 +9,7 @@ from labkit.base.text import visible
 from labkit.check.lab_run import rehearse
 from labkit.check.memory import in_words
 from labkit.check.tasks import check_tasks
-from labkit.grade.package import Package, collect, unpack
+from labkit.grade.package import collect, unpack
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import Handin
@@ -83,24 +83,19 @@ def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> RunDay:
     fault, again = "", dict[tuple[str, str], float]()
     if done:
         fault, again = rehearse(day, folder / day.script, sandbox, CALLS)
+    item = package.commit_item
+    if clone.own:  # git may be asked for more of one's own
+        wanted = wanted_names(day, package.handin)
+        history = read_history(clone.student.path, wanted, own=True)
+        item = check_commit(day, package.handin, history)
     return RunDay(
         day,
         {result.task.id: in_words(result.verdict) for result in results},
         _numbers(day, package.handin),
         again,
         visible(fault, 300),
-        _left(day, package, clone),
+        "" if item.passed else visible(item.message.partition("\n")[0], 300),
     )
-
-
-def _left(day: Day, package: Package, clone: Clone) -> str:
-    """Return what the last commit lacks of a day's files, in a line."""
-    item = package.commit_item
-    if clone.own:  # git may be asked for more of one's own
-        wanted = wanted_names(day, package.handin)
-        history = read_history(clone.student.path, wanted, own=True)
-        item = check_commit(day, package.handin, history)
-    return "" if item.passed else visible(item.message.partition("\n")[0], 300)
 
 
 def _numbers(day: Day, handin: Handin) -> list[Series]:
