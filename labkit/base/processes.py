@@ -183,9 +183,14 @@ def scheduled(process: subprocess.Popen[bytes]) -> tuple[float, float]:
 
 
 def _family(pid: int) -> list[int]:
-    """Return a process and what it started, on Linux."""
-    children = _read(f"/proc/{pid}/task/{pid}/children").split()
-    return [pid, *(one for child in children for one in _family(int(child)))]
+    """Return a process and what any of its threads started, on Linux."""
+    try:
+        threads = os.listdir(f"/proc/{pid}/task")
+    except OSError:  # it has ended
+        threads = []
+    lists = [_read(f"/proc/{pid}/task/{thread}/children") for thread in threads]
+    children = [int(child) for some in lists for child in some.split()]
+    return [pid, *(one for child in children for one in _family(child))]
 
 
 def _read(path: str) -> str:
