@@ -69,7 +69,7 @@ def found(week: Week, clone: facts.Clone) -> page.Proof:
         with cli.busy("the pick"):
             picked = pick(known, folders, sandbox)
     fresh = store.read(FRESH) if clone.own else {}
-    return page.Proof(clone, known, picked, fresh, teacher=not clone.own)
+    return page.Proof(clone, known, picked, fresh)
 
 
 def write(path: Path, text: str) -> None:

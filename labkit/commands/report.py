@@ -46,9 +46,7 @@ def main() -> int:
     whole = not (since or args.check or args.day is not None)
     week = chosen_week(None) if whole else None
     number = week.number if week else None
-    checked: dict[int | None, str] = {}
-    if mine:
-        checked |= {day.number: last_check(day) for day in days}
+    checked = {day.number: last_check(day) for day in days} if mine else {}
     write(out / "report.html", page.render(report, heading, number, checked).encode())
     if week is not None:
         write_week(report, heading, out, week, args.file)

@@ -53,7 +53,6 @@ class Proof:
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
     # many things missing; {} where nobody asked.
     fresh: dict[str, Any] = field(default_factory=dict)
-    teacher: bool = False  # whether a teacher's kit found all this
 
 
 def render(proof: Proof) -> str:
@@ -66,7 +65,7 @@ def render(proof: Proof) -> str:
     place = f"film {nonce}"
     week = proof.days[0].day.week.heading
     title = escape(f"{proof.clone.name}: {week[0].lower()}{week[1:]}")
-    who = "a teacher's kit" if proof.teacher else "the student's own kit"
+    who = "the student's own kit" if proof.clone.own else "a teacher's kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
         title,

@@ -36,7 +36,7 @@ def render(
     report: Report,
     heading: str,
     week: int | None = None,
-    checked: Mapping[int | None, str] | None = None,
+    checked: Mapping[int, str] | None = None,
 ) -> str:
     """Return the whole page.
 
@@ -56,7 +56,7 @@ def render(
         _tiles(report),
         *([] if report.rows else [NOTHING]),
         _jumps(report),
-        *(_day(day, series, checked.get(day, "")) for day, series in days),
+        *(_day(day, series, checked.get(day or 0, "")) for day, series in days),
         _look(report.look),
     )
 
