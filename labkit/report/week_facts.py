@@ -52,11 +52,6 @@ class OwnDay(DayFacts):
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property
-    def begun(self) -> bool:
-        """Whether the student has a file of the day."""
-        return self.day.work.is_file()
-
-    @property
     def checked(self) -> bool:
         """Whether `make check` has seen all tasks in the file as it is."""
         return len(self.states) == len(self.day.tasks)

@@ -32,7 +32,7 @@ def fill(facts: Sequence[OwnDay]) -> list[Path]:
     Raises:
         Robo47Error: a file cannot be written.
     """
-    if not any(one.begun for one in facts):
+    if not any(one.day.work.is_file() for one in facts):
         return []  # nobody's numbers
     text = as_markdown(facts)
     files = sorted((facts[0].day.folder / "docs").glob("RETRO_*.md"))
