@@ -50,7 +50,10 @@ def read(root: Path, name: str, limit: int) -> bytes | None:
 
 
 def size_of(root: Path, name: str) -> int | None:
-    """Return a regular file's bytes, or None where there is no such file."""
+    """Return how many bytes a file has, or None where there is no such file.
+
+    Arguments and errors are those of `read`.
+    """
     path = root
     try:
         for part in name.split("/"):
