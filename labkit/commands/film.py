@@ -4,15 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from labkit.base.exchange import LoadError
 from labkit.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
 from labkit.inspector.arm import Arm
-from labkit.inspector.ghost import Difference, Ghost, Seen, compare
-from labkit.inspector.student import poses_of, source_of
+from labkit.inspector.ghost import Seen
+from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
-from labkit.judge.problems import not_loaded
 from labkit.lesson.day import Day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -45,12 +43,18 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
         raise Robo47Error(f"{file} is not there")
     ghost = day_tabs(day).ghost
     qs = there_and_back(panda.READY_Q, REACH_Q, FRAMES)
-    said: dict[bytes, Difference] = {}
+    said: dict[bytes, Seen] = {}
     alone = f"MuJoCo's arm; {shown(script)} is not there" if ghost else ""
     if ghost is None:
         alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
     if ghost is not None and script.is_file():
-        said = _differences(arm, ghost, day, script, qs)
+        with Sandbox() as sandbox:
+            student = Student(day, arm, ghost, sandbox, script, CALL_SECONDS)
+            student.look()
+            for q in qs:
+                said[q.tobytes()] = student.see(q)
+                if student.problem:
+                    raise Robo47Error(student.problem.removesuffix(AGAIN))
 
     def ghost_of(q: Array) -> dict[str, Array]:
         return dict(said[q.tobytes()].drawn) if said else {}
@@ -58,27 +62,7 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     def caption_of(q: Array) -> Caption:
         if not said:
             return alone, None
-        apart = said[q.tobytes()]
-        return apart.sentence.rstrip("."), apart.good
+        seen = said[q.tobytes()]
+        return seen.sentence.rstrip("."), seen.kind == "good"
 
     return save_clip(arm_clip(qs, ghost_of, caption_of), path)
-
-
-def _differences(
-    arm: Arm, ghost: Ghost, day: Day, script: Path, qs: Array
-) -> dict[bytes, Difference]:
-    """Return how the student's arm differs at each configuration."""
-    found = {}
-    with Sandbox() as sandbox:
-        source = source_of(day, arm.model, sandbox)
-        try:
-            asker = source.open(script)
-        except LoadError as error:
-            raise Robo47Error(not_loaded(script, error.reply)) from None
-        for q in qs:
-            poses, problem = poses_of(asker.ask, source, ghost, arm.model, q)
-            seen = Seen(q, poses, problem)
-            found[q.tobytes()] = compare(ghost, seen, arm.poses_at(q))
-            if not asker.alive:
-                raise Robo47Error(problem)
-    return found

@@ -15,6 +15,7 @@ import argparse
 import functools
 import importlib.util
 from pathlib import Path
+from typing import NoReturn
 
 import mujoco
 import numpy as np
@@ -34,7 +35,7 @@ DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int:
+def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> NoReturn:
     """Serve the inspector until Ctrl-C; without a start where it was left."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
@@ -58,7 +59,7 @@ def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int
     arm.move(arm.named_q.get(start or CONFIGURATIONS[0], arm.named_q["home"]))
     dressed = functools.partial(panda.load, entry, meshes=True)
     dressed = functools.partial(model_of, scene) if scene else dressed
-    return serve(Show(day, arm, about, dressed, simple, start is None), port)
+    serve(Show(day, arm, about, dressed, simple, start is None), port)
 
 
 def end_of(model: mujoco.MjModel) -> str:
@@ -196,4 +197,4 @@ def main() -> int:
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or day.week.robot
-    return web(day, entry, options.start, options.port, options.simple)
+    web(day, entry, options.start, options.port, options.simple)

@@ -72,8 +72,6 @@ class Arm:
 
     def poses_at(self, q: Array) -> dict[str, Array]:
         """Return MuJoCo's poses at a configuration, (nq,), as {short name: (4, 4)}."""
-        if np.array_equal(q, self.q):
-            return {name: self.pose(name) for name in self.names}
         poses = mujoco_poses(self.model, np.asarray(q)[None])
         return {name: poses[full][0] for name, full in self.names.items()}
 

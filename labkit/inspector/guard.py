@@ -27,7 +27,7 @@ import secrets
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cache, wraps
+from functools import cache, partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,7 @@ LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
+Answers = Callable[[ServerConnection, Request], Response | None]
 HERE, TITLE = Path(__file__).parent, "robo47 inspector"
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
@@ -69,8 +70,10 @@ class LocalServer(viser.ViserServer):
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL + 1)
         # Nor is what was still to be drawn when a page, or this server, was closed.
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection")
-        self.door = Door()
-        with _watched_doors(self.door) as watched:
+        self.secret = secrets.token_urlsafe(12)
+        self.receive: Receive = lambda query: 0
+        self.first: Callable[[], str] = str  # what a page shows before viser does
+        with _watched_doors(self) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)
         if not watched:
             self.stop()
@@ -86,20 +89,11 @@ class LocalServer(viser.ViserServer):
     @property
     def url(self) -> str:
         """The page's address, secret included."""
-        return f"http://{LOOPBACK}:{self.get_port()}/{self.door.secret}/"
+        return f"http://{LOOPBACK}:{self.get_port()}/{self.secret}/"
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Refuse, whoever asks: the arm is not put on the internet."""
         return None
-
-
-class Door:
-    """What every request passes: refuses it, answers it, or hands it to viser."""
-
-    def __init__(self) -> None:
-        self.secret = secrets.token_urlsafe(12)
-        self.receive: Receive = lambda query: 0
-        self.first: Callable[[], str] = str  # what a page shows before viser does
 
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass."""
@@ -113,10 +107,7 @@ class Door:
         return None
 
     def answer(
-        self,
-        connection: ServerConnection,
-        request: Request,
-        viser_answers: Callable[[ServerConnection, Request], Response | None],
+        self, viser_answers: Answers, connection: ServerConnection, request: Request
     ) -> Response | None:
         """Return the answer, viser's own where all is well; None opens a WebSocket."""
         if why := self.refusal(request):
@@ -128,9 +119,8 @@ class Door:
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
-        response = viser_answers(
-            connection, replace(request, path=path or "/", headers=plain)
-        )
+        asked = replace(request, path=path or "/", headers=plain)
+        response = viser_answers(connection, asked)
         return response and _protected(response, None if path else self.first())
 
 
@@ -176,26 +166,20 @@ def _protected(response: Response, first: str | None) -> Response:
     body = bytes(response.body)
     if first is not None:
         body = with_client(body, first)
-    headers = Headers(response.headers)
-    for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
-        with contextlib.suppress(KeyError):
-            del headers[name]
-        headers[name] = value
-    return replace(response, headers=headers, body=body)
+    length = {"Content-Length": str(len(body))}
+    headers = {**dict(response.headers.raw_items()), **PROTECTION, **length}
+    return replace(response, headers=Headers(headers), body=body)
 
 
 @contextlib.contextmanager
-def _watched_doors(door: Door) -> Iterator[list[bool]]:
-    """Make any web server that is started meanwhile ask the door first."""
+def _watched_doors(server: LocalServer) -> Iterator[list[bool]]:
+    """Have any web server that is started meanwhile ask this one first."""
     serve, watched = websockets.asyncio.server.serve, []
 
     @wraps(serve)
-    def guarded(*args: Any, process_request: Any, **options: Any) -> Any:
+    def guarded(*args: Any, process_request: Answers, **options: Any) -> Any:
         watched.append(True)
-
-        def asked(connection: ServerConnection, request: Request) -> Response | None:
-            return door.answer(connection, request, process_request)
-
+        asked = partial(server.answer, process_request)
         return serve(*args, process_request=asked, **options)
 
     websockets.asyncio.server.serve = guarded  # type: ignore[assignment, misc]

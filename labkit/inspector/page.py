@@ -81,11 +81,11 @@ class Page:
     def hide_arm(self) -> None:
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
-        self.host.panel.solid.visible = False
+        self.host.solid.visible = False
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
-        self.host.panel.explain({what: rgb(colour) for what, colour in colours.items()})
+        self.host.explain({what: rgb(colour) for what, colour in colours.items()})
 
     # The student's functions, and what takes time
 
@@ -158,7 +158,7 @@ class Page:
 
     def say(self, text: str, kind: str = "") -> None:
         """Show a line at the tab's end, instead of the one before; see `words.line`."""
-        self.end().content = words.line(text, "tab", kind) if text else ""
+        self.end().content = words.line(text, "tab", kind)
 
     def end(self) -> viser.GuiHtmlHandle:
         """Return the line of `say`, made once.
