@@ -49,7 +49,7 @@ def websocket(port: int, path: str, host: str | None = None, origin: str | None 
             subprotocols=[f"viser-v{viser.__version__}"],
             compression=None,
             max_size=None,
-            close_timeout=0.5,  # the server does not take its leave
+            close_timeout=0.1,  # the server does not take its leave
         ) as page,
     ):
         assert page.recv(timeout=30)  # the scene

@@ -225,7 +225,6 @@ class Inspector:
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
             self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
-            page.end()
         self.schedule()
 
     def leave(self) -> None:

@@ -137,38 +137,32 @@ def foreign(headers: Headers) -> str | None:
     return None
 
 
-def with_client(page: bytes, first: str) -> bytes:
-    """Return viser's `index.html` with our style and script at its head.
+def _protected(response: Response, first: str | None) -> Response:
+    """Return viser's response with our headers.
 
-    The first HTML stands there until viser has drawn something: seconds later.
-
-    Raises:
-        Robo47Error: it has no head or body where it is expected.
+    Where there is something to see first it is viser's page: its head gets our style
+    and script, and the first HTML stands there until viser draws, seconds later.
     """
-    if page.count(b"<head>") != 1 or page.count(b"<body>") != 1:
-        raise Robo47Error(
-            "viser's page is not as expected. Install the pinned one: "
-            "python3 scripts/setup_env.py view"
-        )
-    there = f'<body><div id="r47-first">{first}</div>'.encode()
-    titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
-    return titled.replace(b"<head>", _head()).replace(b"<body>", there)
+    body = bytes(response.body)
+    if first is not None:
+        if body.count(b"<head>") != 1 or body.count(b"<body>") != 1:
+            raise Robo47Error(
+                "viser's page is not as expected. Install the pinned one: "
+                "python3 scripts/setup_env.py view"
+            )
+        there = f'<body><div id="r47-first">{first}</div>'.encode()
+        title = f"<title>{TITLE}</title>".encode()
+        body = body.replace(b"<title>Viser</title>", title)
+        body = body.replace(b"<head>", _head()).replace(b"<body>", there)
+    length = {"Content-Length": str(len(body))}
+    headers = {**dict(response.headers.raw_items()), **PROTECTION, **length}
+    return replace(response, headers=Headers(headers), body=body)
 
 
 @cache
 def _head() -> bytes:
     style, script = ((HERE / f"client.{kind}").read_bytes() for kind in ("css", "js"))
     return b"<head><style>%s</style><script>%s</script>" % (style, script)
-
-
-def _protected(response: Response, first: str | None) -> Response:
-    """Return viser's response with our headers, and its page with our client."""
-    body = bytes(response.body)
-    if first is not None:
-        body = with_client(body, first)
-    length = {"Content-Length": str(len(body))}
-    headers = {**dict(response.headers.raw_items()), **PROTECTION, **length}
-    return replace(response, headers=Headers(headers), body=body)
 
 
 @contextlib.contextmanager

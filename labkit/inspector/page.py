@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 SLOW = 1.5  # times slower than real time, which is said
 NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
+END = 1e14  # of a tab, in the order of widgets
 
 
 class Page:
@@ -34,7 +35,9 @@ class Page:
         self.host, self.gui, self.draw = host, host.server.gui, sketch
         self.scene, self.arm = host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
-        self.said: viser.GuiHtmlHandle | None = None
+        # At the end whatever comes later. One that came with the first word would have
+        # viser draw all others anew: a slider in hand would be lost to the mouse.
+        self.said = self.gui.add_html("", order=END)
         self.running: list[Animation | Jobs] = []  # what ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
@@ -158,16 +161,7 @@ class Page:
 
     def say(self, text: str, kind: str = "") -> None:
         """Show a line at the tab's end, instead of the one before; see `words.line`."""
-        self.end().content = words.line(text, "tab", kind)
-
-    def end(self) -> viser.GuiHtmlHandle:
-        """Return the line of `say`, made once.
-
-        A widget that comes later has viser draw all the others anew: a slider that is
-        being dragged is then lost to the mouse.
-        """
-        self.said = self.said or self.html()
-        return self.said
+        self.said.content = words.line(text, "tab", kind)
 
     def matrix(self, handle: viser.GuiHtmlHandle, name: str, T: Array) -> None:
         """Show a pose, (4, 4), under its name in a handle of `html`."""
