@@ -12,16 +12,16 @@ pytest.importorskip("viser", reason="the extra view")
 
 from viser import _messages
 
-from labkit.check.tasks import TaskResult
+from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
+from labkit.inspector.common_tabs import Standing
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.meshes import Robot
 from labkit.inspector.serve import on_loop
 from labkit.inspector.shapes import Shape
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
-from labkit.judge.mistake import Verdict
 from labkit.lesson.day import day_numbers, find_day
 from robo47 import panda
 
@@ -349,8 +349,8 @@ def test_the_students_poses_are_judged_in_their_name(page):
 class File:
     """A student's file that is looked at and asked, and says nothing."""
 
-    def __init__(self, check, there=True):
-        self.check, self.there, self.version, self.asked = check, there, 1, []
+    def __init__(self, check=None):
+        self.check, self.there, self.version, self.asked = check, bool(check), 1, []
 
     def look(self):
         """Look for a save."""
@@ -363,14 +363,18 @@ class File:
 @pytest.fixture
 def watched(page):
     """Have the page watch a file; stop after the test."""
+    watching = []
 
     def watch(file):
-        on_loop(page.server, lambda: page.watch(file, file.check))
+        loop = page.server.get_event_loop()
+        watch = page.watch(file, file.check)
+        watching.append(asyncio.run_coroutine_threadsafe(watch, loop))
         until(lambda: page.seen is not None)
         settle(page)
         return file
 
     yield watch
+    watching[0].cancel()
     on_loop(page.server, page.close)
 
 
@@ -382,7 +386,7 @@ def until(true):
 
 
 def test_a_page_without_a_file_asks_once_and_rests(page, watched):
-    file = watched(File(check=None, there=False))
+    file = watched(File())
     time.sleep(0.2)
     assert len(file.asked) == 1
     on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
@@ -390,20 +394,22 @@ def test_a_page_without_a_file_asks_once_and_rests(page, watched):
     assert file.asked[1][0] == page.arm.q[0]
 
 
-def test_a_save_is_asked_and_checked_and_a_broken_checker_is_said(page, watched):
-    task = find_day(1).tasks[0]
-    answers = [[TaskResult(task, Verdict("passed"))], ValueError("no questions")]
-
-    def check():
-        if isinstance(answer := answers.pop(0), Exception):
-            raise answer
-        return answer
-
-    file = watched(File(check))
-    until(lambda: "✓ make check: 1 of 1 tasks pass" in contents(page))
+def test_a_save_is_asked_and_checked(page, watched):
+    file = File(lambda: Standing(f"version {file.version}"))
+    watched(file)
+    until(lambda: "version 1" in contents(page))
     file.version = 2
-    until(lambda: "make check: no questions" in contents(page))
+    until(lambda: "version 2" in contents(page))
     assert len(file.asked) == 2
+
+
+def test_a_checker_that_breaks_is_said(monkeypatch):
+    def broken(*_):
+        raise ValueError("no questions")
+
+    monkeypatch.setattr(serve, "check_tasks", broken)
+    found = serve.check(find_day(1))
+    assert (found.headline, found.kind) == ("make check: no questions", "bad")
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])

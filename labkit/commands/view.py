@@ -18,15 +18,14 @@ from pathlib import Path
 from typing import NoReturn
 
 import mujoco
-import numpy as np
 
 from labkit.base import cli
 from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
+from labkit.inspector.arm import Arm
 from labkit.judge.ask import model_of
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import shown
@@ -42,8 +41,7 @@ def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> NoR
             "the inspector needs viser, which this Python does not have. "
             "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
-    from labkit.inspector.arm import Arm
-    from labkit.inspector.serve import Show, serve
+    from labkit.inspector.serve import serve
 
     scene = day.folder / entry if entry.endswith(".xml") else None
     print(f"robot: {shown(scene)}" if scene else panda.describe(entry), flush=True)
@@ -59,7 +57,7 @@ def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> NoR
     arm.move(arm.named_q.get(start or CONFIGURATIONS[0], arm.named_q["home"]))
     dressed = functools.partial(panda.load, entry, meshes=True)
     dressed = functools.partial(model_of, scene) if scene else dressed
-    serve(Show(day, arm, about, dressed, simple, start is None), port)
+    serve(day, arm, about, dressed, port, simple=simple, back=start is None)
 
 
 def end_of(model: mujoco.MjModel) -> str:
@@ -95,7 +93,8 @@ def screenshot(path: Path, start: str) -> int:
         ) from None
     from PIL import PngImagePlugin
 
-    picture = draw(configuration(start), start)
+    arm = Arm(panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"])
+    picture = draw(arm.named_q[start], start)
     about = PngImagePlugin.PngInfo()
     about.add_text(PORTRAIT, start)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -118,14 +117,6 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     size = film(path, day, file)
     print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
     return cli.EXIT_OK
-
-
-def configuration(name: str) -> Array:
-    """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
-    if name == "ready":  # the handout's home_q; `home` is the model's own key
-        return panda.READY_Q
-    model = panda.load("panda_nohand")
-    return panda.home_q(model) if name == "home" else np.zeros(model.nq)
 
 
 def port(text: str) -> int:

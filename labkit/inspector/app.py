@@ -5,8 +5,9 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 `update` does the work, at most once in a sixtieth of a second.
 """
 
+import asyncio
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
@@ -15,11 +16,10 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
-from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
-from labkit.inspector.animate import Animation, Jobs
+from labkit.inspector.animate import Jobs
 from labkit.inspector.arm import END, Arm
-from labkit.inspector.common_tabs import Chain, Joints, Standing, Tasks, standing
+from labkit.inspector.common_tabs import Chain, Joints, Standing, Tasks
 from labkit.inspector.draw import Sketch
 from labkit.inspector.ghost import Seen
 from labkit.inspector.guard import TITLE
@@ -30,7 +30,7 @@ from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Tab
 from robo47.checks import Array, array
 
-PERIOD, LOOKS = 1 / 60, 20.0  # seconds; looks at the student's file a second
+PERIOD, LOOKS = 1 / 60, 0.05  # seconds; between looks at the student's file
 DRAG, STEPS = 0.7, 100  # seconds between moves that are one; how many can be undone
 LAST = 1e15  # below whatever a tab adds
 COLOURS = {
@@ -64,8 +64,7 @@ class Inspector:
         self.student: Student | None = None
         self.version, self.unchecked = 0, False  # of the file that is asked
         self.seen: Seen | None = None
-        self.asks, self.checks = Jobs(lambda _: None), Jobs(self.unjudged)
-        self.looks = Animation(self.looked, LOOKS, lambda _: None, self.look)
+        self.asks, self.checks = Jobs(lambda _: None), Jobs(lambda _: None)
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
@@ -255,24 +254,15 @@ class Inspector:
 
     # The student's file
 
-    def watch(
-        self, student: Student, check: Callable[[], Sequence[TaskResult]]
-    ) -> None:
+    async def watch(self, student: Student, check: Callable[[], Standing]) -> None:
         """Ask a file for the arm at every move, and the checker at every save."""
         self.student, self.check = student, check
-        self.looks.start()
-
-    def look(self, seconds: float) -> None:
-        """Look at the file, on a thread."""
-        assert self.student is not None
-        self.student.look()
-
-    def looked(self, seconds: float) -> None:
-        """Ask the file where it is another one; the checks, slower, come after that."""
-        assert self.student is not None
-        if self.version != self.student.version:
-            self.version, self.unchecked = self.student.version, True
-            self.ask()
+        while True:
+            await asyncio.to_thread(student.look)
+            if self.version != student.version:
+                self.version, self.unchecked = student.version, True
+                self.ask()  # the checks, which are slower, come after that
+            await asyncio.sleep(LOOKS)
 
     def ask(self) -> None:
         """Ask the file, once it is open, where it puts the arm."""
@@ -292,27 +282,18 @@ class Inspector:
             self.tell(self.arm.q)  # whatever the open tab asks is asked again
             self.schedule()
             if self.student.there:
-                self.checks.want(self.check, self.checked)
-
-    def checked(self, results: Sequence[TaskResult]) -> None:
-        """Show how the tasks stand, unless the file was saved again meanwhile."""
-        if self.checks.next is None:
-            self.judge(standing(results))
-
-    def unjudged(self, error: Exception | None) -> None:
-        """Say what stopped the checker, if anything did."""
-        if error is not None:
-            self.judge(Standing(f"make check: {error}", "bad"))
+                self.checks.want(self.check, self.judge)
 
     def judge(self, found: Standing) -> None:
-        """Show how the tasks stand."""
-        self.standing = found
-        if isinstance(self.tab, Tasks):
-            self.tab.show(found)
-        self.schedule()
+        """Show how the tasks stand, unless the file was saved again meanwhile."""
+        if self.checks.next is None:
+            self.standing = found
+            if isinstance(self.tab, Tasks):
+                self.tab.show(found)
+            self.schedule()
 
     def close(self) -> None:
         """End whatever runs."""
         self.leave()
-        for each in (self.looks, self.asks, self.checks):
-            each.stop()
+        self.asks.stop()
+        self.checks.stop()

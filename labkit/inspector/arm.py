@@ -111,8 +111,8 @@ class Arm:
         so_far, steps = np.eye(4), []
         for link, joint, name, q, T, elsewhere in self._factors():
             after = so_far @ T
-            moves = elsewhere != T
-            steps.append(Step(link, joint, name, q, so_far, T, after, moves))
+            step = Step(link, joint, name, q, so_far, T, after, elsewhere != T)
+            steps.append(step)
             so_far = after
         return steps
 
