@@ -286,9 +286,9 @@ def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_
     connect(served, origin=f"http://127.0.0.1:{served.port}")  # from here it is reached
     with Sandbox() as sandbox:
         arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
-        own = student.Student(find_day(1), arm, None, sandbox, script)
-        question = Question("ghost", "compose_fk", (1, 2))
-        (reply,) = own.session().ask([question], 9)
+        own = student.Student(find_day(1), arm, None, sandbox, script, seconds=9)
+        own.look()
+        (reply,) = own.ask([Question("ghost", "compose_fk", (1, 2))])
     assert reply.error == "reached []", (reply.kind, reply.error)
 
 

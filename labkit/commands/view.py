@@ -67,14 +67,6 @@ def end_of(model: mujoco.MjModel) -> str:
     return f"body:{model.body(model.nbody - 1).name}"
 
 
-def native() -> int:
-    """Open MuJoCo's window, or say in one line why not."""
-    why = native_viewer.obstacle()
-    if why:
-        raise Robo47Error(f"{why}. The browser needs none of that: make view")
-    return native_viewer.show()
-
-
 def screenshot(path: Path, start: str) -> int:
     """Write a picture of the arm, drawn offscreen; overwrite nothing."""
     if path.exists():
@@ -183,7 +175,9 @@ def main() -> int:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
         return screenshot(picture_of(options), options.start or CONFIGURATIONS[0])
     if options.native:
-        return native()
+        if why := native_viewer.obstacle():
+            raise Robo47Error(f"{why}. The browser needs none of that: make view")
+        return native_viewer.show()
     day = chosen_day(options.day)
     if options.clip:
         return clip(options.clip, day, options.file)

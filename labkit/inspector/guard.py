@@ -97,11 +97,18 @@ class LocalServer(viser.ViserServer):
 
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass."""
-        if why := foreign(request.headers):
-            return why
-        given = request.path.partition("?")[0].strip("/").partition("/")[0]
+        headers = request.headers
+        hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+        if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
+            return "this address is not the inspector's; open http://127.0.0.1:PORT"
+        # Every browser sends Origin with a WebSocket; same port as well, since another
+        # program's page on this machine is another origin.
+        wanted = [f"http://{hosts[0]}"]
+        if origins != wanted and (origins or headers.get_all("Upgrade")):
+            return "only the inspector's own page may connect to it"
         if len(request.path) > LONGEST:
             return "that address is too long"
+        given = request.path.partition("?")[0].strip("/").partition("/")[0]
         if not hmac.compare_digest(given.encode(), self.secret.encode()):
             return "open the whole address that `make view` printed"
         return None
@@ -122,19 +129,6 @@ class LocalServer(viser.ViserServer):
         asked = replace(request, path=path or "/", headers=plain)
         response = viser_answers(connection, asked)
         return response and _protected(response, None if path else self.first())
-
-
-def foreign(headers: Headers) -> str | None:
-    """Return why headers cannot be those of the inspector's own page, or None."""
-    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
-    if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
-        return "this address is not the inspector's; open http://127.0.0.1:PORT"
-    # Every browser sends Origin with a WebSocket; same port as well, since another
-    # program's page on this machine is another origin.
-    wanted = [f"http://{hosts[0]}"]
-    if origins != wanted and (origins or headers.get_all("Upgrade")):
-        return "only the inspector's own page may connect to it"
-    return None
 
 
 def _protected(response: Response, first: str | None) -> Response:

@@ -16,7 +16,6 @@ from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
-from robo47 import kinematics
 from robo47.checks import Array
 
 if TYPE_CHECKING:
@@ -61,12 +60,8 @@ class Page:
         """Return where every link is at q, (7,), for a ghost's `pose`."""
         whole = self.q
         whole[: len(np.asarray(q))] = q  # fingers stay as they are
-        poses = kinematics.fk_all(self.model, whole)
-        return {
-            name.removeprefix("body:"): T
-            for name, T in poses.items()
-            if name.startswith("body:link")
-        }
+        poses = self.arm.poses_at(whole)
+        return {name: T for name, T in poses.items() if name.startswith("link")}
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser; q in radians and metres, (nq,)."""

@@ -71,7 +71,7 @@ class ArmScene:
     def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
         """Put meshes on the arm, and on the ghosts, too."""
         self.skin.put_on(shapes)
-        self.paint()
+        self.look()
         if ghosts:
             self.coarse = shapes
             self.ghost.put_on(shapes)
@@ -130,14 +130,8 @@ class ArmScene:
 
     def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
         """Make the arm solid or see-through, and green or not; None leaves it so."""
-        before = self.opaque, self.agrees
         self.opaque = self.opaque if opaque is None else opaque
         self.agrees = self.agrees if agrees is None else agrees
-        if before != (self.opaque, self.agrees):
-            self.paint()
-
-    def paint(self) -> None:
-        """Give the meshes their colours."""
         if self.opaque:
             self.skin.look(None)
         else:

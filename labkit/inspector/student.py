@@ -75,19 +75,13 @@ class Student:
             self.problem = self._open() if stamp else ""
             self.version += 1
 
-    def session(self) -> Session:
-        """Return the file in the sandbox, with the model of the questions.
-
-        Raises:
-            LoadError: it does not load.
-        """
-        day, robots = self.day, [self.arm.model]
-        library = library_of(day)
-        return self.sandbox.session(self.script, robots, library, limits=day.limits)
-
     def _open(self) -> str:
+        """Open the file with the model of the questions; return why it does not."""
+        robots, library = [self.arm.model], library_of(self.day)
         try:
-            self._asker = self.session()
+            self._asker = self.sandbox.session(
+                self.script, robots, library, limits=self.day.limits
+            )
         except LoadError as error:
             return not_loaded(self.script, error.reply)
         except (Robo47Error, OSError) as error:
