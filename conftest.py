@@ -67,10 +67,7 @@ class Answers:
     there, version, problem = True, 1, ""
 
     def __init__(self, functions):
-        from labkit.inspector.student import describe
-
-        self.functions, self.source = functions, SimpleNamespace()
-        self.source.describe = partial(describe, {})
+        self.functions, self.day = functions, SimpleNamespace(tasks=())
 
     def ask(self, questions):
         return [

@@ -4,17 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from labkit.base.exchange import LoadError
 from labkit.figures import clip
 from labkit.inspector.arm import Arm
-from labkit.inspector.ghost import Difference, Ghost, Seen, compare
-from labkit.inspector.student import poses_of, source_of
+from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
-from labkit.judge.problems import not_loaded
 from labkit.lesson.day import Day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -48,25 +44,14 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
         alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
     shots: list[clip.Shot] = [(clip.arm_scene(q), (alone, None)) for q in qs]
     if ghost is not None and script.is_file():
-        for i, one in enumerate(_differences(ghost, day, script, qs)):
-            words = one.sentence.rstrip(".")
-            shots[i] = clip.arm_scene(qs[i], one.drawn), (words, one.good)
+        arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
+        with Sandbox() as sandbox:
+            student = Student(day, arm, ghost, sandbox, script, CALL_SECONDS)
+            student.look()
+            for i, q in enumerate(qs):
+                seen = student.see(q)
+                if student.problem:
+                    raise Robo47Error(student.problem.removesuffix(AGAIN))
+                words = seen.sentence.rstrip(".")
+                shots[i] = clip.arm_scene(q, seen.drawn), (words, seen.kind == "good")
     return clip.save_clip(clip.drawn(shots), path)
-
-
-def _differences(ghost: Ghost, day: Day, script: Path, qs: Array) -> list[Difference]:
-    """Return how the student's arm differs at each configuration."""
-    arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
-    found = []
-    with Sandbox() as sandbox:
-        source = source_of(day, arm.model, sandbox)
-        try:
-            asker = source.open(script)
-        except LoadError as error:
-            raise Robo47Error(not_loaded(script, error.reply)) from None
-        for q in qs:
-            poses, problem = poses_of(asker.ask, source, ghost, arm.model, q)
-            found.append(compare(ghost, Seen(q, poses, problem), arm.poses_at(q)))
-            if not asker.alive:
-                raise Robo47Error(problem)
-    return found

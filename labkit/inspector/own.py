@@ -19,7 +19,7 @@ import numpy as np
 from labkit.base.exchange import LoadError, Question
 from labkit.check.memory import passing
 from labkit.check.own_functions import statuses
-from labkit.inspector.student import Student
+from labkit.inspector.student import Student, describe
 from labkit.lesson.day import all_days
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
@@ -81,7 +81,7 @@ class Own:
         if reply.kind in UNWRITTEN:
             self._lent[name] = "yours is not written yet"
             return right
-        if problem := student.source.describe(name, reply):
+        if problem := describe(student.day, name, reply):
             raise NoAnswerError(f"YOUR {problem}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
