@@ -16,7 +16,7 @@ from PIL import Image
 
 from labkit.figures import overlay, portrait, sheet
 from labkit.figures.lessons import lesson_figures
-from labkit.lesson.day import all_days
+from labkit.lesson.day import Day, all_days
 
 pytestmark = pytest.mark.kit
 
@@ -107,7 +107,5 @@ def test_another_name_or_a_folder_that_cannot_be_written_to_is_told(
 
 
 def test_a_day_without_pictures_has_none(monkeypatch):
-    from labkit.figures import lessons
-
-    monkeypatch.setattr(lessons.folder, "has", lambda day, name: False)
-    assert lessons.lesson_figures(1) == {}
+    monkeypatch.setattr(Day, "has", lambda day, name: False)
+    assert lesson_figures(1) == {}
