@@ -22,12 +22,11 @@ from labkit.base import cli, processes
 from labkit.base.exchange import Exchange, Question
 from labkit.commands import docs, notebook
 from labkit.handin.worksheet import split_sections
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import stacked
-from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import Day, day_numbers, find_day
-from labkit.lesson.starter import find_regions, read_script
+from labkit.lesson.script import find_regions, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -115,7 +114,7 @@ def _pictures(day: Day) -> Iterator[str]:
 
 def _tabs(day: Day) -> Iterator[str]:
     """Yield why the day's tabs do not load; nothing where viser is not installed."""
-    if folder.has(day, "inspector") and find_spec("viser"):
+    if day.has("inspector") and find_spec("viser"):
         from labkit.inspector.tab import day_tabs
 
         try:

@@ -67,11 +67,11 @@ print(json.dumps(found))
 """
 LESSONS_PROBE = """
 import json
-from labkit.lesson import originals
+from labkit.lesson.script import is_kits
 from labkit.lesson.day import all_days
 from robo47.paths import shown
 days = all_days()
-others = [shown(day.source) for day in days if not originals.is_kits(day)]
+others = [shown(day.source) for day in days if not is_kits(day)]
 print(json.dumps({"days": len(days), "others": others}))
 """
 WALL_PROBE = """

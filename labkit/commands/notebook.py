@@ -18,10 +18,9 @@ from itertools import pairwise
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.lesson import folder
 from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.script import lab_of, make_starter, read_script
 from labkit.lesson.sealed import is_sealed
-from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -182,7 +181,7 @@ def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]
             case ast.Return(ast.expr() as value):  # without "Out: 0"
                 found.append([LAST, f"\n    {ast.unparse(value)};"])
             case ast.Expr(ast.Call(ast.Attribute(ast.Name("lab"), "step"), [heading])):
-                title = eval(ast.unparse(heading), vars(folder.lab(day)))
+                title = eval(ast.unparse(heading), vars(lab_of(day)))
                 found.append([title, ""])
             case _:
                 found[-1][1] += segment

@@ -18,7 +18,6 @@ from sphinx.application import Sphinx
 
 from labkit.base import processes
 from labkit.inspector.recording import Recording
-from labkit.lesson import folder
 from labkit.lesson.day import all_days
 from labkit.site import formulas, links, pages
 from robo47.errors import Robo47Error
@@ -91,7 +90,7 @@ def build(out: Path) -> None:
 
 def films() -> dict[str, Callable[[], Recording]]:
     """Return what records the film beside each picture, from `w*/dayN/films.py`."""
-    some = (folder.offered(day, "films") for day in all_days())
+    some = (day.offered("films") for day in all_days())
     return {name: make for films in some for name, make in films.items()}
 
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge.row import Row, Way, row_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from labkit.lesson.script import lab_of
 from robo47 import checks
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
@@ -126,7 +126,7 @@ def chosen() -> list[tuple[int, Row, Way]]:
 
 def questions(number: int, q: Any) -> dict[str, tuple]:
     """Return {frame: what a day's inspector asks the arm's function} at q, (7,)."""
-    ghost = folder.load(find_day(number), "inspector").GHOST
+    ghost = find_day(number).module("inspector").GHOST
     twin = mujoco.MjModel.from_xml_path(str(TWIN_XML))  # the page's robot
     asked = zip(ghost.frames, ghost.questions(twin, q), strict=True)
     return {
@@ -144,7 +144,7 @@ def tables() -> dict[str, Any]:
     for day, row, way in chosen():
         asked = questions(day, q)
         # A mistake of an argument is made with the lab's own: MuJoCo takes no symbols.
-        own = getattr(folder.lab(find_day(day)), row.function)
+        own = getattr(lab_of(find_day(day)), row.function)
         with symbols_allowed(), patch.object(row, "truth", own):
             drawn = {frame: way.code(*of) for frame, of in asked.items()}
         mistakes.append(
