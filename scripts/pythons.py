@@ -29,7 +29,7 @@ def find_python():
     which = getattr(shutil, "which", lambda name: None)  # Python 2 has none
     for minor in (13, 12, 11, 14):
         found = which("python3.{}".format(minor))
-        if found and is_version(found, (3, minor)):
+        if found and ask(found, "import sys") == (3, minor):  # a pyenv shim may not be
             return found, (3, minor)
     return stop(
         "this is Python {}.{}; the kit needs 3.11 or newer.".format(
@@ -38,11 +38,6 @@ def find_python():
         "Install one (python.org, or your package manager), then run make again\n"
         "       with PYTHON=python3.13",
     )
-
-
-def is_version(python, version):
-    """Return whether a Python starts and is that version (a pyenv shim may not)."""
-    return ask(python, "import sys") == tuple(version)
 
 
 def ask(python, imports):

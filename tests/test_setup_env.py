@@ -262,7 +262,7 @@ def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
 def test_a_newer_python_on_the_path_is_used(setup, monkeypatch, old):
     paths = {"python3.12": "/usr/bin/python3.12"}
     monkeypatch.setattr(pythons.shutil, "which", paths.get)
-    monkeypatch.setattr(pythons, "is_version", lambda python, version: True)
+    monkeypatch.setattr(pythons, "ask", lambda python, imports: (3, 12))
     assert pythons.find_python() == ("/usr/bin/python3.12", (3, 12))
 
 

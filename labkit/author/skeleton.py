@@ -13,7 +13,6 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 TEMPLATES = Path(__file__).parent / "templates"
-OF_A_WEEK = {"week.toml": "week.toml", "README.md": "README.md"}
 COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
 LAST_DAY = 47
 HEAD = """\
@@ -79,7 +78,7 @@ def _new_week(folder: Path, values: dict[str, str]) -> list[Path]:
     other = weeks()[-1]
     values |= {"weeknumber": parts[1], "weekname": parts[2]}
     values |= {"other": other.folder.name, "otherweek": str(other.number)}
-    files = [_write(folder / to, of, values) for to, of in OF_A_WEEK.items()]
+    files = [_write(folder / name, name, values) for name in ("week.toml", "README.md")]
     for name in COPIED:
         files.append(folder / name.format(parts[1]))
         files[-1].parent.mkdir(parents=True, exist_ok=True)

@@ -61,10 +61,8 @@ def write(name: str, memory: dict[str, Any], root: Path = ROOT) -> None:
 
 def hints_given(root: Path = ROOT) -> dict[str, int]:
     """Return how many hints were asked for, by task."""
-    try:
-        return {task: int(count) for task, count in read("hints.json", root).items()}
-    except (ValueError, TypeError):
-        return {}
+    found = read("hints.json", root).items()
+    return {task: count for task, count in found if isinstance(count, int)}
 
 
 def replace(path: Path, content: bytes) -> None:

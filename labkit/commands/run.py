@@ -10,7 +10,6 @@ Other options go to the lab, such as --no-log.
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 from labkit.base import cli
 from labkit.commands.start import require_begun
@@ -29,12 +28,7 @@ def main() -> int:
         require_kits(day)
     else:
         require_begun(day)
-    return go_on(day.source if options.kit else day.work, others)
-
-
-def go_on(script: Path, arguments: list[str]) -> int:
-    """Run a script instead of this one, as if it had been started itself."""
-    command = [sys.executable, str(script), *arguments]
+    command = [sys.executable, str(day.source if options.kit else day.work), *others]
     sys.stdout.flush()
     if os.name == "nt":  # execv there returns to the shell before the script has ended
         return subprocess.run(command, check=False).returncode

@@ -9,6 +9,7 @@ not on this machine's PATH is named and left out.
 """
 
 import os
+import re
 import shlex
 import shutil
 import sys
@@ -41,8 +42,7 @@ def environment(python: str, version: str, mujoco: str) -> Path:
     if ready.exists():
         return inside
     pins = (ROOT / "constraints.txt").read_text("utf-8").splitlines()
-    kept = [pin for pin in pins if not pin.startswith(("mujoco==", "mujoco-"))]
-    kept += [pin for pin in pins if pin.startswith("mujoco-menagerie==")]
+    kept = [pin for pin in pins if not re.match(r"mujoco(-core|-studio)?==", pin)]
     FOLDER.mkdir(exist_ok=True)
     constraints = FOLDER / f"constraints-{mujoco}.txt"
     constraints.write_text("\n".join([*kept, f"mujoco=={mujoco}"]) + "\n", "utf-8")
