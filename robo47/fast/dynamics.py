@@ -91,16 +91,10 @@ def _torques(
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
     for row in reversed(range(len(tau))):
-        link = links[row]
-        k, i, j = link.axes
-        own_n, own_f = wrenches[row]
+        link, (own_n, own_f) = links[row], wrenches[row]
         n, f = plus(n, own_n), plus(f, own_f)
-        np.multiply(n[k], link.sign, out=tau[row])
-        for v in (n, f):
-            v[i], v[j] = turned(v[i], v[j], cos[row], sin[row])
-            if link.R is not None:
-                v[:] = combined(link.R, v)
-        n = plus(n, cross(link.t, f))
+        np.multiply(n[link.k], link.sign, out=tau[row])
+        n, f = link.to_parent(cos[row], sin[row], n, f)
     return tau
 
 

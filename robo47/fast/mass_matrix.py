@@ -19,23 +19,27 @@ from robo47.fast.vectors import Vector, combined, turned
 def mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
     """Return M, (n, n, count): composite bodies, from the tip inwards."""
     n, count = cos.shape
-    M = np.empty((n, n, count))
-    body, signs = Body(), np.array([[link.sign] for link in links])
-    # Moments and forces, x y z each (2, joints, count): slot 0 is the next joint's.
-    F = [np.empty((2, 1, count)) for _ in range(3)]
+    M, body = np.empty((n, n, count)), Body()
+    wrenches: list[tuple[Vector, Vector]] = []  # this joint's and those further out
     for row in reversed(range(n)):
         link = links[row]
         k, i, j = link.axes
         body.add(link)
         h, Q = body.h, body.Q
-        F[k][0, 0], F[i][0, 0], F[j][0, 0] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
-        F[k][1, 0], F[i][1, 0], F[j][1, 0] = 0.0, -h[j], h[i]
-        np.multiply(F[k][0], link.sign * signs[row:], M[row, row:])
+        moment: Vector = [0.0] * 3
+        force: Vector = [0.0] * 3
+        moment[k], moment[i], moment[j] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
+        force[i], force[j] = -h[j], h[i]
+        wrenches.insert(0, (moment, force))
+        for column, (felt, _) in enumerate(wrenches, start=row):
+            sign = link.sign * links[column].sign
+            np.multiply(felt[k], sign, out=M[row, column])
         M[row, row] += link.armature
         M[row:, row] = M[row, row:]
         if row:
-            body.to_parent(link, cos[row], sin[row])
-            F = _wrenches_to_parent(F, link, cos[row], sin[row])
+            c, s = cos[row], sin[row]
+            body.to_parent(link, c, s)
+            wrenches = [link.to_parent(c, s, *wrench) for wrench in wrenches]
     return M
 
 
@@ -81,24 +85,3 @@ def _both_sides(R: Array, Q: list[Vector]) -> list[Vector]:
     QR = [combined(R, row) for row in Q]  # Q is symmetric: row i of Q R^T
     columns = [combined(R, [QR[a][b] for a in range(3)]) for b in range(3)]
     return [[columns[b][a] for b in range(3)] for a in range(3)]
-
-
-def _wrenches_to_parent(F: list[Array], link: Link, c: Array, s: Array) -> list[Array]:
-    """Return wrenches seen from the link before, with room for one more in slot 0."""
-    k, i, j = link.axes
-    old, (_, m, count) = F, F[0].shape
-    F = [np.empty((2, m + 1, count)) for _ in range(3)]
-    x, y, z = F[i][:, 1:], F[j][:, 1:], F[k][:, 1:]
-    np.multiply(old[i], c, out=x)
-    x -= old[j] * s
-    np.multiply(old[i], s, out=y)
-    y += old[j] * c
-    z[:] = old[k]
-    if link.R is not None:
-        for a, turned in enumerate(combined(link.R, [f[:, 1:].copy() for f in F])):
-            F[a][:, 1:] = turned
-    for a in np.flatnonzero(link.t).tolist():  # the moment of the force that acts at t
-        b, d = (a + 1) % 3, (a + 2) % 3
-        F[b][0, 1:] -= link.t[a] * F[d][1, 1:]
-        F[d][0, 1:] += link.t[a] * F[b][1, 1:]
-    return F
