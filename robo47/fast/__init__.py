@@ -7,7 +7,6 @@
     ik            damped least squares for many targets at once;  ik_one: for one
     links         links in frames that suit their joints
     vectors       vectors as three arrays
-    mass_matrix   composite bodies
     dynamics      mass matrix, bias and torque for many q
     arm_state     all that a control loop asks for at one q
 
