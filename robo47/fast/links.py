@@ -15,7 +15,7 @@ import numpy as np
 from robo47 import se3
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.fast.exponentials import plan_of
+from robo47.fast.chains import plan_of
 from robo47.fast.moves import Rotate, Shift, Turn
 from robo47.fast.vectors import Vector, combined, cross, plus, turned
 
