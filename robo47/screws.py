@@ -22,8 +22,7 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
-from robo47.fast.chains import evaluate
-from robo47.fast.exponentials import END, plan_of
+from robo47.fast.chains import END, evaluate, plan_of
 from robo47.fast.vectors import cross_of
 
 
@@ -178,8 +177,8 @@ def ad(V: ArrayLike) -> Array:
 def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
 
-    Many configurations of one arm take one vectorised pass (`fast.exponentials`), which
-    is as fast as `kinematics.fk`: it makes the same moves.
+    Many configurations of one arm take one vectorised pass (`fast.chains`), which is
+    as fast as `kinematics.fk`: it makes the same moves.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).

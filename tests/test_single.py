@@ -10,8 +10,7 @@ from test_screws import any_screws, poses
 
 from bench.bench_fk import tilted_panda
 from robo47 import jacobian, kinematics, panda, screws, verify
-from robo47.fast.chains import one_of
-from robo47.fast.exponentials import plan_of
+from robo47.fast.chains import one_of, plan_of
 from robo47.fast.jacobians import columns_of, jacobians
 
 EVERY_JOINT = """

@@ -1,13 +1,11 @@
 """The fast layer of the library: the same formulas for many configurations at once.
 
     moves         elementary motions of a frame
-    chains        products of frames, for many q or for one in plain floats
-    exponentials  products of exponentials for many q
+    chains        products of frames or exponentials, for many q or for one, in floats
     jacobians     Jacobian columns for many q
     ik            damped least squares for many targets at once;  ik_one: for one
     links         links in frames that suit their joints
     vectors       vectors as three arrays
-    mass_matrix   composite bodies
     dynamics      mass matrix, bias and torque for many q
     arm_state     all that a control loop asks for at one q
 

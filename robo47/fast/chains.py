@@ -13,12 +13,14 @@ plan of the elementary moves of `robo47.fast.moves`, which uses what the chain k
 Units: metres and radians.
 """
 
+import functools
 import math
 from collections.abc import Callable
 from copy import copy
 
 import numpy as np
 
+from robo47 import checks
 from robo47.checks import Array
 from robo47.fast import moves
 from robo47.fast.moves import WORLD, Axes, Chunk
@@ -26,6 +28,7 @@ from robo47.fast.vectors import Number
 
 CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
 LAST_ROW = (0.0, 0.0, 0.0, 1.0)  # of a pose
+END = "end"  # of an arm
 ROUNDING = 2e-15  # what products of unit quaternions leave instead of 0 and 1
 
 
@@ -126,6 +129,40 @@ class Cursor:
         self.node = len(self.plan.steps)
         if isinstance(step, moves.Turn | moves.Slide):
             self.plan.joints.append((self.node, step))
+
+
+def plan_of(screws: Array, M: Array) -> Plan:
+    """Return the chain of one arm to its `END`, worked out once.
+
+    e^[S] q is a move to the screw's line, a turn by q (a slide along the line by pitch
+    times q) and the move back; the two moves between neighbouring joints become one.
+
+    Args:
+        screws: checked space screws, (joints, 6).
+        M: checked `T_world_ee` at q = 0, (4, 4).
+    """
+    return _plan(screws.tobytes(), M.tobytes())
+
+
+@functools.lru_cache(maxsize=64)
+def _plan(screws: bytes, M: bytes) -> Plan:
+    rows = np.frombuffer(screws).reshape(-1, 2, 3)
+    plan = Plan(len(rows))
+    cursor = Cursor(plan)
+    for i, (omega, v) in enumerate(rows):
+        if omega @ omega < 0.5:  # 0, a slide; other lengths than 0 and 1 were refused
+            if v.any():
+                cursor.slide(checks.unit(v, "v"), i, 0.0, math.hypot(*v))
+            continue
+        point, pitch = np.cross(omega, v), float(omega @ v)  # nearest to the origin
+        cursor.shift(point)
+        cursor.turn(omega, i, 0.0)
+        cursor.shift(-point)
+        if abs(pitch) > ROUNDING * max(1.0, float(np.abs(v).max())):
+            cursor.slide(omega, i, 0.0, pitch)
+    cursor.fixed(np.frombuffer(M).reshape(4, 4))
+    cursor.mark(END)
+    return plan
 
 
 def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:

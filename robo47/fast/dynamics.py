@@ -5,13 +5,16 @@ quantities go from link to link as single components, each an array over a chunk
 configurations that fits the processor's cache; `robo47.fast.links` chooses the links'
 frames such that a hinge turns two components and leaves the third alone.
 
-- `mass_matrix`: composite bodies, from the tip inwards (Featherstone, *Rigid Body
-  Dynamics Algorithms*, section 6.2).
+- `mass_matrix`: from the tip inwards, all links that a joint carries become one body.
+  What a unit acceleration of the joint makes of it is a wrench, and what each joint
+  further in feels of that wrench is an entry of M (Featherstone, *Rigid Body Dynamics
+  Algorithms*, section 6.2: composite bodies).
 - `inverse_dynamics`: recursive Newton-Euler, outwards and back (section 5.3). The
   point r of a link accelerates by a + B r, with B = [alpha] + [omega]^2.
 
 Conventions as in `robo47.dynamics`; m, h and Q are the integrals of 1, r and r r^T over
-a link's mass. Units: radians, metres, kilograms, N m.
+a link's mass, which a turn and a move change in few operations. Units: radians, metres,
+kilograms, N m.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,7 +27,6 @@ from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.fast.chains import chunk_of, in_chunks
 from robo47.fast.links import Link, links_of
-from robo47.fast.mass_matrix import mass_matrices
 from robo47.fast.vectors import Vector, combined, cross, dot, plus, turned
 
 
@@ -42,7 +44,7 @@ def mass_matrix(arm: Arm, q: ArrayLike) -> Array:
         ValueError: wrong shape, a non-finite number, or a joint that is no hinge.
     """
     n = len(arm.masses)
-    return _for_all(mass_matrices, arm, (n, n), q)
+    return _for_all(_mass_matrices, arm, (n, n), q)
 
 
 def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> Array:
@@ -82,6 +84,77 @@ def _for_all(
     return in_chunks(signed, shape, *np.broadcast_arrays(*rows))
 
 
+def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
+    """Return M, (n, n, count): composite bodies, from the tip inwards."""
+    n, count = cos.shape
+    M, body = np.empty((n, n, count)), _Body()
+    wrenches: list[tuple[Vector, Vector]] = []  # this joint's and those further out
+    for row in reversed(range(n)):
+        link = links[row]
+        k, i, j = link.axes
+        body.add(link)
+        h, Q = body.h, body.Q
+        moment: Vector = [0.0] * 3
+        force: Vector = [0.0] * 3
+        moment[k], moment[i], moment[j] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
+        force[i], force[j] = -h[j], h[i]
+        wrenches.insert(0, (moment, force))
+        for column, (felt, _) in enumerate(wrenches, start=row):
+            sign = link.sign * links[column].sign
+            np.multiply(felt[k], sign, out=M[row, column])
+        M[row, row] += link.armature
+        M[row:, row] = M[row, row:]
+        if row:
+            c, s = cos[row], sin[row]
+            body.to_parent(link, c, s)
+            wrenches = [link.to_parent(c, s, *wrench) for wrench in wrenches]
+    return M
+
+
+class _Body:
+    """What hangs on a joint, as one body: m, h and Q about the frame's origin."""
+
+    def __init__(self) -> None:
+        self.m = 0.0
+        self.h: Vector = [0.0] * 3
+        self.Q: list[Vector] = [[0.0] * 3 for _ in range(3)]
+
+    def add(self, link: Link) -> None:
+        """Add a link's own, seen from its frame."""
+        self.m += link.m
+        for a in range(3):
+            self.h[a] = self.h[a] + link.h[a]
+            for b in range(a, 3):
+                self.Q[a][b] = self.Q[b][a] = self.Q[a][b] + link.Q[a, b]
+
+    def to_parent(self, link: Link, c: Array, s: Array) -> None:
+        """See it from the frame of the link before: turn, then move by t."""
+        k, i, j = link.axes
+        m, h, Q, t = self.m, self.h, self.Q, link.t
+        mean, half = 0.5 * (Q[i][i] + Q[j][j]), 0.5 * (Q[i][i] - Q[j][j])
+        c2, s2 = 1.0 - 2.0 * s * s, 2.0 * s * c  # of twice the angle
+        half, cross = half * c2 - Q[i][j] * s2, half * s2 + Q[i][j] * c2
+        Q[i][i], Q[j][j], Q[i][j] = mean + half, mean - half, cross
+        Q[i][k], Q[j][k] = turned(Q[i][k], Q[j][k], c, s)
+        Q[j][i], Q[k][i], Q[k][j] = Q[i][j], Q[i][k], Q[j][k]
+        h[i], h[j] = turned(h[i], h[j], c, s)
+        if link.R is not None:
+            h[:] = combined(link.R, h)
+            self.Q = Q = _both_sides(link.R, Q)
+        for a in np.flatnonzero(t).tolist():  # one after the other: moves add up
+            for b in range(3):
+                Q[a][b] = Q[b][a] = Q[a][b] + t[a] * h[b] * (1.0 + (a == b))
+            Q[a][a] = Q[a][a] + m * t[a] * t[a]
+            h[a] = h[a] + m * t[a]
+
+
+def _both_sides(R: Array, Q: list[Vector]) -> list[Vector]:
+    """Return R Q R^T."""
+    QR = [combined(R, row) for row in Q]  # Q is symmetric: row i of Q R^T
+    columns = [combined(R, [QR[a][b] for a in range(3)]) for b in range(3)]
+    return [[columns[b][a] for b in range(3)] for a in range(3)]
+
+
 def _torques(
     links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> Array:
@@ -91,16 +164,10 @@ def _torques(
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
     for row in reversed(range(len(tau))):
-        link = links[row]
-        k, i, j = link.axes
-        own_n, own_f = wrenches[row]
+        link, (own_n, own_f) = links[row], wrenches[row]
         n, f = plus(n, own_n), plus(f, own_f)
-        np.multiply(n[k], link.sign, out=tau[row])
-        for v in (n, f):
-            v[i], v[j] = turned(v[i], v[j], cos[row], sin[row])
-            if link.R is not None:
-                v[:] = combined(link.R, v)
-        n = plus(n, cross(link.t, f))
+        np.multiply(n[link.k], link.sign, out=tau[row])
+        n, f = link.to_parent(cos[row], sin[row], n, f)
     return tau
 
 

@@ -20,8 +20,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
-from robo47.fast.chains import Plan
-from robo47.fast.exponentials import plan_of
+from robo47.fast.chains import Plan, plan_of
 from robo47.fast.ik_one import FLOOR, NEAR_PI, STOP, Patience, Walker
 from robo47.fast.jacobians import jacobian_columns
 from robo47.rotation_log import log_rotation, pose_error

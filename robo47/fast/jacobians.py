@@ -1,6 +1,6 @@
 """The Jacobians of one arm at one configuration or at many, in pure NumPy.
 
-The chain of `robo47.fast.exponentials` turns a frame at each joint, about one of the
+The plan of `robo47.fast.chains` turns a frame at each joint, about one of the
 frame's own axes: where it stands, a Jacobian's column can be read off.
 
 Units: metres, radians; screws are (omega; v).
@@ -11,15 +11,14 @@ from typing import Any
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.chains import Plan, chunk_of, in_chunks, one_of, rows_of
-from robo47.fast.exponentials import END, plan_of
+from robo47.fast.chains import END, Plan, chunk_of, in_chunks, one_of, plan_of, rows_of
 from robo47.fast.moves import ZERO, Chunk, Slide, moved
 
 
 def jacobians(screws: Array, M: Array, q: Array, at_end: bool) -> Array:
     """Return the Jacobian, (..., 6, joints), at finite q, (..., joints).
 
-    The other arguments are those of `exponentials.plan_of` and `columns_of`.
+    The other arguments are those of `chains.plan_of` and `columns_of`.
     """
     plan, n = plan_of(screws, M), q.shape[-1]
     if q.size == n:
@@ -51,7 +50,7 @@ def columns_of(plan: Plan, chunk: Chunk, at_end: bool) -> tuple[list[Any], Any]:
     """Return the Jacobian's columns, (omega; v) in world axes, and the end effector.
 
     Args:
-        plan: from `exponentials.plan_of`.
+        plan: from `chains.plan_of`.
         chunk: one configuration, or many.
         at_end: False for the velocity of the point at the origin (the space Jacobian),
             True for that of the end effector, in world axes.

@@ -15,8 +15,9 @@ import numpy as np
 from robo47 import se3
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.fast.exponentials import plan_of
+from robo47.fast.chains import plan_of
 from robo47.fast.moves import Rotate, Shift, Turn
+from robo47.fast.vectors import Vector, combined, cross, plus, turned
 
 TINY = 1e-14  # metres, kg m and kg m^2: what rounding leaves of a zero
 
@@ -38,6 +39,17 @@ class Link:
     def axes(self) -> tuple[int, int, int]:
         """The hinge's axis, and the two that it turns: x to y, y to z or z to x."""
         return self.k, (self.k + 1) % 3, (self.k + 2) % 3
+
+    def to_parent(
+        self, c: Array, s: Array, n: Vector, f: Vector
+    ) -> tuple[Vector, Vector]:
+        """Return a moment and force on this link as the link before sees them."""
+        _, i, j = self.axes
+        for v in (n, f):
+            v[i], v[j] = turned(v[i], v[j], c, s)
+            if self.R is not None:
+                v[:] = combined(self.R, v)
+        return plus(n, cross(self.t, f)), f
 
 
 @functools.lru_cache(maxsize=32)

@@ -20,20 +20,18 @@ from robo47.verify.answers import (
 )
 from robo47.verify.circle import CENTRE, LAP, circle, least_miss
 from robo47.verify.ik import Ends, beyond, ends_of, miss, tries
-from robo47.verify.motion import (
+from robo47.verify.oracle import (
+    Worst,
     mujoco_acceleration,
     mujoco_bias,
     mujoco_inverse_dynamics,
     mujoco_mass_matrix,
-    mujoco_push,
-    mujoco_site_jacobian,
-    mujoco_step,
-)
-from robo47.verify.poses import (
-    Worst,
     mujoco_poses,
+    mujoco_push,
     mujoco_rotation,
     mujoco_screws,
+    mujoco_site_jacobian,
+    mujoco_step,
     random_q,
     verify_fk,
     worst_difference,

@@ -13,8 +13,12 @@ from robo47 import jacobian, panda, screws, se3
 from robo47.checks import Array
 from robo47.fast.arm_state import HAT
 from robo47.fast.vectors import times
-from robo47.verify.motion import mujoco_site_jacobian
-from robo47.verify.poses import mujoco_poses, mujoco_rotation, random_q
+from robo47.verify.oracle import (
+    mujoco_poses,
+    mujoco_rotation,
+    mujoco_site_jacobian,
+    random_q,
+)
 
 Function = Callable[..., Array]  # one of the lab's own
 Check = Callable[[str, Array], None]  # is given a name and differences

@@ -16,8 +16,7 @@ from robo47.checks import Array
 from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
 from robo47.verify.answers import Check, Function, each
-from robo47.verify.motion import mujoco_site_jacobian
-from robo47.verify.poses import random_q
+from robo47.verify.oracle import mujoco_site_jacobian, random_q
 
 
 class State(NamedTuple):

@@ -13,8 +13,12 @@ from robo47.checks import Array
 from robo47.fast import dynamics
 from robo47.panda import READY_Q
 from robo47.verify.answers import Function, each
-from robo47.verify.motion import mujoco_acceleration, mujoco_mass_matrix, mujoco_step
-from robo47.verify.poses import random_q
+from robo47.verify.oracle import (
+    mujoco_acceleration,
+    mujoco_mass_matrix,
+    mujoco_step,
+    random_q,
+)
 
 
 class Motions(NamedTuple):

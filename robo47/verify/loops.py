@@ -15,8 +15,7 @@ from robo47.checks import Array
 from robo47.panda import READY_Q
 from robo47.references import Reference
 from robo47.verify.answers import Check, Function, each
-from robo47.verify.motion import mujoco_inverse_dynamics
-from robo47.verify.poses import random_q
+from robo47.verify.oracle import mujoco_inverse_dynamics, random_q
 
 Law = Function
 

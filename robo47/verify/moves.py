@@ -12,8 +12,7 @@ import numpy as np
 from robo47 import control, panda, se3, simulate, trajectory
 from robo47.checks import Array
 from robo47.verify.answers import Check, Function, each
-from robo47.verify.motion import mujoco_bias
-from robo47.verify.poses import random_q
+from robo47.verify.oracle import mujoco_bias, random_q
 
 REST = 0.1  # s, before and after a move, to see how it starts and stops
 
