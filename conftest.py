@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 from labkit import log
-from labkit.author.sheet import worksheet_of
+from labkit.author.skeleton import worksheet_of
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.check.tasks import check_tasks
 from labkit.figures import backends

@@ -27,7 +27,6 @@ FLOORS = [
     "labkit.update",
     "labkit.proof",
     "labkit.author",
-    "labkit.setup",
     "labkit.commands",
 ]
 # Names that labs and handouts have typed: three lines each.
