@@ -5,8 +5,9 @@ import contextlib
 import numpy as np
 import pytest
 
-from labkit.base.exchange import Exchange, Limits, LoadError, Path, Question
+from labkit.base.exchange import Exchange, LoadError, Path, Question
 from labkit.judge import Robot
+from labkit.lesson.day import Limits
 from labkit.sandbox import messages, process, sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT

@@ -20,7 +20,7 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
-from labkit.handin.item import Item
+from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
 from labkit.lesson.day import Day, Metric

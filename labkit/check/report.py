@@ -11,7 +11,7 @@ from labkit.judge.mistake import Verdict
 from labkit.lesson.day import Day, Task, day_numbers
 
 if TYPE_CHECKING:
-    from labkit.handin.item import Item
+    from labkit.handin.handin import Item
 
 WIDTH = 80
 _LABEL = {

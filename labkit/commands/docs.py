@@ -27,7 +27,8 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
-from labkit.base import blocks, cli, processes
+from labkit.base import cli, processes
+from labkit.base.text import Maker, refill
 from labkit.lesson.day import Day, days_of, find_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
@@ -138,8 +139,8 @@ def rebuilt(
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))
 
-    makers = {"days": days} if tables else {"days": days, "run": run}
-    return blocks.refill(document, makers), drifted
+    makers: dict[str, Maker] = {"days": days}
+    return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
 def documents_of(day: Day) -> dict[Path, bool]:

@@ -13,8 +13,9 @@ import argparse
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.base.words import command, count
+from labkit.base.text import count
 from labkit.log import append_row
+from labkit.log.logfile import command
 from labkit.log.rows import typed
 from labkit.log.scan import Line, watched
 from labkit.log.upkeep import came_back, restore, unsaved_rows
@@ -34,8 +35,7 @@ def main() -> int:
     if args.check:
         return show_check(args.file)
     if args.restore:
-        back = count(restore(args.file), "row")
-        print(f"{back} put back into {shown(args.file)}")
+        print(f"{count(restore(args.file), 'row')} put back into {shown(args.file)}")
         return cli.EXIT_OK
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(

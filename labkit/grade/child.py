@@ -25,7 +25,7 @@ from labkit.check.tasks import TaskResult, check_tasks, required_pass
 from labkit.grade.package import Package, unpack
 from labkit.grade.result import Mark, Result, ungraded
 from labkit.handin.deliverables import check_files
-from labkit.handin.item import Item
+from labkit.handin.handin import Item
 from labkit.judge import Verdict
 from labkit.lesson.day import Day, find_day
 from labkit.sandbox.sandbox import Sandbox

@@ -21,19 +21,18 @@ from labkit.base.git import (
     short_sha,
 )
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit, wanted_names
+from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import (
-    HELPERS,
     LIMITS,
-    NO_NAME,
     PICTURES,
     Handin,
+    Item,
     image_names,
     picture_path,
     read_handin,
 )
-from labkit.handin.item import Item
 from labkit.lesson.day import Day, find_day
+from labkit.lesson.own_files import HELPERS, NO_NAME
 from robo47 import __version__
 from robo47.paths import ROOT
 

@@ -7,8 +7,7 @@ from html import escape
 from urllib.parse import quote
 
 from labkit.base import html
-from labkit.base.text import visible
-from labkit.base.words import count
+from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.course import Course, Graded
 from labkit.grade.result import Mark

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
 from labkit.grade.course import Course, Graded, by_student, percent

@@ -3,8 +3,7 @@
 import io
 
 from labkit.base.text import visible
-from labkit.handin.handin import Handin
-from labkit.handin.item import Item
+from labkit.handin.handin import Handin, Item
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, marks_of
 from labkit.lesson.script import borrowed_tasks

@@ -4,8 +4,8 @@ Geoms of the groups that MuJoCo's own viewer shows at start (0 to 2; collision s
 are in group 3), meshes as well as primitives. Metres.
 """
 
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -17,7 +17,6 @@ from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
-Faces = NDArray[np.int32]
 Rgba = tuple[float, float, float, float]
 
 
@@ -27,7 +26,7 @@ class Shape(NamedTuple):
     body: str  # its name
     rgba: Rgba  # colour and opacity, 0 to 1
     vertices: Array  # in the body's frame, metres, (n, 3)
-    faces: Faces  # indices into vertices, (m, 3)
+    faces: NDArray[np.int32]  # indices into vertices, (m, 3)
 
 
 def shapes(
@@ -37,16 +36,18 @@ def shapes(
 
     Planes and height fields are left out; collision shapes are some 60 times simpler.
     """
-    parts: dict[tuple[str, Rgba], list[tuple[Array, Faces]]] = {}
+    parts: dict[tuple[str, Rgba], tuple[Any, Any]] = {}
     for geom in range(model.ngeom):
-        if model.geom_group[geom] in groups:
-            for vertices, faces in _triangles(model, geom):
-                R = se3.quat_to_R(model.geom_quat[geom])
-                placed = vertices @ R.T + model.geom_pos[geom]
-                body = model.body(model.geom_bodyid[geom]).name
-                key = body, _colour(model, geom)
-                parts.setdefault(key, []).append((placed, faces))
-    return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
+        made = _made(model, geom) if model.geom_group[geom] in groups else None
+        if made is not None:
+            body = model.body(model.geom_bodyid[geom]).name
+            key = body, _colour(model, geom)
+            vertices, faces = parts.setdefault(key, ([], []))
+            R = se3.quat_to_R(model.geom_quat[geom])
+            vertices.append(made.vertices @ R.T + model.geom_pos[geom])
+            faces.append(made.faces)
+    append: Any = trimesh.util.append_faces
+    return [Shape(*key, *append(*part)) for key, part in parts.items()]
 
 
 def simple_links(model: mujoco.MjModel) -> list[Shape]:
@@ -66,28 +67,31 @@ def thinned(shape: Shape, grid: float) -> Shape:
     np.add.at(normals, shape.faces, facing[:, None])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.round(normals / np.maximum(lengths, 1e-12))
-    cells = np.round(shape.vertices / grid)
-    _, cell, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    _, cell, count = _distinct(np.round(shape.vertices / grid))
     middles = np.zeros((len(count), 3))
     np.add.at(middles, cell, shape.vertices / count[cell, None])
     middles = np.round(middles * 4096) / 4096  # m; such numbers are packed better
-    corners = np.column_stack([cell, normals])  # a sharp edge has two at a place
-    _, at, became = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    # A sharp edge has two corners at a place.
+    at, became, _ = _distinct(np.column_stack([cell, normals]))
     middles = middles[cell[at]]
     a, b, c = np.moveaxis(middles[became[shape.faces]], 1, 0)
     solid = np.linalg.norm(np.cross(b - a, c - a), axis=1) > 0
     if not solid.any():  # a film of paint on a link
         return shape
-    faces = np.unique(became[shape.faces][solid], axis=0)
-    used, faces = np.unique(faces, return_inverse=True)
+    faces = became[shape.faces][solid]
+    used, faces = np.unique(faces[_distinct(faces)[0]], return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)
     return shape._replace(vertices=middles[used], faces=faces)
 
 
-def _joined(parts: list[tuple[Array, Faces]]) -> tuple[Array, Faces]:
-    starts = np.cumsum([0] + [len(vertices) for vertices, _ in parts])
-    faces = [f + start for (_, f), start in zip(parts, starts[:-1], strict=True)]
-    return np.concatenate([v for v, _ in parts]), np.concatenate(faces)
+def _distinct(rows: Array) -> list[NDArray[np.intp]]:
+    """Return where whole-numbered rows stand first, which each one is, how many of it.
+
+    As np.unique does with axis=0, several times faster: a row is made one number.
+    """
+    rows = (rows - rows.min(axis=0)).astype(np.int64)
+    keys = np.ravel_multi_index(tuple(rows.T), tuple(rows.max(axis=0) + 1))
+    return [*np.unique(keys, True, True, True)[1:]]
 
 
 def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
@@ -97,17 +101,15 @@ def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
     return r, g, b, a
 
 
-def _triangles(model: mujoco.MjModel, geom: int) -> Iterator[tuple[Array, Faces]]:
-    """Yield the geom's triangles in its own frame; nothing for an endless shape."""
+def _made(model: mujoco.MjModel, geom: int) -> trimesh.Trimesh | None:
+    """Return a geom in its own frame; None for an endless shape."""
     kind = mujoco.mjtGeom(model.geom_type[geom])
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        yield _mesh(model, model.geom_dataid[geom])
-    elif kind in _PRIMITIVES:
-        made = _PRIMITIVES[kind](model.geom_size[geom])
-        yield np.asarray(made.vertices), np.asarray(made.faces, dtype=np.int32)
+        return _mesh(model, model.geom_dataid[geom])
+    return _PRIMITIVES[kind](model.geom_size[geom]) if kind in _PRIMITIVES else None
 
 
-def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
+def _mesh(model: mujoco.MjModel, mesh: int) -> trimesh.Trimesh:
     """Return a mesh whose corners are split where the file's normals differ.
 
     The browser smooths normals over shared corners; without the split every sharp
@@ -117,11 +119,9 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
     first, count = int(item.faceadr[0]), int(item.facenum[0])
     corners = model.mesh_face[first : first + count].ravel()
     normals = model.mesh_facenormal[first : first + count].ravel()
-    pairs, faces = np.unique(
-        np.column_stack([corners, normals]), axis=0, return_inverse=True
-    )
-    vertices = model.mesh_vert[int(item.vertadr[0]) + pairs[:, 0]]
-    return vertices.astype(np.float64), faces.reshape(-1, 3).astype(np.int32)
+    at, faces, _ = _distinct(np.column_stack([corners, normals]))
+    vertices = model.mesh_vert[int(item.vertadr[0]) + corners[at]]
+    return trimesh.Trimesh(vertices, faces.reshape(-1, 3), process=False)
 
 
 def _box(size: Array) -> trimesh.Trimesh:

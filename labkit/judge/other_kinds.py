@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.judge.answers import capitalised, difference, millimetres, say_mm
 from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor

@@ -8,6 +8,7 @@
     script     its lab script: the starter, with the tasks taken out, and what shows in
                a student's file
     borrowed   the kit's own functions in a student's file, so that they can go on
+    own_files  a student's files, read without trusting the folder
     lab        what every lab script does the same way: say, check, record
 
 Nothing here, and nothing else in `labkit`, names a day or imports one.

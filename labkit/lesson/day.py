@@ -17,13 +17,24 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from labkit.base.exchange import NUMBERS, Limits
 from labkit.lesson.week import Week, entry, find_week, load, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 # What a grader's machine gives a task at most, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a file of a day's may take."""
+
+    # For all calls of a task, where it says more than the usual.
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    memory: float = 1.0  # GB, of the process
+    numbers: int = NUMBERS  # of one answer
+    extras: tuple[str, ...] = ()  # packages that it may import, pinned: "scipy==1.17.1"
 
 
 @dataclass(frozen=True)
@@ -238,6 +249,11 @@ class Day:
             file = shown(self.own / f"{name}.py")
             raise Robo47Error(f"{file} has no {name.upper()}: {{name: function}}")
         return {f"day{self.number}_{key}": made for key, made in found.items()}
+
+    def name_of(self, metric: Metric) -> str:
+        """Return what to call a number: its check, and its metric if it has several."""
+        alone = [m.check for m in self.metrics].count(metric.check) < 2
+        return metric.check if alone else f"{metric.check} {metric.metric}"
 
     def metric(self, check: str, metric: str = "") -> Metric:
         """Return what a recorded number must reach.

@@ -10,7 +10,7 @@ from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
 from labkit.inspector.recording import FRAMES, Recording
 from labkit.lesson.script import lab_of
-from labkit.proof.facts import DayFacts
+from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
 from robo47.capstone.phases import Result

@@ -15,10 +15,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Limits, Path, Question, Reply
+from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
-from labkit.lesson.day import Day, days_before
+from labkit.lesson.day import NUMBERS, Day, Limits, days_before
+from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.script import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS

@@ -26,12 +26,12 @@ from labkit.base.exchange import (
     MOST,
     EndedError,
     Exchange,
-    Limits,
     LoadError,
     Question,
     Reply,
     stopped,
 )
+from labkit.lesson.day import Limits
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
 from labkit.sandbox.process import Process
