@@ -12,6 +12,8 @@ from labkit.sandbox import messages, process, sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
+MAIN = "def main():\n    panda.load()\n\n\n"
+GUARD = 'if __name__ == "__main__":\n    cli.run(main)\n'
 LIBRARY = {
     f"robo47.{name}": (ROOT / "robo47" / f"{name}.py").read_text("utf-8")
     for name in ("se3", "checks")
@@ -359,14 +361,11 @@ class TestWhatItMayImport:
         [
             ("x = 1", 0),
             ("from robo47 import panda\nX = panda.READY_Q", 0),
-            ("from robo47 import panda\ndef main():\n  panda.load()\nrun(main)", 0),
+            (f"from robo47 import panda\n{MAIN}{GUARD}", 0),
+            (f"from robo47 import panda\n{MAIN}main()", 1),
+            (f"from robo47 import panda\n{MAIN}def f():\n  main()\n{GUARD}", 1),
             ("from robo47 import panda\ndef f():\n  return panda.load()", 1),
             ("from robo47.panda import load as get\nX = get()", 1),
-            (
-                "from robo47 import panda\ndef main():\n  panda.load()\n"
-                "def f():\n  main()\nrun(main)",
-                1,
-            ),
         ],
     )
     def test_is_sent_the_panda_only_where_a_task_may_load_it(self, student, code, sent):

@@ -10,6 +10,7 @@ import io
 import time
 import warnings
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -45,14 +46,13 @@ class EnoughAsked(Exception):  # noqa: N818
 class Rehearsal(Lab):
     """The lab's recorder, which writes nothing and stops at the first failure."""
 
-    def __init__(self, file: str, about: str | None) -> None:
-        """Take what a `Lab` takes; the command line is not read."""
+    def __init__(
+        self, day: Day, numbers: dict[tuple[str, str], float], file: str, _: str | None
+    ) -> None:
+        """Take the day, what takes its numbers, and what a `Lab` takes."""
         self.log, self.script = False, Path(file)
-        self.day, self.title = self.of, ""
+        self.day, self.numbers, self.title = day, numbers, ""
         self.failed, self.rows, self.predicted = [], [], {}
-
-    of: Day
-    numbers: dict[tuple[str, str], float]
 
     def step(self, title: str) -> None:
         """Remember the heading."""
@@ -101,13 +101,10 @@ def rehearse(
     if not day.source.is_file():
         return "", numbers
     lab = load_lab(day.source)
-    own = behind_wall(day, script, sandbox, lab, Budget(calls))
-    for name, function in own.items():
-        setattr(lab, name, function)
+    vars(lab).update(behind_wall(day, script, sandbox, lab, Budget(calls)))
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
-    recorder = type("Rehearsal", (Rehearsal,), {"of": day, "numbers": numbers})
-    lab.Lab = recorder  # type: ignore[attr-defined]
+    vars(lab)["Lab"] = partial(Rehearsal, day, numbers)
     return _why_it_stops(lab), numbers
 
 

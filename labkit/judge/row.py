@@ -22,7 +22,7 @@ import inspect
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache, cached_property, partial, update_wrapper
+from functools import cached_property, partial, update_wrapper
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
@@ -31,7 +31,7 @@ import numpy as np
 
 from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
-from labkit.judge.ask import Ask, HeldOut, Inputs
+from labkit.judge.ask import Ask, Inputs
 from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.lesson.day import Day
 from labkit.lesson.script import lab_of
@@ -243,7 +243,16 @@ class Row:
     @cached_property
     def truth(self) -> Code:
         """The right answer to one question."""
-        return self._truth or _library_function(self._day, self.function)
+        if self._truth:
+            return self._truth
+        for name in self._day.library:
+            module = importlib.import_module(f"robo47.{name}")
+            if hasattr(module, self.function):
+                return getattr(module, self.function)
+        raise Robo47Error(
+            f"day{self._day.number}/{self.function}.py: the day's library has no "
+            f"{self.function}; say truth=... in its Row"
+        )
 
     @cached_property
     def arguments(self) -> list[str]:
@@ -271,9 +280,16 @@ class Row:
         if self._draw is None:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
-        more["held_out"] = [_one_by_one(held) for held in more.get("held_out", ())]
+        more["held_out"] = [
+            replace(
+                held,
+                truth=held.truth and InTurn(held.truth),
+                mistaken=held.mistaken and InTurn(held.mistaken),
+            )
+            for held in more.get("held_out", ())
+        ]
         if "accept" in more:
-            more["accept"] = _told(more["accept"], self._fault)
+            more["accept"] = self._accept
         else:
             kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
             asked = (InTurn if self._truth else AtOnce)(self.truth)
@@ -284,6 +300,12 @@ class Row:
             return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
 
         return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
+
+    def _accept(self, *args: Any) -> Any:
+        try:
+            return self.more["accept"](*args)
+        except Exception as error:
+            raise self._fault("accept", error) from None
 
     def _fault(
         self, what: str, error: BaseException | None, says: str = ""
@@ -326,31 +348,16 @@ def row_of(day: Day, function: str) -> Row:
         Robo47Error: the day has no such file, or it holds no row.
     """
     module = day.module(function)
-    if not isinstance(getattr(module, "row", None), Row):
+    row = getattr(module, "row", None)
+    if not isinstance(row, Row):
         raise Robo47Error(f"day{day.number}/{function}.py has no `row = Row(...)`")
-    return _bound(module, day)
-
-
-@cache
-def _bound(module: ModuleType, day: Day) -> Row:
-    return module.row.bind(day, module.__name__.rpartition(".")[2])
+    return row.bind(day, function)
 
 
 def rows_of(day: Day) -> dict[str, Row]:
     """Return the rows of all of a day's functions, in the manifest's order."""
     names = [name for task in day.tasks for name in task.functions]
     return {name: row_of(day, name) for name in names}
-
-
-def _library_function(day: Day, function: str) -> Code:
-    for name in day.library:
-        found = getattr(importlib.import_module(f"robo47.{name}"), function, None)
-        if found is not None:
-            return found
-    raise Robo47Error(
-        f"day{day.number}/{function}.py: the day's library has no {function}; "
-        "say truth=... in its Row"
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -373,21 +380,3 @@ class _Answered(InTurn):
                     says = f"returns shape {got}, and its kind is {kind.expected}"
                     raise self.fault("truth", None, says)
         return answers
-
-
-def _told(accept: Code, fault: Code) -> Code:
-    def call(*args: Any) -> Any:
-        try:
-            return accept(*args)
-        except Exception as error:
-            raise fault("accept", error) from None
-
-    return call
-
-
-def _one_by_one(held: HeldOut) -> HeldOut:
-    return replace(
-        held,
-        truth=held.truth and InTurn(held.truth),
-        mistaken=held.mistaken and InTurn(held.mistaken),
-    )

@@ -31,6 +31,7 @@ PANDA = Robot()  # what a file that may load the robot is given
 MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
+_GUARDED = re.compile(r"^if __name__ == .*\n(?:[ \t].*\n?|\n)*", re.M)
 # Lines that import of the kit; to parse the whole would take a tenth of a check.
 _IMPORTS = re.compile(
     r"^ *(?:from (robo47[\w.]*) import (\([^)]*\)|.*)|import (robo47[\w.]*))", re.M
@@ -107,11 +108,12 @@ def _loads_panda(told: dict[str, Any]) -> bool:
 
 
 def _without_main(text: str) -> str:
-    """Return a file without its `main`; whole, where not its last line alone has it."""
+    """Return a file without its `main`; whole, where loading it may call that."""
     start, end, _ = function_lines(text, "main")
-    lines = text.splitlines()
-    rest = "\n".join(lines[:start] + lines[end:]) if start >= 0 else text
-    return rest if len(re.findall(r"\bmain\b", rest)) <= 1 else text
+    lines = text.splitlines(keepends=True)
+    rest = "".join(lines[:start] + lines[end:]) if start >= 0 else text
+    rest = _GUARDED.sub("", rest)
+    return text if re.search(r"\bmain\b", rest) else rest
 
 
 def robots_of(questions: Iterable[Question]) -> Robots:

@@ -16,6 +16,7 @@ import contextlib
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from operator import methodcaller
 from pathlib import Path
 from typing import Any
@@ -327,15 +328,13 @@ def twice(first: Reply, second: Reply) -> Reply:
     error = ""
     if second.kind and not first.kind:
         error = ": ".join(filter(None, (second.kind, second.error)))
-    return Reply(
-        **{
-            **vars(first),
-            "again": second.value,
-            "again_error": error,
-            "changed": _union(first.changed, second.changed),
-            "refused": _union(first.refused, second.refused),
-            "shares": _union(first.shares, second.shares),
-        }
+    return replace(
+        first,
+        again=second.value,
+        again_error=error,
+        changed=_union(first.changed, second.changed),
+        refused=_union(first.refused, second.refused),
+        shares=_union(first.shares, second.shares),
     )
 
 
