@@ -195,8 +195,8 @@ class Control(Tab):
         if count < CHATTER * len(some):
             return ""
         return (
-            f". It CHATTERS: {ARM_JOINTS[worst]} went from limit to limit {count} times "
-            f"in the last {len(some)} torques"
+            f". It CHATTERS: {ARM_JOINTS[worst]} went from limit to limit {count} "
+            f"times in the last {len(some)} torques"
         )
 
     def show(self, wanted: Array) -> None:
