@@ -4,6 +4,7 @@ import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: -n 2 on two cores
 
+import re
 import shutil
 import subprocess
 import sys
@@ -20,13 +21,13 @@ import numpy as np
 import pytest
 
 from labkit import log
-from labkit.author.sheet import worksheet_of
+from labkit.author.skeleton import worksheet_of
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.check.tasks import check_tasks
 from labkit.figures import backends
 from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day
-from labkit.lesson.folder import load_lab as load_script  # noqa: F401 (days' tests)
+from labkit.lesson.script import load_lab as load_script  # noqa: F401 (days' tests)
 from labkit.lesson.week import weeks
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
@@ -42,15 +43,22 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("kit")
 
 ROOT = Path(__file__).resolve().parent
+AUTHORS = "(kit or browser or network) and not soak"  # as .ci/run asks
+# Of a folder that is copied; what Python compiled is copied too, and holds there.
+SKIPPED = shutil.ignore_patterns("*.pyc.*", "work", "submissions")
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave files of the authors' tests unread where their mark is not asked for."""
-    if "not kit" not in config.option.markexpr or collection_path.suffix != ".py":
+    """Leave files unread that have no test with a mark that is asked for."""
+    asked = config.option.markexpr
+    if collection_path.suffix != ".py":
         return None
     text = collection_path.read_text("utf-8", "replace")  # a student's can be anything
-    authors = "\npytestmark = pytest.mark.kit\n" in text
-    return authors or None
+    if "not kit" in asked:
+        return "\npytestmark = pytest.mark.kit\n" in text or None
+    if asked == AUTHORS:
+        return not re.search(r"mark\.(kit|browser|network)\b", text) or None
+    return None
 
 
 def need(available: bool, what: str) -> None:
@@ -186,9 +194,8 @@ def copy_kit(copy: Path) -> Path:
     must pass on it as well.
     """
     copy.mkdir()
-    skipped = shutil.ignore_patterns("__pycache__", "work", "submissions")
     for name in kit_folders():
-        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+        shutil.copytree(ROOT / name, copy / name, ignore=SKIPPED)
     day = find_day(1, copy)
     (copy / "metrics" / "metrics.csv").write_text(",".join(log.COLUMNS) + "\n")
     (day.folder / day.figure).unlink(missing_ok=True)

@@ -8,7 +8,7 @@ import tarfile
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, SKIPPED
 from robo47.panda import files as menagerie
 
 pytestmark = pytest.mark.kit
@@ -22,8 +22,7 @@ def fresh(tmp_path, monkeypatch):
     """A clone's worth of kit without a robot, in a folder of its own."""
     clone = tmp_path / "clone"
     for part in ("robo47", "labkit", "scripts"):
-        ignore = shutil.ignore_patterns("__pycache__")
-        shutil.copytree(ROOT / part, clone / part, ignore=ignore)
+        shutil.copytree(ROOT / part, clone / part, ignore=SKIPPED)
     monkeypatch.delenv("MENAGERIE_ROOT", raising=False)
     monkeypatch.setenv("PYTHONPATH", str(clone))
     monkeypatch.setenv("MENAGERIE_BASE_URL", NOWHERE)

@@ -11,7 +11,7 @@ from functools import partial
 
 import pytest
 
-from conftest import ROOT, kit_folders, run_copy
+from conftest import ROOT, SKIPPED, kit_folders, run_copy
 
 pytestmark = pytest.mark.kit
 TOY = ROOT / "tests" / "toyday" / "w9-toy"
@@ -22,8 +22,7 @@ def kit(tmp_path_factory):
     """Return a copy of the kit with the toy day in it."""
     copy = tmp_path_factory.mktemp("kit") / "clone"
     for name in kit_folders():
-        skipped = shutil.ignore_patterns("__pycache__", "work")
-        shutil.copytree(ROOT / name, copy / name, ignore=skipped)
+        shutil.copytree(ROOT / name, copy / name, ignore=SKIPPED)
     shutil.copytree(TOY, copy / "w9-toy")
     return copy
 

@@ -67,22 +67,31 @@ def thinned(shape: Shape, grid: float) -> Shape:
     np.add.at(normals, shape.faces, facing[:, None])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.round(normals / np.maximum(lengths, 1e-12))
-    cells = np.round(shape.vertices / grid)
-    _, cell, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    _, cell, count = _distinct(np.round(shape.vertices / grid))
     middles = np.zeros((len(count), 3))
     np.add.at(middles, cell, shape.vertices / count[cell, None])
     middles = np.round(middles * 4096) / 4096  # m; such numbers are packed better
-    corners = np.column_stack([cell, normals])  # a sharp edge has two at a place
-    _, at, became = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    # A sharp edge has two corners at a place.
+    at, became, _ = _distinct(np.column_stack([cell, normals]))
     middles = middles[cell[at]]
     a, b, c = np.moveaxis(middles[became[shape.faces]], 1, 0)
     solid = np.linalg.norm(np.cross(b - a, c - a), axis=1) > 0
     if not solid.any():  # a film of paint on a link
         return shape
-    faces = np.unique(became[shape.faces][solid], axis=0)
-    used, faces = np.unique(faces, return_inverse=True)
+    faces = became[shape.faces][solid]
+    used, faces = np.unique(faces[_distinct(faces)[0]], return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)
     return shape._replace(vertices=middles[used], faces=faces)
+
+
+def _distinct(rows: Array) -> list[NDArray[np.intp]]:
+    """Return where whole-numbered rows stand first, which each one is, how many of it.
+
+    As np.unique does with axis=0, several times faster: a row is made one number.
+    """
+    rows = (rows - rows.min(axis=0)).astype(np.int64)
+    keys = np.ravel_multi_index(tuple(rows.T), tuple(rows.max(axis=0) + 1))
+    return [*np.unique(keys, True, True, True)[1:]]
 
 
 def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
@@ -110,10 +119,8 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> trimesh.Trimesh:
     first, count = int(item.faceadr[0]), int(item.facenum[0])
     corners = model.mesh_face[first : first + count].ravel()
     normals = model.mesh_facenormal[first : first + count].ravel()
-    pairs, faces = np.unique(
-        np.column_stack([corners, normals]), axis=0, return_inverse=True
-    )
-    vertices = model.mesh_vert[int(item.vertadr[0]) + pairs[:, 0]]
+    at, faces, _ = _distinct(np.column_stack([corners, normals]))
+    vertices = model.mesh_vert[int(item.vertadr[0]) + corners[at]]
     return trimesh.Trimesh(vertices, faces.reshape(-1, 3), process=False)
 
 
