@@ -81,6 +81,20 @@ class Broken(Tab):
         raise ZeroDivisionError("one over nothing")
 
 
+class File:
+    """A student's file that is looked at and asked, and says nothing."""
+
+    def __init__(self):
+        self.there, self.version, self.asked = False, 1, []
+
+    def look(self):
+        """Look for a save."""
+
+    def see(self, q):
+        self.asked.append(q)
+        return nothing(q, "nothing to see")
+
+
 @pytest.fixture(scope="module")
 def server():
     made = LocalServer(0)
@@ -97,7 +111,8 @@ def show(server):
         server.scene.reset()
         server.gui.reset()
         arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
-        shown.append(on_loop(server, lambda: Inspector(server, arm, "a robot", day)))
+        given = server, arm, "a robot", day, File()
+        shown.append(on_loop(server, lambda: Inspector(*given)))
         return shown[0]
 
     yield made
@@ -346,32 +361,18 @@ def test_the_students_poses_are_judged_in_their_name(page):
     assert "robo47.kinematics" in contents(page)
 
 
-class File:
-    """A student's file that is looked at and asked, and says nothing."""
-
-    def __init__(self, check=None):
-        self.check, self.there, self.version, self.asked = check, bool(check), 1, []
-
-    def look(self):
-        """Look for a save."""
-
-    def see(self, q):
-        self.asked.append(q)
-        return nothing(q, "nothing to see")
-
-
 @pytest.fixture
 def watched(page):
-    """Have the page watch a file; stop after the test."""
+    """Have the page watch its file, with a checker; stop after the test."""
     watching = []
 
-    def watch(file):
+    def watch(check=None):
+        page.student.there = check is not None
         loop = page.server.get_event_loop()
-        watch = page.watch(file, file.check)
-        watching.append(asyncio.run_coroutine_threadsafe(watch, loop))
+        watching.append(asyncio.run_coroutine_threadsafe(page.watch(check), loop))
         until(lambda: page.seen is not None)
         settle(page)
-        return file
+        return page.student
 
     yield watch
     watching[0].cancel()
@@ -386,7 +387,7 @@ def until(true):
 
 
 def test_a_page_without_a_file_asks_once_and_rests(page, watched):
-    file = watched(File())
+    file = watched()
     time.sleep(0.2)
     assert len(file.asked) == 1
     on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
@@ -395,8 +396,7 @@ def test_a_page_without_a_file_asks_once_and_rests(page, watched):
 
 
 def test_a_save_is_asked_and_checked(page, watched):
-    file = File(lambda: Standing(f"version {file.version}"))
-    watched(file)
+    file = watched(lambda: Standing(f"version {page.student.version}"))
     until(lambda: "version 1" in contents(page))
     file.version = 2
     until(lambda: "version 2" in contents(page))

@@ -19,7 +19,7 @@ ONE = np.array([1.0, 4.0])
 
 def own_of(functions, free=()):
     student = Answers(functions)
-    return student, Own(lambda: student, LIBRARY, free)
+    return student, Own(student, LIBRARY, free)
 
 
 def test_an_answer_is_the_students_and_is_compared_with_the_librarys():
@@ -42,7 +42,7 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
 def test_without_a_file_all_is_the_librarys():
     student = Answers({})
     student.there = False
-    own = Own(lambda: student, LIBRARY)
+    own = Own(student, LIBRARY)
     np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
     says = "At work: the library's double (there is no file yet)"
     assert own.says() == (says, "quiet")

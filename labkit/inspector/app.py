@@ -49,6 +49,7 @@ class Inspector:
         arm: Arm,
         about: str,
         day: DayTabs,
+        student: Student,
         simple: bool = False,
     ) -> None:
         """Draw everything but the meshes; call it on the server's event loop.
@@ -61,7 +62,7 @@ class Inspector:
         self.q, self.moved = arm.q.copy(), 0.0  # what is wanted; when that was said
         self.past: list[Array] = []
         self.scheduled = False
-        self.student: Student | None = None
+        self.student = student
         self.version, self.unchecked = 0, False  # of the file that is asked
         self.seen: Seen | None = None
         self.asks, self.checks = Jobs(lambda _: None), Jobs(lambda _: None)
@@ -254,19 +255,19 @@ class Inspector:
 
     # The student's file
 
-    async def watch(self, student: Student, check: Callable[[], Standing]) -> None:
-        """Ask a file for the arm at every move, and the checker at every save."""
-        self.student, self.check = student, check
+    async def watch(self, check: Callable[[], Standing]) -> None:
+        """Ask the file for the arm at every move, and the checker at every save."""
+        self.check = check
         while True:
-            await asyncio.to_thread(student.look)
-            if self.version != student.version:
-                self.version, self.unchecked = student.version, True
+            await asyncio.to_thread(self.student.look)
+            if self.version != self.student.version:
+                self.version, self.unchecked = self.student.version, True
                 self.ask()  # the checks, which are slower, come after that
             await asyncio.sleep(LOOKS)
 
     def ask(self) -> None:
         """Ask the file, once it is open, where it puts the arm."""
-        if self.student is not None and self.version:
+        if self.version:
             self.asks.want(partial(self.student.see, self.arm.q.copy()), self.hear)
 
     def hear(self, seen: Seen) -> None:
@@ -277,7 +278,7 @@ class Inspector:
             self.scene.show_ghost(seen.drawn, end)
             self.scene.look(agrees=seen.kind == "good")
             self.show()
-        if self.unchecked and self.student is not None:
+        if self.unchecked:
             self.unchecked = False
             self.tell(self.arm.q)  # whatever the open tab asks is asked again
             self.schedule()

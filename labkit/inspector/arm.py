@@ -4,7 +4,6 @@ Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
 `robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -108,22 +107,21 @@ class Arm:
         As the lab has it: one factor per link (what the file says of it) and one per
         joint (what q adds).
         """
-        so_far, steps = np.eye(4), []
-        for link, joint, name, q, T, elsewhere in self._factors():
-            after = so_far @ T
-            step = Step(link, joint, name, q, so_far, T, after, elsewhere != T)
-            steps.append(step)
-            so_far = after
-        return steps
+        steps: list[Step] = []
 
-    def _factors(self) -> Iterator[tuple[str, str, str, float, Array, Array]]:
-        """Yield of each factor what `Step` has, T, and T with the joint elsewhere."""
+        def add(
+            link: str, joint: str, name: str, q: float, T: Array, elsewhere: Array
+        ) -> None:
+            so_far = steps[-1].after if steps else np.eye(4)
+            moves = elsewhere != T
+            steps.append(Step(link, joint, name, q, so_far, T, so_far @ T, moves))
+
         previous = "world"
         for link in self.chain.links:
             name, T = link.name.partition(":")[2], link.T_parent_link
             if link is self.chain.links[-1]:  # the last body leads on to the frame
                 name, T = END, T @ self.chain.T_link_frame
-            yield name, "", f"T_{previous}_{name}", 0.0, T, T
+            add(name, "", f"T_{previous}_{name}", 0.0, T, T)
             previous = name
             for joint in link.joints:
                 one = Link(link.name, np.eye(4), (joint,))
@@ -131,7 +129,8 @@ class Arm:
                 q, says = self.q.copy(), f"T(q of {joint.name})"
                 q[joint.qpos_adr] += 0.3
                 at = float(self.q[joint.qpos_adr])
-                yield name, joint.name, says, at, fk(alone, self.q), fk(alone, q)
+                add(name, joint.name, says, at, fk(alone, self.q), fk(alone, q))
+        return steps
 
 
 def _short_names(model: mujoco.MjModel, chain: Chain) -> dict[str, str]:

@@ -37,12 +37,9 @@ class Own:
     """The functions of one day's file, and how they compare with the library's."""
 
     def __init__(
-        self,
-        student: Callable[[], Student | None],
-        library: Any,
-        free: Collection[str] = (),
+        self, student: Student, library: Any, free: Collection[str] = ()
     ) -> None:
-        """Ask nobody yet, see `Page.own`; no student as long as no file is known."""
+        """Ask nobody yet, see `Page.own`."""
         self._free, self._student = free, student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
@@ -59,12 +56,13 @@ class Own:
         Where one of them gave none NoAnswerError is raised.
         """
         right = [self._library[name](*args) for name, *args in calls]
-        student = self._student()
-        version = student.version if student and student.there else -1
+        student = self._student
+        version = student.version if student.there else -1
         if version != self.version:
             self.version, self._apart, self._lent = version, {}, {}
-        if student is None or version < 0:
-            why = "there is no file yet" if student else "yours is being opened"
+        if version < 0:
+            looked = student.version
+            why = "there is no file yet" if looked else "yours is being opened"
             self._lent |= {name: why for name, *_ in calls}
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
@@ -72,16 +70,16 @@ class Own:
         if student.problem:
             raise NoAnswerError(f"YOUR {student.problem}")
         return [
-            self._answer(student, name, reply, truth)
+            self._answer(name, reply, truth)
             for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
         ]
 
-    def _answer(self, student: Student, name: str, reply: Any, right: Any) -> Any:
+    def _answer(self, name: str, reply: Any, right: Any) -> Any:
         """Return one function's answer, having compared it."""
         if reply.kind in UNWRITTEN:
             self._lent[name] = "yours is not written yet"
             return right
-        if problem := describe(student.day, name, reply):
+        if problem := describe(self._student.day, name, reply):
             raise NoAnswerError(f"YOUR {problem}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:

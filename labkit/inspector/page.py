@@ -97,7 +97,7 @@ class Page:
             free: names of functions that have more than one right answer.
         """
         self._whose = self.html()
-        self._own = Own(lambda: self.host.student, library, free)
+        self._own = Own(self.host.student, library, free)
         return self._own
 
     def jobs_apart(self) -> Jobs:

@@ -68,19 +68,20 @@ def serve(
     server = LocalServer(free_port(port))
     with contextlib.ExitStack() as ends:
         ends.callback(server.stop)
+        sandbox = ends.enter_context(Sandbox())
+        student = Student(day, arm, tabs.ghost, sandbox)
         try:
             server._websock_server.get_message_buffer().max_window_size = WINDOW
-            page = on_loop(server, lambda: Inspector(server, arm, about, tabs, simple))
+            page = on_loop(
+                server, lambda: Inspector(server, arm, about, tabs, student, simple)
+            )
             ends.callback(on_loop, server, page.close)
             server.receive, server.first = page.receive, page.first
             before = store.read(MEMORY).get(str(day.number), "")
             if back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
             print("\n".join(where_to_look(port, server)), flush=True)
-            sandbox = ends.enter_context(Sandbox())
-            student = Student(day, arm, tabs.ghost, sandbox)
-            watching = page.watch(student, partial(check, day))
-            for work in (watching, dress(page, dressed)):
+            for work in (page.watch(partial(check, day)), dress(page, dressed)):
                 loop = server.get_event_loop()
                 ends.callback(asyncio.run_coroutine_threadsafe(work, loop).cancel)
             while True:
