@@ -43,6 +43,25 @@ def test_every_script_helps_from_a_bare_python(bare, path):
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
+def test_every_script_helps_without_the_extras():
+    extras = ["PIL", "matplotlib", "jupytext", "distributed", "viser", "sphinx"]
+    code = f"""
+import runpy, sys
+sys.path.insert(0, "")
+sys.modules.update(dict.fromkeys({extras}))
+for path in {list(map(str, SCRIPTS))}:
+    sys.argv = [path, "--help"]
+    try:
+        runpy.run_path(path, run_name="__main__")
+    except SystemExit as end:
+        assert not end.code, path
+"""
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=ROOT / "scripts", capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.count("usage: ") == len(SCRIPTS)
+
+
 @pytest.mark.parametrize(
     "path", sorted((ROOT / "scripts").glob("*.py")), ids=lambda path: path.name
 )

@@ -9,6 +9,7 @@ Every function is checked and every finished lab is run again now, in the sandbo
 arm picks the cube up with the functions that pass. One file, opened from disk.
 """
 
+import importlib.util
 import tempfile
 import time
 from contextlib import ExitStack
@@ -35,6 +36,10 @@ def main() -> int:
     add("--name", default="", help="the student's; default: the last commit's author")
     add("--out", type=Path, default=METRICS_CSV.with_name("proof.html"), metavar="FILE")
     options = parser.parse_args()
+    if importlib.util.find_spec("viser") is None:
+        raise Robo47Error(
+            "the film needs viser, which is not installed yet: make proof"
+        )
     if not options.out.parent.is_dir():
         folder = shown(options.out.parent.absolute())
         raise Robo47Error(f"{folder} is no folder; choose another place with --out")

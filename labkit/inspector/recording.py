@@ -24,11 +24,6 @@ from robo47.checks import Array
 
 FRAMES = 30  # a second
 GRID = 1 / 256  # m; with the robot's own meshes a file would have 3 MB
-# What viser's player needs of a page's policy. Its workers compile what they run.
-ALLOWED = (
-    "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
-    "; img-src data: blob:; connect-src data: blob:"
-)
 OVER = (0.0, 0.0, 1.05)  # m: where words stand
 # Out of sight. What is hidden instead would stay so when the film begins again.
 AWAY = se3.make_T(np.eye(3), [0.0, 0.0, -50.0])
@@ -82,7 +77,7 @@ class Recording:
     def page(self, title: str, nonce: str = "") -> str:
         """Return the HTML file with a window's title, and end the recording.
 
-        The nonce is its scripts', where a page's policy (`ALLOWED`) lets no other run.
+        The nonce is its scripts', where a page's policy lets no other run.
         """
         self.wait(0.0)
         assert self._recorded is not None

@@ -13,11 +13,15 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
-from labkit.inspector.recording import ALLOWED
 from labkit.proof.facts import Clone, RunDay
 from labkit.proof.pick import Picked, film
 from labkit.report.series import Series
 
+# What viser's player needs of the page's policy. Its workers compile what they run.
+ALLOWED = (
+    "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
+    "; img-src data: blob:; connect-src data: blob:"
+)
 STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
 td.wide { white-space: normal; min-width: 140px; }

@@ -2,18 +2,20 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
-from labkit.inspector.recording import FRAMES, Recording
 from labkit.lesson.script import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
 from robo47.capstone.phases import Result
+
+if TYPE_CHECKING:
+    from labkit.inspector.recording import Recording
 
 CALLS, SECONDS = 200_000, 240.0  # of a pick; with all functions right it needs 30,000
 
@@ -54,8 +56,10 @@ def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) ->
     return Picked(None, why, yours, len(names))
 
 
-def film(result: Result) -> Recording:
+def film(result: Result) -> "Recording":
     """Return a pick, phase by phase, as `capstone.pick` simulated it."""
+    from labkit.inspector.recording import FRAMES, Recording  # viser is an extra
+
     model = scenes.table_top(capstone.CUBE_XY, capstone.YAW, meshes=True)
     recording = Recording(model, back=1.2)
     begins = [begin for _, begin in result.phases]
