@@ -32,7 +32,7 @@ from labkit.check.tasks import TaskResult
 from labkit.grade import charts, child, classroom, engine, page, similar
 from labkit.grade.child import _tidy
 from labkit.grade.course import Course, Graded
-from labkit.grade.engine import Grader, grade_behind_wall, grade_package
+from labkit.grade.engine import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
@@ -273,9 +273,9 @@ class TestTheGrader:
         package = Package(1, fingerprint(1), problem="nobody")
         monkeypatch.setattr(engine, "refusal", lambda: "you are root")
         with pytest.raises(Robo47Error, match=r"a worker on .* refuses: you are root"):
-            grade_behind_wall(package)
+            grade_package(package, needs_wall=True)
         monkeypatch.setattr(engine, "refusal", lambda: "")
-        assert grade_behind_wall(package)["error"] == "nobody"
+        assert grade_package(package, needs_wall=True)["error"] == "nobody"
 
     def test_ends_when_whoever_started_it_is_gone(self, tmp_path):
         command = [sys.executable, "-m", "labkit.grade.child", str(tmp_path / "own")]

@@ -105,16 +105,22 @@ class Grader(Child):
 _idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
 
 
-def grade_package(package: Package) -> dict[str, Any]:
+def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
     """Return a package's result as JSON; each call has a process of its own.
 
     Args:
         package: one submission; any thread may bring one.
+        needs_wall: refuse where nothing keeps submissions from this machine.
 
     Raises:
-        Robo47Error: this machine has another kit than the one that sent it.
+        Robo47Error: it refuses, or has another kit than the one that sent it.
         FaultError: the machine failed; the package is as good as new.
     """
+    if needs_wall and (why := refusal()):
+        raise Robo47Error(
+            f"a worker on {socket.gethostname()} refuses: {why}, run workers in a "
+            "container (docs/cluster.md), or add --i-know-them"
+        )
     own = fingerprint(package.day)
     if package.kit != own:
         raise Robo47Error(
@@ -135,24 +141,6 @@ def grade_package(package: Package) -> dict[str, Any]:
             _idle.put(grader)
 
 
-def grade_behind_wall(package: Package) -> dict[str, Any]:
-    """Return what `grade_package` does, where a wall keeps such code from here.
-
-    Args:
-        package: one submission.
-
-    Raises:
-        Robo47Error: it does not, or has another kit.
-        FaultError: the machine failed; the package is as good as new.
-    """
-    if why := refusal():
-        raise Robo47Error(
-            f"a worker on {socket.gethostname()} refuses: {why}, run workers in a "
-            "container (docs/cluster.md), or add --i-know-them"
-        )
-    return grade_package(package)
-
-
 @atexit.register
 def close_graders() -> None:
     """End the idle grading processes."""
@@ -167,11 +155,11 @@ def close_graders() -> None:
 class Engine:
     """Where packages are graded."""
 
-    executor: Executor  # runs `grade`
+    executor: Executor  # runs `grade_package`
     workers: Callable[[], int]  # how many packages can be graded at the same time now
     # What a package brings back whose workers all died.
     lost: type[BaseException] = FaultError
-    grade: Callable[[Package], Any] = grade_package
+    needs_wall: bool = False  # nobody spoke for the submissions
 
 
 @contextlib.contextmanager
@@ -217,10 +205,9 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise Robo47Error(f"no Dask scheduler at {address}: {why}") from None
     try:
-        grade = grade_package if trusted else grade_behind_wall
         executor = client.get_executor()
         yield Engine(
-            executor, lambda: sum(client.nthreads().values()), KilledWorker, grade
+            executor, lambda: sum(client.nthreads().values()), KilledWorker, not trusted
         )
     finally:
         client.close()
@@ -241,7 +228,7 @@ def grade_all(
     under_way: dict[Future[Any], tuple[Student, Package]] = {}
     try:
         for student, package in packages:
-            future = engine.executor.submit(engine.grade, package)
+            future = engine.executor.submit(grade_package, package, engine.needs_wall)
             under_way[future] = (student, package)
             while len(under_way) >= PER_WORKER * max(1, engine.workers()):
                 yield from _finished(under_way, engine)
