@@ -645,7 +645,7 @@ def again(browser, served, first_page, folder) -> Iterator[tuple[Served, Page]]:
     first_page.until(lambda: "tab=Order" in (folder / "view.json").read_text())
     assert served.press_ctrl_c() == 0, served.said  # with a page open
     with Served("1", "--port", "0", "--simple", robot=False, memory=folder) as server:
-        page = Page(browser, server.url, init=SOME_PIXELS)
+        page = Page(browser, server.url, init=COARSE % 0.3)
         yield server, page
         page.tab.close()
 
