@@ -104,18 +104,13 @@ class Arm:
             com: centre of mass in the last link's frame, metres, (3,).
             inertia: about that centre in the last link's axes, kg m^2, (3, 3).
         """
-        pairs = (
-            np.stack([own[-1], checks.array(value, name, own.shape[1:])])
-            for own, value, name in (
-                (self.masses, mass, "mass"),
-                (self.coms, com, "com"),
-                (self.inertias, inertia, "inertia"),
-            )
-        )
-        heavier = {
-            name: np.concatenate([getattr(self, name)[:-1], [value]])
-            for name, value in zip(
-                ("masses", "coms", "inertias"), as_one(*pairs), strict=True
-            )
-        }
-        return dataclasses.replace(self, **heavier)
+        names = ("masses", "coms", "inertias")
+        own = [getattr(self, name) for name in names]
+        load = (mass, "mass"), (com, "com"), (inertia, "inertia")
+        last = [
+            np.stack([of_links[-1], checks.array(value, name, of_links.shape[1:])])
+            for of_links, (value, name) in zip(own, load, strict=True)
+        ]
+        both = zip(own, as_one(*last), strict=True)
+        heavier = [np.concatenate([of_links[:-1], [one]]) for of_links, one in both]
+        return dataclasses.replace(self, **dict(zip(names, heavier, strict=True)))

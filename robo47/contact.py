@@ -16,9 +16,8 @@ from robo47 import checks, jacobian, panda, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import READY_Q
-from robo47.verify.motion import mujoco_site_jacobian
+from robo47.verify.motion import SITE, mujoco_site_jacobian
 
-SITE = "attachment_site"
 SPEED_UP = 1.0  # s, in which the hand gathers speed on its circle
 STEP = 3e-4  # s, of the differences of J: leaves 1e-11
 

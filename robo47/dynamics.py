@@ -88,8 +88,9 @@ def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     Returns:
         M, kg m^2, (..., n, n): symmetric and positive definite, as many a wrong one.
     """
-    n = _last(J)
-    J, G = checks.array(J, "J", (6, n)), checks.array(G, "G", (n, 6, 6))
+    J = checks.array(J, "J", (6, "n"))
+    n = J.shape[-1]
+    G = checks.array(G, "G", (n, 6, 6))
     armature = np.broadcast_to(checks.array(armature, "armature", ()), n)
     # Joint i carries link i and all after it (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
@@ -116,8 +117,8 @@ def gravity_torque(
     Returns:
         Torque, N m, (..., n).
     """
-    n = _last(J)
-    J = checks.array(J, "J", (6, n))
+    J = checks.array(J, "J", (6, "n"))
+    n = J.shape[-1]
     coms = checks.array(coms_world, "coms_world", (n, 3))
     weights = checks.array(masses, "masses", (n,))[..., None] * _gravity(g)
     moments = times(skew(coms), weights)
@@ -149,8 +150,9 @@ def inverse_dynamics(
     Returns:
         Torque, N m, (..., n): the links' alone, without armature and damping.
     """
-    n = _last(J)
-    J, G = checks.array(J, "J", (6, n)), checks.array(G, "G", (n, 6, 6))
+    J = checks.array(J, "J", (6, "n"))
+    n = J.shape[-1]
+    G = checks.array(G, "G", (n, 6, 6))
     qd = checks.array(qd, "qd", (n,))[..., None]
     qdd = checks.array(qdd, "qdd", (n,))[..., None]
     S = np.swapaxes(J, -1, -2)
@@ -193,9 +195,8 @@ def forward_dynamics(
     Returns:
         qdd, rad/s^2, (..., n).
     """
-    n = _last(M)
-    M, bias = checks.array(M, "M", (n, n)), checks.array(bias, "bias", (n,))
-    qd, tau = checks.array(qd, "qd", (n,)), checks.array(tau, "tau", (n,))
+    bias, qd, tau = checks.same_size(bias=bias, qd=qd, tau=tau)
+    M = checks.array(M, "M", (qd.shape[-1], qd.shape[-1]))
     net = tau - bias - checks.array(damping, "damping", ()) * qd
     return np.linalg.solve(M, net[..., None])[..., 0].astype(np.float64, copy=False)
 
@@ -216,10 +217,12 @@ def energy(
     Returns:
         (kinetic, potential) in joules, (..., 2); potential is 0 at the origin.
     """
-    n = _last(M)
-    M, qd = checks.array(M, "M", (n, n)), checks.array(qd, "qd", (n,))
-    masses = checks.array(masses, "masses", (n,))
-    coms = checks.array(coms_world, "coms_world", (n, 3))
+    qd, masses = checks.same_size(qd=qd, masses=masses)
+    n = qd.shape[-1]
+    M, coms = (
+        checks.array(M, "M", (n, n)),
+        checks.array(coms_world, "coms_world", (n, 3)),
+    )
     kinetic = 0.5 * (qd * times(M, qd)).sum(axis=-1)
     potential = -(masses * (coms @ _gravity(g))).sum(axis=-1)
     return np.stack(np.broadcast_arrays(kinetic, potential), axis=-1)
@@ -235,8 +238,3 @@ def _gravity(g: ArrayLike) -> Array:
     if np.ndim(g) == 0:
         raise ValueError(f"g is the number {g!r}; expected a vector: (0, 0, -9.81)")
     return checks.array(g, "g", (3,))
-
-
-def _last(value: ArrayLike) -> int:
-    """Return how many joints an array of a wrong or right shape is for."""
-    return np.shape(value)[-1] if np.ndim(value) else 0

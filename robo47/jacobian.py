@@ -66,7 +66,7 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    J, p = _jacobian(J_space, "J_space"), checks.array(p, "p", (3,))
+    J, p = checks.array(J_space, "J_space", (6, "n")), checks.array(p, "p", (3,))
     v = J[..., 3:, :] - skew(p) @ J[..., :3, :]  # omega x p = -[p] omega
     return np.concatenate([np.broadcast_to(J[..., :3, :], v.shape), v], axis=-2)
 
@@ -84,7 +84,7 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or not a pose.
     """
-    return adjoint(se3.inverse(T)) @ _jacobian(J_space, "J_space")
+    return adjoint(se3.inverse(T)) @ checks.array(J_space, "J_space", (6, "n"))
 
 
 def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
@@ -126,7 +126,7 @@ def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or a singular J without damping.
     """
-    J = _jacobian(J, "J", rows=None)
+    J = checks.array(J, "J", ("m", "n"))
     e = checks.array(e, "e", J.shape[-2:-1])
     damping = checks.array(damping, "damping", ())
     Jt = np.swapaxes(J, -1, -2)
@@ -151,7 +151,7 @@ def manipulability(J: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    J = _jacobian(J, "J", rows=None)
+    J = checks.array(J, "J", ("m", "n"))
     # From the singular values: det(J J^T) has only half the digits near 0.
     values = np.linalg.svd(J, compute_uv=False).prod(axis=-1)
     return values if J.shape[-2] <= J.shape[-1] else 0.0 * values
@@ -170,22 +170,13 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    J = _jacobian(J, "J", rows=None)
+    J = checks.array(J, "J", ("m", "n"))
     dq = checks.array(dq, "dq", J.shape[-1:])
     _, values, Vt = np.linalg.svd(J, full_matrices=False)
     # J^+ J = V V^T over the directions that the hand feels; no division is needed.
     felt = values > SINGULAR * values.max(axis=-1, keepdims=True, initial=0.0)
     along = np.where(felt, (Vt @ dq[..., None])[..., 0], 0.0)
     return dq - (along[..., None, :] @ Vt)[..., 0, :]
-
-
-def _jacobian(J: ArrayLike, name: str, rows: int | None = 6) -> Array:
-    J = checks.array(J, name, ())
-    if J.ndim < 2 or rows not in (None, J.shape[-2]):
-        raise ValueError(
-            f"{name} has shape {J.shape}; expected (..., {rows or 'm'}, n)"
-        )
-    return J
 
 
 def _one_by_one(S: Array, q: Array) -> Array:

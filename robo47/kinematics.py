@@ -127,7 +127,7 @@ def fk(chain: Chain, qpos: ArrayLike) -> Array:
     """Return the pose of the chain's frame: forward kinematics, by hand.
 
     Many configurations go through together (`fast.chains`); memory beyond input and
-    output does not grow with them. One alone goes in plain floats (`robo47.fast.one`).
+    output does not grow with them. One alone goes in plain floats.
 
     Args:
         chain: from `chain_to`.

@@ -16,8 +16,9 @@ from robo47 import checks, identification, simulate, verify
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState
-from robo47.panda import ARM_JOINTS, READY_Q
+from robo47.panda import READY_Q
 from robo47.panda.loading import Edit
+from robo47.panda.reading import joint_ids
 
 MASS, CENTRE = 0.2, 0.01  # up to a fifth of a mass, and 10 mm, are different
 DAMPING, DRY = (0.4, 1.6), (0.2, 0.8)  # N m s/rad; N m, half for the small joints
@@ -41,7 +42,7 @@ class Motion(NamedTuple):
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
     rng, secret = np.random.default_rng(seed), copy.copy(model)
-    joints = [secret.joint(name).id for name in ARM_JOINTS]
+    joints = joint_ids(secret)
     links, dofs = secret.jnt_bodyid[joints], secret.jnt_dofadr[joints]
     secret.body_mass[links] *= rng.uniform(1.0 - MASS, 1.0 + MASS, 7)
     secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.panda import ARM_JOINTS
+from robo47.panda.reading import joint_ids
 
 Controller = Callable[[float, Array, Array], ArrayLike]
 Watcher = Callable[[mujoco.MjModel, mujoco.MjData], Any]
@@ -90,10 +90,7 @@ def addresses(model: mujoco.MjModel) -> tuple[Array, Array, Array]:
     Raises:
         Robo47Error: the model has no joint1 to joint7, or no actuator on one.
     """
-    try:
-        ids = np.array([model.joint(name).id for name in ARM_JOINTS])
-    except KeyError:
-        raise Robo47Error("the model has no joint1 to joint7; load the Panda") from None
+    ids = joint_ids(model)
     on_joint = model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_JOINT)
     target = np.where(on_joint, model.actuator_trnid[:, 0], -1)
     found = [np.flatnonzero(target == j) for j in ids]
@@ -112,8 +109,8 @@ def limits(model: mujoco.MjModel) -> tuple[Array, Array]:
         Ranges in radians, (7, 2), and torques in N m, (7,): 87 and 12.
     """
     motors = addresses(model)[2]
-    joints = [model.joint(name).id for name in ARM_JOINTS]
-    return model.jnt_range[joints], model.actuator_forcerange[motors, 1]
+    ranges = model.jnt_range[joint_ids(model)]
+    return ranges, model.actuator_forcerange[motors, 1]
 
 
 def run(

@@ -71,11 +71,7 @@ def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
 
 
 def osc_torque(
-    J: ArrayLike,
-    Lambda: ArrayLike,
-    bias: ArrayLike,
-    drift: ArrayLike,
-    acc: ArrayLike,
+    J: ArrayLike, Lambda: ArrayLike, bias: ArrayLike, drift: ArrayLike, acc: ArrayLike
 ) -> Array:
     """Return the torque that gives the hand a wanted acceleration.
 

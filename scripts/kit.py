@@ -73,23 +73,21 @@ def interrupted(error):
 
 def own_bug(kind, error, trace):
     """Return three lines on a bug in a student's lab, () where it is not theirs."""
-    import linecache
+    import traceback
 
     script = getattr(sys.modules.get("__main__"), "__file__", None) or ""
     folder, name = os.path.split(os.path.abspath(script))
     number = name[3 : name.find("_")]
     if os.path.basename(folder) != "work" or not number.isdigit():
         return ()
-    own = None
-    while trace:
-        file = trace.tb_frame.f_code.co_filename
-        if os.path.dirname(os.path.abspath(file)) == folder:
-            own = (file, trace.tb_lineno, trace.tb_frame.f_code.co_name)
-        trace = trace.tb_next
+    own = [
+        (os.path.basename(frame.filename), frame.lineno, frame.name, frame.line)
+        for frame in traceback.extract_tb(trace)
+        if os.path.dirname(os.path.abspath(frame.filename)) == folder
+    ]
     if not own:
         return ()
-    code = linecache.getline(own[0], own[1]).strip()
-    where = "{}, line {}, in {}: {}".format(os.path.basename(own[0]), *own[1:], code)
+    where = "{}, line {}, in {}: {}".format(*own[-1])
     says = "{}: {}".format(kind.__name__, error).splitlines()[0]
     return (where, says, "Which function is it? make check DAY=" + number)
 
@@ -104,14 +102,14 @@ def end(code, *lines):
 
 def explain_gl(kind, error, trace):
     """Say in one line that MUJOCO_GL is wrong: MuJoCo reads it when it is imported."""
-    chosen, frame = os.environ.get("MUJOCO_GL"), trace
-    while frame and "gl_context" not in frame.tb_frame.f_code.co_filename:
-        frame = frame.tb_next
-    if not chosen or not frame:
-        sys.__excepthook__(kind, error, trace)
-        return
-    says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
-    end(2, says.format(chosen))
+    import traceback
+
+    chosen = os.environ.get("MUJOCO_GL")
+    names = [frame.filename for frame in traceback.extract_tb(trace)]
+    if chosen and any("gl_context" in name for name in names):
+        says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
+        end(2, says.format(chosen))
+    sys.__excepthook__(kind, error, trace)
 
 
 sys.excepthook = explain

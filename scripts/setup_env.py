@@ -13,7 +13,6 @@ behind. Two at once wait for each other. Uses `uv` where it is installed.
 # Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
 # annotations) that would keep Python 2.7 or 3.6 from saying that it is too old.
 import argparse
-import contextlib
 import errno
 import hashlib
 import os
@@ -22,11 +21,19 @@ import shutil
 import subprocess
 import sys
 
-from pythons import OLDEST, ROOT, ask, find_python, say, stop
+import pythons
+from pythons import OLDEST, ask, find_python, say, stop
 
-PYTHON_IN_VENV = os.path.join("Scripts", "python.exe")
-if os.name != "nt":
-    PYTHON_IN_VENV = os.path.join("bin", "python")
+if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
+    newer = find_python()[0]
+    sys.exit(subprocess.call([newer, os.path.abspath(__file__)] + sys.argv[1:]))
+sys.path.insert(0, pythons.ROOT)
+from pathlib import Path
+
+from labkit.base.store import alone, replace
+
+ROOT = Path(pythons.ROOT)
+PYTHON_IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
 OFFLINE = re.compile(
     "Temporary failure|Failed to establish|NewConnectionError|Network is unreachable"
     "|dns error|Could not resolve|getaddrinfo"
@@ -47,9 +54,9 @@ def made_with(venv):
     being unpacked leaves one that starts and cannot install anything. What `uv sync`
     has made and filled is whole too.
     """
-    stamped = any(name.startswith((".made", ".ready-")) for name in listing(venv))
-    python = os.path.join(venv, PYTHON_IN_VENV)
-    if not os.path.exists(python) or not (stamped or recorded(venv, "uv")):
+    stamped = any(venv.glob(".made*")) or any(venv.glob(".ready-*"))
+    python = venv / PYTHON_IN_VENV
+    if not python.exists() or not (stamped or recorded(venv, "uv")):
         return None
     return ask(python, "import pip" if stamped else "import pip, mujoco")
 
@@ -57,88 +64,59 @@ def made_with(venv):
 def recorded(venv, what):
     """Return the version of "uv" or "version" that made an environment, or ""."""
     try:
-        with open(os.path.join(venv, "pyvenv.cfg")) as file:
-            line = r"^" + what + r"\w* *= *(\d+\.\d+)"
-            found = re.search(line, file.read(), re.MULTILINE)
+        text = (venv / "pyvenv.cfg").read_text("utf-8")
     except (OSError, ValueError):
         return ""
+    found = re.search(r"^" + what + r"\w* *= *(\d+\.\d+)", text, re.MULTILINE)
     return found.group(1) if found else ""
-
-
-def listing(folder):
-    """Return the names in a folder; none where there is no such folder."""
-    try:
-        return os.listdir(folder)
-    except OSError:
-        return []
 
 
 def fingerprint():
     """Return a hash of everything that decides what an environment holds."""
-    digest = hashlib.sha256(ROOT.encode("utf-8"))
+    digest = hashlib.sha256(str(ROOT).encode("utf-8"))
     for name in ("pyproject.toml", "constraints.txt"):
-        with open(os.path.join(ROOT, name), "rb") as file:
-            digest.update(file.read().replace(b"\r\n", b"\n"))
-    return digest.hexdigest()
+        digest.update((ROOT / name).read_bytes().replace(b"\r\n", b"\n"))
+    return digest.hexdigest().encode("ascii")
 
 
 def is_stamped(path):
     """Return whether a stamp is there and says what it must; any bytes may be in it."""
-    try:
-        with open(path, "rb") as file:
-            return file.read() == fingerprint().encode("ascii")
-    except OSError:
-        return False
+    return path.is_file() and path.read_bytes() == fingerprint()
 
 
 def write_stamp(path):
     """Write a stamp whole or not at all; rewriting it tells make that it is new."""
-    with open(path + ".part", "wb") as file:
-        file.write(fingerprint().encode("ascii"))
-    os.replace(path + ".part", path)
-
-
-def remove(path):
-    """Delete a file that may not be there."""
-    with contextlib.suppress(OSError):
-        os.remove(path)
+    replace(path, fingerprint())
 
 
 def run(command, doing):
     """Run a quiet command; return its exit code and what it said."""
     say(doing + " ...")
-    process = subprocess.Popen(
-        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    done = subprocess.run(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
     )
-    try:
-        said = process.communicate()[0]
-    except BaseException:  # Ctrl-C reached it too; its end has to come before ours
-        process.kill()
-        process.wait()
-        raise
-    return process.returncode, said.decode("utf-8", "replace")
+    return done.returncode, done.stdout.decode("utf-8", "replace")
 
 
 def make_venv(venv, python, uv):
     """Create the environment, replacing one that does not work."""
-    for name in listing(venv):  # first: without a stamp nobody takes it for whole
-        if name.startswith((".made", ".ready-", ".installing-")):
-            remove(os.path.join(venv, name))
+    for mark in (".made*", ".ready-*", ".installing-*"):
+        for path in venv.glob(mark):  # first: without a stamp nobody takes it for whole
+            path.unlink()
     command = [python, "-m", "venv", "--clear", venv]
     if uv:
         command = [uv, "venv", "--quiet", "--clear", "--seed", "--python", python, venv]
-    code, said = run(command, "making " + os.path.basename(venv))
+    code, said = run(command, "making " + venv.name)
     if code == 0:
-        write_stamp(os.path.join(venv, ".made"))
+        write_stamp(venv / ".made")
         return
     shutil.rmtree(venv, ignore_errors=True)
     if "ensurepip" in said:
-        version = "{}.{}".format(*sys.version_info[:2])
+        remedy = "On Debian or Ubuntu: sudo apt install python3-venv\n"
+        remedy += "       (or python{}.{}-venv), then run make again."
         stop(
             "this Python cannot make environments (no ensurepip).",
-            "On Debian or Ubuntu: sudo apt install python3-venv\n       (or python"
-            + version
-            + "-venv), then run make again.",
+            remedy.format(*sys.version_info[:2]),
         )
     if "No space left" in said:
         stop(*DISK_FULL)
@@ -149,16 +127,16 @@ def install(venv, extras, uv):
     """Install the kit, editable, with some extras, at the pinned versions."""
     named = ",".join(extra for extra in extras if extra != "core")
     what = ".[" + named + "]" if named else "."
-    command = [os.path.join(venv, PYTHON_IN_VENV), "-m", "pip", "install"]
+    command = [venv / PYTHON_IN_VENV, "-m", "pip", "install"]
     command += ["--disable-pip-version-check"]
     if uv:
         command = [uv, "pip", "install", "--python", command[0]]
     command += ["--quiet", "--constraint", "constraints.txt", "--editable", what]
-    begun = [os.path.join(venv, ".installing-" + extra) for extra in extras]
-    if any(map(os.path.exists, begun)):  # killed halfway: there may be gaps
+    begun = [venv / (".installing-" + extra) for extra in extras]
+    if any(mark.exists() for mark in begun):  # killed halfway: there may be gaps
         command.append("--reinstall" if uv else "--force-reinstall")
     for mark in begun:
-        open(mark, "wb").close()
+        mark.touch()
     what = ", ".join(extras)
     code, said = run(command, "installing robo47 (" + what + "), a minute at most")
     if code == 0:
@@ -179,7 +157,7 @@ def provide(venv, anew, uv):
     """Make the environment if it is not whole; say when its Python is another one."""
     python, version = find_python()
     has = made_with(venv)
-    wanted, folder = "{}.{}".format(*version), os.path.basename(venv)
+    wanted, folder = "{}.{}".format(*version), venv.name
     if has is not None and has >= OLDEST and not anew:
         if has != version:
             say("{} keeps its Python {}.{}; to change that:".format(folder, *has))
@@ -197,7 +175,7 @@ def bring(venv, extras, anew):
     """Bring an environment to what pyproject.toml and constraints.txt say."""
     uv = shutil.which("uv")
     provide(venv, anew, uv)
-    stamps = {extra: os.path.join(venv, ".ready-" + extra) for extra in extras}
+    stamps = {extra: venv / (".ready-" + extra) for extra in extras}
     missing = [extra for extra in extras if not is_stamped(stamps[extra])]
     version = made_with(venv)
     lacking = [e for e in missing if e in WITHOUT_WHEELS.get(version, ())]
@@ -208,7 +186,7 @@ def bring(venv, extras, anew):
         install(venv, missing, uv)
     for extra in extras:
         write_stamp(stamps[extra])
-        remove(os.path.join(venv, ".installing-" + extra))
+        (venv / (".installing-" + extra)).unlink(missing_ok=True)
 
 
 def main():
@@ -223,17 +201,9 @@ def main():
     parser.add_argument("--anew", action="store_true", help="make it from nothing")
     parser.add_argument("--venv", default=".venv", help="its folder; default: .venv")
     options = parser.parse_args()
-    if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
-        newer = find_python()[0]
-        sys.exit(subprocess.call([newer, os.path.abspath(__file__)] + sys.argv[1:]))
-    sys.path.insert(0, ROOT)
-    from pathlib import Path
-
-    from labkit.base.store import alone
-
     try:
-        with alone("setup", Path(ROOT)):
-            bring(os.path.join(ROOT, options.venv), options.extras, options.anew)
+        with alone("setup", ROOT):
+            bring(ROOT / options.venv, options.extras, options.anew)
     except OSError as error:
         if error.errno != errno.ENOSPC:
             raise

@@ -27,9 +27,9 @@ import inprocess
 
 from labkit.judge import Verdict
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.lab import Lab
+from labkit.lesson.script import load_lab
 
 _HEADER = re.compile(
     r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"
@@ -154,7 +154,7 @@ def run_as_lab(day: Day, entry: Entry | None = None, trials: int = 50) -> int:
         entry: its functions of the day's tasks take the script's place.
         trials: on how many random inputs.
     """
-    lab = folder.load_lab(day.source)
+    lab = load_lab(day.source)
     if entry:
         vars(lab).update(written(day, entry))
         lab.Lab = Impatient

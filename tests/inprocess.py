@@ -19,8 +19,8 @@ import pytest
 from labkit.base.exchange import Exchange, LoadError, Path, Reply
 from labkit.check import tasks
 from labkit.judge import Robot
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import Asked
-from labkit.judge.mistake import InTurn
 from labkit.sandbox.sandbox import twice
 from robo47 import panda
 

@@ -3,14 +3,13 @@
 import numpy as np
 
 from labkit.base.exchange import Reply
+from labkit.judge.answers import InTurn, parts
 from labkit.judge.ask import (
     make_round,
     right_answers,
     stacked,
 )
-from labkit.judge.compare import parts
 from labkit.judge.judge import judge
-from labkit.judge.mistake import InTurn
 
 FRESH_SEED = 4711
 NONE = Reply(kind="TypeError", error="no such argument")

@@ -20,7 +20,7 @@ from test_deliverables import png, worksheet
 from labkit import log
 from labkit.lesson.day import find_day
 from labkit.lesson.marks import file_mark
-from labkit.lesson.starter import make_starter, put_back
+from labkit.lesson.script import make_starter, put_back
 
 DAY = find_day(1)
 WEEK = DAY.folder.name

@@ -13,14 +13,14 @@ import tracemalloc
 
 import pytest
 
-from labkit.base import exchange, git
-from labkit.base.exchange import Limits, Question
-from labkit.check.source import kits_own
+from labkit.base import git
+from labkit.base.exchange import Question
 from labkit.check.tasks import check_tasks
 from labkit.grade import pull
 from labkit.lesson.borrowed import with_borrowed
-from labkit.lesson.day import all_days, find_day
-from labkit.lesson.starter import make_starter
+from labkit.lesson.day import Limits, all_days, find_day
+from labkit.lesson.own_files import SCRIPT
+from labkit.lesson.script import kits_own, make_starter
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.messages import library_of
 from robo47.errors import Robo47Error
@@ -608,6 +608,6 @@ def test_the_teachers_guide_tells_the_limits_that_hold():
         f"{git.SECONDS:.0f} s of git's",
         f"{pull.SECONDS} s and {git.LARGEST_GIT // 10**9} GB of disk",
         f"of which {git.LARGEST_TREE // 10**6} MB stay",
-        f"more than {exchange.SCRIPT // 1000} kB is not read",
+        f"more than {SCRIPT // 1000} kB is not read",
     ):
         assert says in guide

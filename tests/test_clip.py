@@ -64,7 +64,7 @@ def test_another_arm_is_put_where_its_links_are_and_the_words_below(monkeypatch)
         "link3": true["link3"] @ se3.make_T(se3.Rz(0.2), [0, 0, 0.1]),
         "ee": np.eye(4),
     }
-    (picture,) = clip.arm_clip(q[None], lambda q: wrong, lambda q: ("off", False))
+    (picture,) = clip.drawn([(clip.arm_scene(q, wrong), ("off", False))])
     (ghost,) = scenes[0].ghosts  # there is no link `ee` to draw
     np.testing.assert_allclose(
         ghost.T_world_moved @ true["link3"], wrong["link3"], atol=1e-14
@@ -82,7 +82,9 @@ def test_a_red_arm_is_really_drawn(gl):
     aside = se3.make_T(np.eye(3), [0.0, 0.4, 0.0])
     moved = {f"link{i}": aside @ true[f"link{i}"] for i in range(8)}
     with_ghost, without = (
-        np.asarray(clip.arm_clip(q[None], lambda q, some=some: some)[0], dtype=int)
+        np.asarray(
+            clip.drawn([(clip.arm_scene(q, some), ("both", None))])[0], dtype=int
+        )
         for some in (moved, {})
     )
     red = with_ghost[..., 0] - with_ghost[..., 1:].max(axis=-1) > 60
@@ -91,12 +93,11 @@ def test_a_red_arm_is_really_drawn(gl):
 
 
 def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_path):
-    from labkit.figures import picking
     from robo47 import capstone
 
     result = capstone.pick(capstone.library(), rate=50.0)
     rows = [int(np.searchsorted(result.t, t)) for t in (0.0, result.t[-1])]
-    assert [picking.phase(result, row)[0] for row in rows] == [
+    assert [clip.phase(result, row)[0] for row in rows] == [
         "reach, 0.0 s",
         f"rest, {result.t[-1]:.1f} s",
     ]

@@ -11,12 +11,11 @@ from judged import judged, right, round_of
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question
+from labkit.judge.answers import InTurn, difference, matches, off_by, parts
 from labkit.judge.ask import stacked
-from labkit.judge.compare import difference, matches, off_by, parts
-from labkit.judge.mistake import InTurn
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
+from labkit.lesson.script import lab_of
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -164,7 +163,7 @@ def test_an_answer_that_never_changes_is_not_right(number, name, ask):
 )
 def test_accept_takes_the_labs_own_answer_and_no_numbers_at_random(number, name, ask):
     function, rng = (
-        getattr(folder.lab(find_day(number)), name),
+        getattr(lab_of(find_day(number)), name),
         np.random.default_rng(5),
     )
     for exchange in round_of(ask).main:

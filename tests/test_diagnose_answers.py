@@ -6,7 +6,7 @@ from judged import answered, judged, judged_replies, replies_of, right, round_of
 
 from labkit.base.exchange import Reply
 from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
-from labkit.judge.failing import number
+from labkit.judge.answers import number
 from labkit.judge.judge import judge
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day

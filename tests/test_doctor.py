@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from labkit.setup import doctor
+from labkit.commands import doctor
 from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit

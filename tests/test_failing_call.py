@@ -6,10 +6,11 @@ from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
 from labkit.judge import Scalar, Vector
+from labkit.judge.answers import typed
 from labkit.judge.ask import SEED, Ask, right_answers
 from labkit.judge.draw import Edges, numbers
-from labkit.judge.failing import failing_call, typed
 from labkit.judge.judge import judge
+from labkit.judge.problems import failing_call
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days
 

@@ -19,7 +19,7 @@ from conftest import ROOT, need
 from labkit.base import git, processes
 from labkit.base.exchange import Question
 from labkit.grade import child, classroom, engine
-from labkit.grade.grader import Grader, grade_package
+from labkit.grade.engine import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, fingerprint
 from labkit.grade.roster import Student
@@ -220,12 +220,12 @@ class TestAMachineThatStartsNoProcess:
         grader, files = Grader(), resource.RLIMIT_NOFILE
         try:
             hard = resource.prlimit(grader.process.pid, files)[1]
-            assert grader.grade(solved()).tasks[0].passed
+            assert grader.grade(solved())["tasks"][0]["status"] == "passed"
             resource.prlimit(grader.process.pid, files, (8, hard))
             with pytest.raises(FaultError, match="Too many open files"):
                 grader.grade(solved())
             resource.prlimit(grader.process.pid, files, (hard, hard))
-            assert grader.grade(solved()).tasks[0].passed
+            assert grader.grade(solved())["tasks"][0]["status"] == "passed"
         finally:
             grader.close()
 
@@ -235,8 +235,8 @@ class TestAMachineThatStartsNoProcess:
             def fails(*_, error=error, **__):
                 raise error
 
-            monkeypatch.setattr("labkit.grade.grader.Grader", fails)
-            monkeypatch.setattr("labkit.grade.grader._idle", SimpleQueue())
+            monkeypatch.setattr("labkit.grade.engine.Grader", fails)
+            monkeypatch.setattr("labkit.grade.engine._idle", SimpleQueue())
             with pytest.raises(FaultError):
                 grade_package(solved())
 
@@ -245,12 +245,12 @@ class TestAMachineThatStartsNoProcess:
             raise MemoryError
 
         monkeypatch.setattr(classroom, "collect", fails)
-        journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
+        journal = Journal(tmp_path / "j", DAY)
         room = classroom.Classroom([Student("A", "a", tmp_path)], DAY, journal)
         with engine.local(1) as here:
             course = room.grade(here, tmp_path)
         journal.close()
-        assert (room.tally.faults, room.tally.graded_now) == (1, 0)
+        assert (course.class_[0].fault, course.graded_now) == (True, 0)
         assert "this machine failed (MemoryError)" in course.class_[0].error
         assert (tmp_path / "j").read_text().count("\n") == 1  # its head
 
@@ -327,7 +327,7 @@ class TestAGrader:
         loops = SOLVED.replace("    T = np.eye(4)\n", "    while True: pass\n", 1)
         code = (
             "import sys\n"
-            "from labkit.grade.grader import Grader\n"
+            "from labkit.grade.engine import Grader\n"
             "from labkit.grade.package import Package, fingerprint\n"
             "from labkit.handin.handin import Handin\n"
             "one = Grader()\n"

@@ -17,6 +17,7 @@ from labkit.fresh import clone as cloning
 from labkit.fresh.compare import faults, same
 from labkit.fresh.missing import findings
 from labkit.lesson.day import Metric, find_day
+from labkit.report.series import Series, series_of
 from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error
 
@@ -113,9 +114,9 @@ def test_a_number_is_the_same_within_a_factor_of_two(before, now, equal):
 
 def ran(day, value, *, mine=False):
     metric = day.metrics[0]
-    row = {"value": value, "n_failures": 0, "n_trials": 1}
-    rows = {(metric.check, metric.metric): row}
-    return Ran(replace(day, metrics=(metric,)), mine, rows, "")
+    number = Series(1, metric)
+    number.add({"value": value, "n_failures": 0, "n_trials": 1, "notes": ""})
+    return Ran(replace(day, metrics=(metric,)), mine, [number], "")
 
 
 def test_the_kits_own_numbers_have_no_row_and_must_pass(clone):
@@ -126,9 +127,9 @@ def test_the_kits_own_numbers_have_no_row_and_must_pass(clone):
     (fault,) = faults(ran(day, 1e-15, mine=True), clone)
     assert "no committed row of this file" in fault
     other = replace(day, metrics=(Metric("gone", "x", max=1.0),))
-    (fault,) = faults(Ran(other, False, {}, ""), clone)
+    (fault,) = faults(Ran(other, False, series_of(other, []), ""), clone)
     assert "recorded no such number" in fault
-    (fault,) = faults(Ran(day, True, {}, "to do: 1.4"), clone)
+    (fault,) = faults(Ran(day, True, [], "to do: 1.4"), clone)
     assert fault == "day 1, the lab does not pass: to do: 1.4"
 
 

@@ -341,7 +341,7 @@ class TestFaultsOfTheMachine:
         hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
         full = f"""
 import resource, runpy, subprocess, sys
-from labkit.grade import grader  # before Popen is another
+from labkit.grade import engine  # before Popen is another
 start = subprocess.Popen
 def limited(*a, **k):
     it = start(*a, **k)
@@ -408,7 +408,7 @@ class TestMistakesOfTheTeacher:
 
     def test_another_one_is_at_work_or_has_another_day_in_the_same_place(self, small):
         clones, out = small
-        with contextlib.closing(Journal(out / "grading.jsonl", DAY, 0, deadline=True)):
+        with contextlib.closing(Journal(out / "grading.jsonl", DAY)):
             done = grade(clones, out)
         assert done.returncode == 2
         assert "another make grade is at work there" in done.stderr

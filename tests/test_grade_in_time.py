@@ -12,14 +12,14 @@ from make_class import DAY, DEADLINE, WEEK, commit, put
 from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
-from labkit.grade import in_time, sheet
-from labkit.grade.in_time import read_in_time
+from labkit.grade import package as packages
+from labkit.grade import sheet
+from labkit.grade.course import Graded, percent
 from labkit.grade.journal import Journal
-from labkit.grade.package import collect
+from labkit.grade.package import collect, read_in_time
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Mark, Result, counted
 from labkit.grade.roster import Student
-from labkit.grade.sheet import Graded
 from labkit.handin.deliverables import item_names
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -117,17 +117,17 @@ def test_one_blob_under_many_names_fills_no_disk(clone, monkeypatch):
             monkeypatch.setenv(f"GIT_{role}_DATE", f"{when} +0000")
         git(clone, *who, "commit", "-q", "--allow-empty", "-m", "x")
     taken: list[int] = []
-    asked = in_time.read_handin
+    asked = packages.read_handin
 
     def seen(day, folder):
         files = [path.stat() for path in folder.rglob("*.py")]
         taken.extend((len(files), sum(512 * file.st_blocks for file in files)))
         return asked(day, folder)
 
-    monkeypatch.setattr(in_time, "read_handin", seen)
+    monkeypatch.setattr(packages, "read_handin", seen)
     handin, _, late = read_in_time(DAY, clone, DEADLINE)
     assert (late, handin.files[SCRIPT]) == (1, b"import m0")
-    assert taken[-2] <= in_time.MOST + 1
+    assert taken[-2] <= packages.MOST + 1
     assert taken[-1] < 100_000
 
 
@@ -230,25 +230,25 @@ def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:
 
 
 def test_the_best_result_is_kept_for_who_wants_it_so(clone, tmp_path):
-    facts = (tmp_path / "j", DAY, DEADLINE)
-    journal = Journal(*facts, deadline=True, seed=4711)
+    facts = (tmp_path / "j", DAY, DEADLINE, 4711)
+    journal = Journal(*facts)
     packages = []
     for i, passed in enumerate((3, 8, 2)):
         save(clone, f"x = {i}", DEADLINE - HOUR + i)
         packages.append(collected(clone)[0])
         journal.keep("mia", packages[-1], result(passed))
     journal.close()
-    journal = Journal(*facts, deadline=True, seed=4711)  # also tomorrow
-    best, package = journal.best("mia", packages[-1])
-    assert (best.score[0], package.commit) == (8, packages[1].commit)
+    journal = Journal(*facts)  # also tomorrow
+    best = journal.best("mia")
+    assert (best.result.score[0], best.commit) == (8, packages[1].commit)
     assert journal.find("mia", packages[-1]).score[0] == 2
     journal.keep("mia", packages[0], result(1, seed=5))  # other inputs: begins anew
-    assert journal.best("mia", packages[-1])[0].score[0] == 1
+    assert journal.best("mia").result.score[0] == 1
     journal.close()
 
 
 def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
-    journal = Journal(tmp_path / "j", DAY, 0, deadline=False)
+    journal = Journal(tmp_path / "j", DAY)
     save(clone, "x = 1", DEADLINE)
     package = collected(clone)[0]
     journal.keep("mia", package, result(8, kit="0.1.0"))
@@ -260,12 +260,12 @@ def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
 
 @pytest.mark.parametrize(
     ("minutes", "late", "expected"),
-    [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, ("", ""))],
+    [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, (None, None))],
 )
 def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expected):
     one = Graded(Student("A", "a", Path()), result(4), "", minutes, late=late)
     assert one.late_by == expected
-    assert one.percent == 50.0
+    assert percent(one) == "50.0"
 
 
 def test_a_table_for_handing_on_says_nothing_of_who_it_is():

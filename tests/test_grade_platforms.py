@@ -9,11 +9,10 @@ from make_class import DAY
 from test_grade_in_time import result
 
 from conftest import ROOT
-from labkit.grade.platforms import PLATFORMS, as_csv, known
+from labkit.grade.course import Course, Graded
 from labkit.grade.result import ungraded
 from labkit.grade.roster import find_students
-from labkit.grade.sheet import Graded
-from labkit.grade.week import Week
+from labkit.grade.sheet import PLATFORMS, for_platform, known
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -33,12 +32,13 @@ def class_of(tmp_path, head=HEAD):
         row = [name, 100 + i, f"u{i}", f"login{i}", "A", f"s{i}@x.org", f"0{i}"]
         table.writerow([*row, f"s{i}"])
     (tmp_path / "roster.csv").write_text(lines.getvalue(), "utf-8-sig")
-    week = Week(find_students(tmp_path), [find_day(1), find_day(2)])
-    for i, student in enumerate(week.students):
-        for day in (1, 2):
-            found = result(min(i, 8)) if (i, day) != (9, 2) else ungraded(DAY, "")
-            week.graded[day, student.folder] = Graded(student, found)
-    return week
+    students = find_students(tmp_path)
+    results = [result(min(i, 8)) for i in range(len(students))]
+    days = results, [*results[:-1], ungraded(DAY, "")]
+    return [
+        Course(find_day(number), list(map(Graded, students, found)))
+        for number, found in enumerate(days, 1)
+    ]
 
 
 def read(content):
@@ -46,9 +46,9 @@ def read(content):
 
 
 def test_canvas_finds_its_header_its_points_and_everybody(tmp_path):
-    week = class_of(tmp_path)
-    known(CANVAS, week.students)
-    head, points, *rows = read(as_csv(CANVAS, week, "Lab {day} (471{day})"))
+    courses = class_of(tmp_path)
+    known(CANVAS, find_students(tmp_path))
+    head, points, *rows = read(for_platform(CANVAS, courses, "Lab {day} (471{day})"))
     # What its importer asks of a header: row_has_student_headers?, update_column_count.
     assert "Student" in head[0]
     assert "ID" in head[1]
@@ -64,14 +64,14 @@ def test_canvas_finds_its_header_its_points_and_everybody(tmp_path):
 
 
 def test_moodle_finds_everybody_by_number_or_email(tmp_path):
-    head, *rows = read(as_csv(MOODLE, class_of(tmp_path), "Day {day}"))
+    head, *rows = read(for_platform(MOODLE, class_of(tmp_path), "Day {day}"))
     assert head == ["ID number", "Email address", "Day 1", "Day 2"]
     assert [row[:2] for row in rows] == [[f"0{i}", f"s{i}@x.org"] for i in range(9)]
 
 
 @pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS)
 def test_no_cell_is_a_formula_or_splits_a_row(tmp_path, platform):
-    content = as_csv(platform, class_of(tmp_path), "=1+{day}")
+    content = for_platform(platform, class_of(tmp_path), "=1+{day}")
     table = read(content)
     assert {len(row) for row in table} == {len(table[0])}
     cells = [cell for row in table for cell in row]
@@ -81,15 +81,15 @@ def test_no_cell_is_a_formula_or_splits_a_row(tmp_path, platform):
 
 def test_who_is_not_graded_has_no_row_that_would_wipe_a_grade_out(tmp_path):
     for platform in PLATFORMS.values():
-        table = read(as_csv(platform, class_of(tmp_path), "Day {day}"))
+        table = read(for_platform(platform, class_of(tmp_path), "Day {day}"))
         assert not [row for row in table if "" in row[-2:] or "login9" in row]
 
 
 def test_whom_the_platform_cannot_know_is_named_before_anybody_is_graded(tmp_path):
-    week = class_of(tmp_path, "name,a,b,c,Section,d,e,folder")
+    class_of(tmp_path, "name,a,b,c,Section,d,e,folder")
     says = r"Canvas cannot know .*: give roster.csv a column ID or SIS Login ID"
     with pytest.raises(Robo47Error, match=says):
-        known(CANVAS, week.students)
+        known(CANVAS, find_students(tmp_path))
 
 
 def test_the_teachers_guide_shows_what_is_written(tmp_path):
@@ -97,8 +97,10 @@ def test_the_teachers_guide_shows_what_is_written(tmp_path):
     tables = re.findall(r"```text\n((?:Student|ID number),.*?)```", guide, re.DOTALL)
     roster, canvas, moodle = tables
     (tmp_path / "roster.csv").write_text(roster)
-    week = Week(find_students(tmp_path), [find_day(1)])
-    for student, passed in zip(week.students, (7, 8), strict=True):
-        week.graded[1, student.folder] = Graded(student, result(passed))
-    assert as_csv(CANVAS, week, "Lab {day}").decode("utf-8-sig") == canvas
-    assert as_csv(MOODLE, week, "Day {day}").decode("utf-8-sig") == moodle
+    class_ = list(map(Graded, find_students(tmp_path), (result(7), result(8))))
+    for platform, title, table in (
+        (CANVAS, "Lab {day}", canvas),
+        (MOODLE, "Day {day}", moodle),
+    ):
+        content = for_platform(platform, [Course(find_day(1), class_)], title)
+        assert content.decode("utf-8-sig") == table

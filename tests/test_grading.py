@@ -2,14 +2,15 @@
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
+import time
 from collections.abc import Sequence
 from concurrent.futures import Executor, Future
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -28,16 +29,16 @@ from make_class import (
 
 from labkit.base import git
 from labkit.check.tasks import TaskResult
-from labkit.grade import charts, child, classroom, engine, overview, people, similar
-from labkit.grade import grader as graders
+from labkit.grade import charts, child, classroom, engine, page, similar
 from labkit.grade.child import _tidy
-from labkit.grade.grader import Grader, grade_behind_wall, grade_package
+from labkit.grade.course import Course, Graded
+from labkit.grade.engine import Grader, grade_behind_wall, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
 from labkit.grade.result import Mark, Result, from_json, ungraded
 from labkit.grade.roster import Student, file_names, find_students
-from labkit.grade.sheet import Graded, plain
+from labkit.grade.sheet import plain
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.handin import Handin
@@ -195,7 +196,7 @@ def test_the_drawn_questions_are_the_same_for_everybody(monkeypatch):
     for package in (one, two):
         child.grade(package, DAY)
     assert seeds == [4711, 4711]
-    again = child.signed(
+    again = engine.signed(
         result(*["passed"] * len(DAY.tasks)), replace(one, version="0.2.0 (ff9d311)")
     )
     assert (again.kit, again.seed) == ("0.2.0 (ff9d311)", 4711)
@@ -235,7 +236,7 @@ class TestTheGrader:
         with pytest.raises(FaultError, match=r"temporary dir|File too large"):
             grader.grade(package)
         resource.prlimit(grader.process.pid, size, (hard, hard))
-        assert grader.grade(package).tasks[0].passed
+        assert grader.grade(package)["tasks"][0]["status"] == "passed"
 
     def test_that_was_killed_leaves_nothing_for_longer_than_a_day(
         self, tmp_path, monkeypatch
@@ -262,8 +263,7 @@ class TestTheGrader:
         assert found.tasks[0].passed
         assert found.refused == ("read /etc/shadow",)
         one = Graded(Student("A", "a", Path()), found)
-        course = overview.Course(DAY, [one], [], 0, deadline=False)
-        assert "read /etc/shadow" in people.list_refused(course)
+        assert ">read /etc/shadow</p>" in page.render(Course(DAY, [one]))
 
     def test_grades_nothing_for_another_kit(self):
         with pytest.raises(Exception, match="check out the same commit on both"):
@@ -271,11 +271,11 @@ class TestTheGrader:
 
     def test_refuses_on_a_worker_that_nothing_protects(self, monkeypatch):
         package = Package(1, fingerprint(1), problem="nobody")
-        monkeypatch.setattr(graders, "refusal", lambda: "you are root")
+        monkeypatch.setattr(engine, "refusal", lambda: "you are root")
         with pytest.raises(Robo47Error, match=r"a worker on .* refuses: you are root"):
             grade_behind_wall(package)
-        monkeypatch.setattr(graders, "refusal", lambda: "")
-        assert grade_behind_wall(package).error == "nobody"
+        monkeypatch.setattr(engine, "refusal", lambda: "")
+        assert grade_behind_wall(package)["error"] == "nobody"
 
     def test_ends_when_whoever_started_it_is_gone(self, tmp_path):
         command = [sys.executable, "-m", "labkit.grade.child", str(tmp_path / "own")]
@@ -287,11 +287,7 @@ class TestTheGrader:
         assert not (tmp_path / "own").exists()
 
 
-class Liar:
-    """What a worker may send: it unpickles, and is no result."""
-
-    def to_json(self):
-        return {"tasks": [{"id": "1.1", "status": "splendid"}], "items": []}
+LIE = {"tasks": [{"id": "1.1", "status": "splendid"}], "items": []}
 
 
 class Stubborn(Executor):
@@ -331,20 +327,21 @@ class TestTheEngine:
         assert "were lost" in self.told(error=KeyError("killed"))
         assert self.told(error=FaultError("full")) == "full"
 
-    @pytest.mark.parametrize("answer", [Liar(), "PASSED", b"", {"tasks": []}, 47])
+    @pytest.mark.parametrize("answer", [LIE, object(), b"", {"tasks": []}, 47])
     def test_believes_no_worker_that_lies(self, answer):
         assert "is no result of the day" in self.told(answer=answer)
 
-    @pytest.mark.parametrize(
-        ("fact", "says"),
-        [
-            ({"seed": 10**5000}, "of another kit or seed"),
-            ({"kit": "=1\n\ud800"}, "of another kit or seed"),
-            ({"text": "x" * 10**6}, "no result of the day"),
-        ],
-    )
-    def test_takes_kit_and_seed_and_megabytes_from_no_worker(self, fact, says):
-        assert says in self.told(answer=replace(ungraded(DAY, ""), **fact))
+    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n\ud800"}])
+    def test_takes_kit_and_seed_from_no_worker(self, fact):
+        answer = asdict(replace(ungraded(DAY, ""), **fact))
+        liar = engine.Engine(Stubborn(answer=answer), lambda: 1)
+        package = Package(1, "", seed=4711, version="0.2.0")
+        ((_, _, found),) = engine.grade_all([("ana", package)], liar)
+        assert (found.kit, found.seed) == ("0.2.0", 4711)
+
+    def test_takes_megabytes_from_no_worker(self):
+        answer = asdict(replace(ungraded(DAY, ""), text="x" * 10**6))
+        assert "no result of the day" in self.told(answer=answer)
 
     @pytest.mark.parametrize("error", [ValueError, MemoryError, SystemExit, OSError])
     def test_takes_whatever_a_worker_raises_for_a_fault(self, error):
@@ -372,13 +369,14 @@ class TestTheJournal:
     PACKAGE = Package(1, "k", Handin({"a": b"1"}))
 
     @pytest.fixture
-    def opened(self, tmp_path):
+    def opened(self, tmp_path, monkeypatch):
         """Return what opens the journal, whatever has it open already."""
         last = contextlib.ExitStack()
 
-        def open_it(reference=99):
+        def open_it(now=99):
             last.close()
-            journal = Journal(tmp_path / "j", DAY, reference, deadline=False)
+            monkeypatch.setattr(time, "time", lambda: now)
+            journal = Journal(tmp_path / "j", DAY)
             return last.enter_context(contextlib.closing(journal))
 
         with last:
@@ -441,7 +439,7 @@ class TestTheJournal:
 
     def test_results_come_back_as_they_were(self):
         one = replace(ungraded(DAY, "why"), refused=("open a file",))
-        assert from_json(one.to_json(), DAY) == Result(**{**vars(one)})
+        assert from_json(asdict(one), DAY) == Result(**{**vars(one)})
 
 
 class TestNames:
@@ -633,7 +631,7 @@ class TestHistory:
             asked.append(arguments)
             raise git._SlowError
 
-        monkeypatch.setattr(git, "run_bytes", slow)
+        monkeypatch.setattr(git, "run", slow)
         assert not git.read_history(tmp_path, [SCRIPT]).readable
         assert len(asked) == 1
 
@@ -723,8 +721,17 @@ def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = Non
     return Graded(Student(name, name, Path()), result(*statuses, mistakes=mistakes))
 
 
-def tasks(found: Result) -> Sequence[Mark]:
-    return found.tasks
+def standing(class_: Sequence[Graded]) -> list[tuple[str, ...]]:
+    """Return what the page says beside each task, and the colours of its bar."""
+    _, _, chart = page.render(Course(DAY, class_)).partition('aria-label="Tasks">')
+    rows = chart.partition("</svg>")[0].split('<text x="0"')[1:]
+    return [
+        (
+            re.search(r">([^<]*)</text><rect", row)[1],
+            *re.findall(r'fill="var\(--(?!grid)([\w-]+)\)" stroke', row),
+        )
+        for row in rows
+    ]
 
 
 class TestTheOverview:
@@ -736,8 +743,8 @@ class TestTheOverview:
             graded("wrong", "wrong", *passed[2:], name="b", mistakes=both),
             graded("todo", *passed[1:], name="c", mistakes={0: "unwritten"}),
         ]
-        (only,) = overview.diagnoses(DAY, class_)
-        assert (only.mistake, only.task, only.who) == ("shape", "1.1", ("a", "b"))
+        ((mark, who),) = Course(DAY, class_).mistakes()
+        assert (mark.mistake, mark.id, who) == ("shape", "1.1", ["a", "b"])
 
     @pytest.mark.parametrize(
         ("statuses", "state"),
@@ -752,30 +759,30 @@ class TestTheOverview:
     )
     def test_says_where_a_student_is(self, statuses, state):
         wrong = {i: "name" for i, s in enumerate(statuses) if s in ("close", "wrong")}
-        assert overview.state(graded(*statuses, mistakes=wrong)) == state
+        assert graded(*statuses, mistakes=wrong).state == state
 
     def test_a_file_that_does_not_load_is_no_mistake_in_a_task(self):
         broken = dict.fromkeys(range(8), "does-not-load")
         one = graded(*["todo"] * 8, mistakes=broken)
-        assert overview.state(one) == "does not load"
-        assert overview.diagnoses(DAY, [one]) == []
-        standing = overview.standings([one], tasks)
-        assert (standing[0].stopped, standing[0].counts["does not load"]) == (0, 1)
+        assert one.state == "does not load"
+        assert Course(DAY, [one]).mistakes() == []
+        assert standing([one]) == [("0 pass", "broken")] * 8
 
     def test_counts_who_stops_where(self):
         class_ = [graded("passed", *["wrong"] * 7)] * 2
-        standing = overview.standings(class_, tasks)
-        assert [s.stopped for s in standing] == [0, 2, 0, 0, 0, 0, 0, 0]
-        assert standing[1].counts == Counter({"wrong": 2})
+        first, second, *others = standing(class_)
+        assert first == ("2 pass", "bar-pass")
+        assert second == ("0 pass, 2 stopped here", "bar-fail")
+        assert others == [("0 pass", "bar-fail")] * 6
 
 
 def test_equal_marks_are_held_once_for_the_whole_class():
     one, two = (
-        from_json(result("passed", "wrong", *["todo"] * 6).to_json(), DAY) for _ in "ab"
+        from_json(asdict(result("passed", "wrong", *["todo"] * 6)), DAY) for _ in "ab"
     )
     assert one == two
     assert all(a is b for a, b in zip(one.tasks, two.tasks, strict=True))
-    assert from_json(one.to_json(), DAY) == one
+    assert from_json(asdict(one), DAY) == one
 
 
 def test_bars_fill_their_line_and_escape_their_words():

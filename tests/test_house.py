@@ -7,6 +7,7 @@ import pytest
 
 from conftest import ROOT
 from labkit.lesson.day import find_task
+from labkit.log import append_rows
 
 # From the ground up: a room may import its own, and rooms that stand before it.
 FLOORS = [
@@ -27,7 +28,6 @@ FLOORS = [
     "labkit.update",
     "labkit.proof",
     "labkit.author",
-    "labkit.setup",
     "labkit.commands",
 ]
 # Names that labs and handouts have typed: three lines each.
@@ -76,8 +76,8 @@ def test_every_arrow_points_down():
 @pytest.mark.parametrize(
     ("task", "right", "wrong", "files", "switches"),
     [
-        ("1.4", "w, x, y, z = quat", "x, y, z, w = quat", 34, 220),
-        ("5.1", "return kp * e + kd * ed", "return kp * e - kd * ed", 36, 220),
+        ("1.4", "w, x, y, z = quat", "x, y, z, w = quat", 24, 215),
+        ("5.1", "return kp * e + kd * ed", "return kp * e - kd * ed", 26, 215),
     ],
 )
 def test_a_check_that_names_a_mistake_is_short_to_follow(
@@ -91,3 +91,14 @@ def test_a_check_that_names_a_mistake_is_short_to_follow(
     found = re.search(r"(\d+) files, (\d+) switches", done.stderr)
     assert int(found[1]) <= files
     assert int(found[2]) <= switches
+
+
+@pytest.mark.kit
+def test_a_report_loads_few_modules_of_the_kit(run, tmp_path):
+    log = tmp_path / "metrics.csv"
+    days = [{"day": n, "check": "fk", "metric": "err", "value": 1e-9} for n in (1, 2)]
+    append_rows(days, log)
+    script = ROOT / "scripts" / "report_metrics.py"
+    done = run("tests/loaded.py", script, ROBO47_METRICS=log)
+    assert (tmp_path / "report-week1.html").is_file(), done.stderr
+    assert int(re.search(r"(\d+) modules", done.stderr)[1]) <= 35

@@ -12,9 +12,11 @@ pytest.importorskip("viser", reason="the extra view")
 
 from viser import _messages
 
+from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.ghost import Ghost, Seen
+from labkit.inspector.common_tabs import Standing
+from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.meshes import Robot
 from labkit.inspector.serve import on_loop
@@ -155,9 +157,7 @@ def joint(page, i):
 
 def contents(page):
     return "\n".join(
-        child.content
-        for child in page.panel._children().values()
-        if hasattr(child, "content")
+        child.content for child in page.widgets().values() if hasattr(child, "content")
     )
 
 
@@ -195,7 +195,7 @@ def test_what_is_typed_is_read_and_what_cannot_be_is_said_and_not_done(page, say
 def test_the_exact_configuration_can_be_copied(page, say):
     say((page.tab.box, READY))
     assert repr(-np.pi / 4) in contents(page)
-    assert repr(-np.pi / 4) in page.panel.state.content
+    assert repr(-np.pi / 4) in page.state.content
 
 
 def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
@@ -215,8 +215,8 @@ def test_undo_takes_a_move_back_and_a_drag_is_one_move(page, say, monkeypatch):
 )  # fmt: skip
 def test_an_address_that_leads_nowhere_changes_nothing(page, say, query):
     before = page.arm.q.copy()
-    say(("go", query), (page.panel.frame, "link3"))
-    assert page.panel.frame.value == "link3"
+    say(("go", query), (page.frame, "link3"))
+    assert page.frame.value == "link3"
     np.testing.assert_array_equal(page.arm.q, before)
 
 
@@ -230,21 +230,21 @@ def test_a_number_that_no_slider_has_moves_nothing(page, say, value):
 def test_nothing_is_made_anew_under_somebodys_hand(page, say):
     """viser draws every widget anew when there is one more, or one less."""
     say(tab("Noisy"))
-    noisy, before = Noisy.last, set(page.panel._children())
+    noisy, before = Noisy.last, set(page.widgets())
     say((joint(page, 0), 0.3), (joint(page, 0), "none"), tab("Noisy"))
     assert page.tab is noisy
-    assert set(page.panel._children()) == before
+    assert set(page.widgets()) == before
 
 
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     say(tab("Noisy"))
-    noisy, before = Noisy.last, set(page.panel._children())
+    noisy, before = Noisy.last, set(page.widgets())
     noisy.ghost.pose({"link1": np.eye(4)})
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
     on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
     assert page.tab is noisy
-    assert set(page.panel._children()) == before
+    assert set(page.widgets()) == before
     assert len(noisy.ghost.meshes) == 1
     assert noisy.ghost.bodies["link1"].visible
 
@@ -273,7 +273,7 @@ def test_a_flood_of_moves_is_one_move(page, say):
 
 
 def test_a_tab_takes_all_that_it_made_with_it(page, say):
-    before = set(page.panel._children())
+    before = set(page.widgets())
     say(tab("Noisy"))
     noisy, drawn = Noisy.last, nodes(page)
     assert len(drawn) > 8
@@ -292,7 +292,7 @@ def test_a_tab_takes_all_that_it_made_with_it(page, say):
     time.sleep(0.1)
     assert noisy.calls == calls
     say(tab("Joints"))
-    assert len(page.panel._children()) == len(before)
+    assert len(page.widgets()) == len(before)
 
 
 def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
@@ -308,7 +308,7 @@ def test_a_tabs_own_controls_are_heard_and_odd_values_are_not(page, say):
 def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
     say(tab("Broken"))
     assert "the tab Broken stopped with ZeroDivisionError: one over" in contents(page)
-    say(tab("Joints"), (page.panel.frame, "link2"))
+    say(tab("Joints"), (page.frame, "link2"))
     say((joint(page, 0), 0.2))
     assert page.arm.q[0] == 0.2
 
@@ -324,32 +324,92 @@ def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
     assert all(shown)
 
 
-def test_the_students_poses_are_judged_in_their_name(page):
+def hear(page, poses, problem=""):
+    """Have the page hear what a student's function said where the arm is."""
     q = page.arm.q.copy()
+    seen = compare(GHOST, q, poses, problem, page.arm.poses_at(q))
+    on_loop(page.server, lambda: page.hear(seen))
+
+
+def test_the_students_poses_are_judged_in_their_name(page):
     right = {"link0": page.arm.pose("link0"), "ee": page.arm.pose("ee")}
-    on_loop(page.server, lambda: page.hear(Seen(q, right)))
+    hear(page, right)
     assert "✓ YOUR my_fk agrees" in contents(page)
     wrong = right["ee"].copy()
     wrong[2, 3] -= 0.7
-    on_loop(page.server, lambda: page.hear(Seen(q, {**right, "ee": wrong})))
+    hear(page, {**right, "ee": wrong})
     assert "✗ YOUR my_fk is off by 700 mm at ee" in contents(page)
     assert 'class="p off"' in contents(page)
-    on_loop(page.server, lambda: page.hear(None))
+    hear(page, {})
     settle(page)
+    assert "✗ YOUR my_fk gave no pose" in contents(page)
     assert "robo47.kinematics" in contents(page)
 
 
-def test_a_page_without_a_file_asks_once_and_rests(page):
-    asked = []
-    soon = page.on_loop(page.hear)
-    page.student = SimpleNamespace(want=lambda q: (asked.append(q), soon(None)))
-    on_loop(page.server, page.ask)
-    time.sleep(0.3)
-    settle(page)
-    assert len(asked) == 1
+class File:
+    """A student's file that is looked at and asked, and says nothing."""
+
+    def __init__(self, check=None):
+        self.check, self.there, self.version, self.asked = check, bool(check), 1, []
+
+    def look(self):
+        """Look for a save."""
+
+    def see(self, q):
+        self.asked.append(q)
+        return nothing(q, "nothing to see")
+
+
+@pytest.fixture
+def watched(page):
+    """Have the page watch a file; stop after the test."""
+    watching = []
+
+    def watch(file):
+        loop = page.server.get_event_loop()
+        watch = page.watch(file, file.check)
+        watching.append(asyncio.run_coroutine_threadsafe(watch, loop))
+        until(lambda: page.seen is not None)
+        settle(page)
+        return file
+
+    yield watch
+    watching[0].cancel()
+    on_loop(page.server, page.close)
+
+
+def until(true):
+    deadline = time.monotonic() + SECONDS
+    while not true() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert true()
+
+
+def test_a_page_without_a_file_asks_once_and_rests(page, watched):
+    file = watched(File())
+    time.sleep(0.2)
+    assert len(file.asked) == 1
     on_loop(page.server, lambda: page.move(page.arm.q + 0.1))
-    settle(page)
-    assert len(asked) == 2
+    until(lambda: len(file.asked) == 2)
+    assert file.asked[1][0] == page.arm.q[0]
+
+
+def test_a_save_is_asked_and_checked(page, watched):
+    file = File(lambda: Standing(f"version {file.version}"))
+    watched(file)
+    until(lambda: "version 1" in contents(page))
+    file.version = 2
+    until(lambda: "version 2" in contents(page))
+    assert len(file.asked) == 2
+
+
+def test_a_checker_that_breaks_is_said(monkeypatch):
+    def broken(*_):
+        raise ValueError("no questions")
+
+    monkeypatch.setattr(serve, "check_tasks", broken)
+    found = serve.check(find_day(1))
+    assert (found.headline, found.kind) == ("make check: no questions", "bad")
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])

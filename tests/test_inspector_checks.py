@@ -1,11 +1,11 @@
-"""The checker's verdicts beside the page, found out in the background."""
-
-from queue import Queue
+"""The checker's verdicts as the page has them in one line."""
 
 import pytest
 
+pytest.importorskip("viser", reason="the extra view")
+
 from labkit.check.tasks import TaskResult
-from labkit.inspector.checks import Checks, Standing, standing
+from labkit.inspector.common_tabs import standing
 from labkit.judge.mistake import Verdict
 from labkit.lesson.day import find_day
 
@@ -38,21 +38,3 @@ def test_a_file_that_does_not_load_is_one_line_and_no_list_of_the_same():
     found = standing(broken)
     assert found.headline == "make check: day.py, line 3: SyntaxError"
     assert [result.verdict.message for result in found.tasks] == ["", "", ""]
-
-
-def test_a_check_runs_apart_and_a_broken_checker_is_said():
-    told: Queue[Standing] = Queue()
-    answers = [[PASSED], ValueError("no questions")]
-
-    def check():
-        answer = answers.pop(0)
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
-
-    checks = Checks(check, told.put)
-    checks.again()
-    assert told.get(timeout=20).kind == "good"
-    checks.again()
-    assert told.get(timeout=20).headline == "make check: no questions"
-    checks.close()

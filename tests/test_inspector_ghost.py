@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from labkit.inspector.ghost import Ghost, Seen, compare, nearest_pose, no_pose
+from labkit.inspector.ghost import Ghost, compare, nearest_pose, no_pose
 from robo47 import se3
 
 pytestmark = pytest.mark.kit
@@ -22,12 +22,12 @@ TRUTH = {
 
 
 def said(**wrong):
-    return compare(GHOST, Seen(np.zeros(7), {**TRUTH, **wrong}), TRUTH)
+    return compare(GHOST, np.zeros(7), {**TRUTH, **wrong}, "", TRUTH)
 
 
 def test_the_right_poses_are_said_to_agree_in_the_students_name():
     apart = said()
-    assert apart.good
+    assert apart.kind == "good"
     assert apart.drawn == {}
     assert apart.sentence.startswith("YOUR my_fk agrees with MuJoCo at every frame")
 
@@ -37,7 +37,7 @@ def test_a_wrong_end_is_told_in_millimetres_with_the_first_frame_that_differs():
     moved[0, 3] += 0.744
     turned = TRUTH["link1"] @ se3.make_T(se3.Rz(0.1), [0, 0, 0])
     apart = said(ee=moved, link1=turned)
-    assert not apart.good
+    assert apart.kind == "bad"
     assert "off by 744 mm at ee; first frame that differs: link1" in apart.sentence
     assert set(apart.drawn) == {"link1", "ee"}
 
@@ -50,7 +50,7 @@ def test_a_frame_in_its_place_but_turned_is_told_in_degrees():
 def test_a_difference_in_the_last_digits_is_not_agreement():
     moved = TRUTH["ee"].copy()
     moved[0, 3] += 2e-8
-    assert not said(ee=moved).good
+    assert said(ee=moved).kind == "bad"
     assert "2.0e-08" in said(ee=moved).sentence
 
 
@@ -64,15 +64,15 @@ def test_a_matrix_without_a_rotation_is_drawn_as_the_nearest_one_and_said():
 
 def test_without_the_last_frame_the_reason_is_said_and_nothing_agrees():
     some = {"link0": TRUTH["link0"]}
-    apart = compare(GHOST, Seen(np.zeros(7), some, "my_fk stops with X."), TRUTH)
-    assert not apart.good
+    apart = compare(GHOST, np.zeros(7), some, "my_fk stops with X.", TRUTH)
+    assert apart.kind == "bad"
     assert apart.sentence == "my_fk stops with X."
 
 
 def test_an_end_alone_agrees_here_and_not_everywhere():
-    seen = Seen(np.zeros(7), {"ee": TRUTH["ee"]}, "Only ee is drawn: no path.")
-    apart = compare(GHOST, seen, TRUTH)
-    assert apart.good
+    end, why = {"ee": TRUTH["ee"]}, "Only ee is drawn: no path."
+    apart = compare(GHOST, np.zeros(7), end, why, TRUTH)
+    assert apart.kind == "good"
     assert "agrees with MuJoCo here" in apart.sentence
     assert "Only ee is drawn" in apart.sentence
 

@@ -1,20 +1,22 @@
 """The student's file behind the page: asked, reloaded, and never in this process."""
 
-import threading
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from labkit.base.exchange import LoadError, Question, Reply
+from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost
-from labkit.inspector.student import Source, Student, describe, source_of
+from labkit.inspector.student import Student, describe
 from labkit.lesson.day import find_day
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
 
-SECONDS = 20
+Q = np.zeros(7)
+DAY = SimpleNamespace(tasks=[SimpleNamespace(id="1.6", functions=["f"])])
 GHOST = Ghost(
     "my_fk", ("link0", "ee"), lambda model, q: [(1.0,), (2.0,)], lambda model, q: (3.0,)
 )
@@ -41,17 +43,15 @@ class Fake:
 
 
 class Desk:
-    """A student's file, and what the page is told of it."""
+    """A student's file, the sandbox that opens it, and who asks."""
 
     def __init__(self, path, ghost=GHOST) -> None:
-        self.path, self.opened, self.told = path, [], []
-        self.news = threading.Condition()
-        source = Source(path, self.open, said)
-        self.student = Student(
-            source, ghost, panda.load(), self.hear, lambda: self.opened.append("saved")
-        )
+        self.path = path
+        arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+        opens = SimpleNamespace(session=self.open)
+        self.student = Student(find_day(1), arm, ghost, opens, path)
 
-    def open(self, path):
+    def open(self, path, *_, **__):
         text = path.read_text()
         if text == "broken":
             raise LoadError(Reply(kind="SyntaxError", error="invalid syntax"))
@@ -59,109 +59,76 @@ class Desk:
         return self.fake
 
     def save(self, text):
+        """Save the file and have it seen; return what its function says then."""
         new = self.path.with_suffix(".new")
         new.write_text(text)
-        new.replace(self.path)  # nobody sees half of it
+        new.replace(self.path)
+        return self.see()
 
-    def hear(self, seen):
-        with self.news:
-            self.told.append(seen)
-            self.news.notify_all()
-
-    def until(self, true):
-        with self.news:
-            assert self.news.wait_for(
-                lambda: self.told and true(self.told[-1]), SECONDS
-            ), self.told[-1:]
-        return self.told[-1]
-
-
-def said(function, reply):
-    return f"{function}: {reply.kind} {reply.error}." if reply.kind else ""
+    def see(self, q=Q):
+        self.student.look()
+        return self.student.see(q)
 
 
 @pytest.fixture
 def desk(tmp_path):
-    made = Desk(tmp_path / "day.py")
-    made.student.want(np.zeros(7))
-    made.student.start()
-    yield made
-    made.student.close()
-    made.student.join(SECONDS)
-    assert not made.student.is_alive()
+    return Desk(tmp_path / "day.py")
 
 
-def test_without_a_file_the_page_is_told_that_there_is_none(desk):
-    assert desk.until(lambda seen: seen is None) is None
+def test_without_a_file_the_page_says_that_there_is_none(desk):
+    seen = desk.see()
+    assert seen.kind == "quiet"
+    assert "day.py yet: make start DAY=1. Shown is the kit's library." in seen.sentence
 
 
 def test_a_file_that_appears_is_asked_and_one_that_goes_is_forgotten(desk):
-    desk.save("2")
-    seen = desk.until(lambda seen: seen is not None)
-    np.testing.assert_array_equal(seen.poses["ee"], 2 * np.eye(4))
+    np.testing.assert_array_equal(desk.save("2").poses["ee"], 2 * np.eye(4))
     desk.path.unlink()
-    desk.until(lambda seen: seen is None)
+    assert desk.see().poses == {}
+    assert not desk.student.there
 
 
-def test_a_save_is_seen_and_the_file_asked_anew(desk):
+def test_a_save_is_seen_once_and_the_file_asked_anew(desk):
     desk.save("2")
-    desk.until(lambda seen: seen is not None)
-    desk.save("3.5")
-    desk.until(lambda seen: seen is not None and seen.poses["ee"][0, 0] == 3.5)
-    assert len(desk.opened) >= 2
+    before = desk.student.version
+    assert desk.save("3.5").poses["ee"][0, 0] == 3.5
+    desk.see()
+    assert desk.student.version == before + 1
 
 
 def test_a_file_that_does_not_load_is_said_and_the_next_save_is_asked(desk):
-    desk.save("broken")
-    said = desk.until(lambda seen: seen is not None).problem
+    said = desk.save("broken").sentence
     assert "day.py" in said
     assert "SyntaxError: invalid syntax" in said
-    desk.save("2")
-    desk.until(lambda seen: seen is not None and seen.poses)
+    assert desk.save("2").poses
 
 
 def test_an_endless_loop_is_asked_once_and_again_only_after_a_save(desk):
-    desk.save("loop")
-    seen = desk.until(lambda seen: seen is not None)
-    assert "it runs on" in seen.problem
-    assert "Save the file to have it asked again" in seen.problem
+    seen = desk.save("loop")
+    assert "it runs on" in seen.sentence
+    assert "Save the file to have it asked again" in seen.sentence
     asked = len(desk.fake.asked)
-    desk.student.want(np.ones(7))
-    desk.until(lambda seen: seen is not None and seen.q[0] == 1)
+    assert desk.see(np.ones(7)).sentence == seen.sentence
     assert len(desk.fake.asked) == asked
-    desk.save("2")
-    desk.until(lambda seen: seen is not None and seen.poses)
+    assert desk.save("2").poses
 
 
 def test_a_chain_that_takes_no_path_shows_its_end_alone(desk):
-    desk.save("no path")
-    seen = desk.until(lambda seen: seen is not None)
+    seen = desk.save("no path")
     assert set(seen.poses) == {"ee"}
-    assert seen.problem == "Only ee is drawn: my_fk: TypeError no path."
+    assert "Only ee is drawn: my_fk: It stops with TypeError: no path." in seen.sentence
 
 
 def test_a_question_that_fails_on_our_side_is_said_and_the_next_is_asked(desk):
     desk.save("2")
-    desk.until(lambda seen: seen is not None)
     desk.fake.text = "no number"  # the fake itself fails over it
-    desk.student.want(np.ones(7))
-    assert "could not convert" in desk.until(lambda seen: seen.problem).problem
+    assert "could not convert" in desk.see().sentence
     desk.fake.text = "3"
-    desk.student.want(np.zeros(7))
-    desk.until(lambda seen: seen.poses)
-
-
-def test_of_many_configurations_the_last_one_is_answered(desk):
-    desk.save("2")
-    desk.until(lambda seen: seen is not None)
-    for x in range(50):
-        desk.student.want(np.full(7, x / 100))
-    desk.until(lambda seen: seen is not None and seen.q[0] == 0.49)
+    assert desk.see().poses
 
 
 def test_a_tab_may_ask_any_function(desk):
     desk.save("2")
-    desk.until(lambda seen: seen is not None)
     (reply,) = desk.student.ask([Question("view", "jacobian", (1.0,))])
     np.testing.assert_array_equal(reply.value, 2 * np.eye(4))
 
@@ -181,34 +148,25 @@ def test_a_tab_may_ask_any_function(desk):
     ],
 )
 def test_what_is_no_answer_is_told_in_the_words_of_make_check(reply, says):
-    assert describe({"f": "1.6"}, "f", reply) == says
+    assert describe(DAY, "f", reply) == says
 
 
 def test_a_file_that_loads_the_robot_at_its_top_is_opened_as_make_check_does(tmp_path):
     script = tmp_path / "day1_transforms.py"
     load = "from robo47 import panda\nMODEL = panda.load()\n"
     script.write_text(load + "def f(model): return model.nq + MODEL.nq")
-    model = panda.load()
-    question = Question("view", "f", (model,))
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
     with Sandbox() as sandbox:
-        source = source_of(find_day(1), model, sandbox)
-        (reply,) = source.open(script).ask([question], SECONDS)
+        student = Student(find_day(1), arm, None, sandbox, script, seconds=20)
+        student.look()
+        (reply,) = student.ask([Question("view", "f", (arm.model,))])
     assert reply.value == 14, reply.error
 
 
-def test_a_day_without_a_ghost_is_watched_and_asked_all_the_same(tmp_path):
-    script = tmp_path / "day.py"
-    script.write_text("2")
-    desk = Desk(script, ghost=None)
-    desk.student.start()
-    try:
-        desk.student.want(panda.READY_Q)
-        desk.until(lambda seen: seen is not None and not seen.problem)
-        assert desk.fake.asked == []  # for no pose
-        (reply,) = desk.student.ask([Question("view", "space_jacobian", ())])
-        assert reply.value[0, 0] == 2.0
-        desk.save("broken")
-        desk.until(lambda seen: "invalid syntax" in seen.problem)
-        assert desk.opened.count("saved") >= 2
-    finally:
-        desk.student.close()
+def test_a_day_without_a_ghost_is_opened_and_asked_all_the_same(tmp_path):
+    desk = Desk(tmp_path / "day.py", ghost=None)
+    assert desk.save("2").sentence == ""
+    assert desk.fake.asked == []  # for no pose
+    (reply,) = desk.student.ask([Question("view", "space_jacobian", ())])
+    assert reply.value[0, 0] == 2.0
+    assert "invalid syntax" in desk.save("broken").sentence

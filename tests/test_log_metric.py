@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 from labkit.log import append_row, read_rows
+from labkit.log.logfile import OWN_LOG, command
 from labkit.log.rows import HEADER as LINE
+from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 
@@ -157,3 +159,11 @@ def test_check_names_rows_that_a_union_merge_brought_back(log, run):
     assert done.stdout.count("note, line") == len(brought_back)
     for line in brought_back:
         assert line[-40:] in done.stdout
+
+
+def test_a_command_names_a_log_that_is_not_the_kits_own():
+    start = "python3 scripts/log_metric.py --check"
+    assert command("--check", OWN_LOG) == start
+    assert command("--check", ROOT / "a.csv") == f"{start} --file a.csv"
+    spaced = ROOT.parent / "my logs" / "a.csv"
+    assert command("--check", spaced) == f'{start} --file "{spaced}"'

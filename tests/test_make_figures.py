@@ -16,7 +16,6 @@ from PIL import Image
 
 from labkit.figures import overlay, portrait, sheet
 from labkit.figures.lessons import lesson_figures
-from labkit.lesson import folder
 from labkit.lesson.day import all_days
 
 pytestmark = pytest.mark.kit
@@ -40,7 +39,7 @@ def test_the_committed_pictures_are_there(name):
 @pytest.mark.parametrize("day", all_days(), ids="day{0.number}".format)
 def test_a_weeks_table_shows_the_days_picture_as_it_is_now(day):
     lesson_figures(day.number)  # makes the lab importable
-    name, *part = folder.load(day, "figures").SMALL
+    name, *part = day.module("figures").SMALL
     figures = day.folder / "figures"
     kept = Image.open(figures / f"day{day.number}_small.png").convert("RGB")
     whole = Image.open(figures / f"day{day.number}_{name}.png").convert("RGB")

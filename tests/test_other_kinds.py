@@ -18,9 +18,10 @@ from labkit.judge import (
     Vector,
     Waypoints,
 )
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import stacked
 from labkit.judge.judge import judge
-from labkit.judge.mistake import InTurn, Mistake
+from labkit.judge.mistake import Mistake
 
 NUMBERS = np.random.default_rng(3)
 

@@ -182,8 +182,8 @@ def test_what_the_panda_has_not_is_refused_with_what_it_has(asked, words):
     ("read", "words"),
     [
         (panda.home_q, "no keyframe `home`"),
-        (panda.inertias, "no joint 'joint1'"),
-        (panda.screws, "no joint 'joint1'"),
+        (panda.inertias, "no joint1 to joint7"),
+        (panda.screws, "no joint1 to joint7"),
         (panda.home_pose, "no site:attachment_site and no body:hand"),
         (lambda model: simulate.start(model, panda.READY_Q), "no joint1 to joint7"),
     ],

@@ -14,10 +14,12 @@ pytest.importorskip("viser", reason="the extra view")
 from labkit.base.git import History
 from labkit.grade.roster import Student
 from labkit.lesson.day import days_of, find_day
+from labkit.lesson.marks import Writers, file_mark
 from labkit.lesson.week import find_week
 from labkit.proof import facts, page
 from labkit.proof.class_pages import write_pages
 from labkit.proof.pick import Picked, pick
+from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
 
@@ -88,8 +90,10 @@ def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path, sa
     functions = [f for task in first.day.tasks for f in task.functions]
     assert sorted(first.own) == sorted(functions)
     assert not any(one.own for one in rest)
-    assert all(number.metric.passes(number.again) for number in first.numbers)
-    assert [number.worth for number in first.numbers] == ["none", "none"]
+    for number in first.numbers:
+        wanted = number.wanted
+        assert wanted.passes(first.again[wanted.check, wanted.metric])
+        assert number.status == "none"
     used = set(capstone.USES[1]) & set(functions)
     assert proof.picked.yours == len(used)
     assert not proof.picked.result.failed
@@ -108,17 +112,21 @@ def test_a_transposed_jacobian_is_not_theirs_and_its_numbers_are_not_run(
     it = a_clone(tmp_path / "of", 3, mark, wrong + mark)
     (tmp_path / "files").mkdir()
     found = facts.facts_of(find_day(3), it, tmp_path / "files", sandbox)
-    assert found.states["space_jacobian"] == "wrong"
+    (task,) = (t for t in find_day(3).tasks if "space_jacobian" in t.functions)
+    assert found.states[task.id] == "wrong"
     assert "space_jacobian" not in found.own
-    assert all(number.again is None for number in found.numbers)
+    assert found.again == {}
 
 
 def hostile():
     """Return a proof in which all that comes from outside wants to be a tag."""
     day = find_day(1)
-    numbers = [facts.Number(metric, 1e-15, "stale", None) for metric in day.metrics]
-    states = {EVIL: "passed", "Rz": EVIL}
-    one = facts.DayFacts(day, states, numbers, EVIL, EVIL)
+    numbers = [Series(1, metric, Writers(own=set())) for metric in day.metrics]
+    for number in numbers:
+        mark = file_mark(b"another file")
+        number.add({"value": 1e-15, "n_failures": 0, "notes": f"{EVIL}; {mark}"})
+    states = {task.id: EVIL for task in day.tasks}
+    one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
     history = History(True, EVIL, 0, EVIL)
     clone = facts.Clone(Student(EVIL, EVIL, Path(EVIL)), history=history)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
@@ -184,7 +192,8 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
             )
 
     day = find_day(1)
-    known = facts.DayFacts(day, {"make_T": "passed"}, [])
+    (task,) = (task for task in day.tasks if "make_T" in task.functions)
+    known = facts.RunDay(day, {task.id: "passed"}, [])
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("labkit.check.lab_run.stops_with", lambda reply: "It hangs.")
         found = pick([known], [day.source.parent], Failing())

@@ -8,16 +8,20 @@ import pytest
 pytest.importorskip("viser", reason="the extra view")
 
 from labkit.inspector.recording import Recording
-from labkit.inspector.shapes import shapes, thinned
+from labkit.inspector.shapes import shapes
 from robo47 import panda, scenes
 
 pytestmark = pytest.mark.kit
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory):
+def film():
+    return Recording(scenes.table_top(meshes=True))
+
+
+@pytest.fixture(scope="module")
+def page(film, tmp_path_factory):
     """Return a file in which the arm's first joint turns for two seconds."""
-    film = Recording(scenes.table_top(meshes=True))
     for angle in np.linspace(0.0, 1.0, 60):
         film.pose([angle, *panda.READY_Q[1:]])
         film.wait()
@@ -32,9 +36,8 @@ def test_a_film_with_the_robots_meshes_is_under_two_megabytes(page):
     assert page.stat().st_size < 2_000_000
 
 
-def test_thin_shapes_are_where_the_full_ones_are():
-    for shape in shapes(scenes.table_top(meshes=True)):
-        thin = thinned(shape, 1 / 256)
+def test_thin_shapes_are_where_the_full_ones_are(film):
+    for shape, thin in zip(shapes(film.model), film.draw.coarse, strict=True):
         assert thin.faces.max() < len(thin.vertices) <= len(shape.vertices)
         for end in (np.min, np.max):
             off = end(thin.vertices, axis=0) - end(shape.vertices, axis=0)
@@ -49,7 +52,8 @@ def test_it_plays_from_disk_and_asks_nobody(page, chromium):
             executable_path=chromium,
             args=["--use-gl=angle", "--use-angle=swiftshader", "--no-sandbox"],
         )
-        tab, asked, errors = browser.new_page(), [], []
+        tab = browser.new_page(viewport={"width": 480, "height": 320})
+        asked, errors = [], []
         tab.on("request", lambda request: asked.append(request.url))
         tab.on("pageerror", lambda error: errors.append(str(error)))
         tab.goto(page.as_uri())

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 from conftest import write_week
-from labkit.lesson.day import Metric
+from labkit.lesson.day import Metric, all_days
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan
@@ -47,7 +47,7 @@ def run(run):
 
 def series_of(metric: str, *values: float, limit: Metric | None = None) -> Series:
     """Return a series of these values."""
-    series = Series((1, "c", metric), limit)
+    series = Series(1, limit or Metric("c", metric))
     series.rows = [typed({"value": v, "git_sha": "abc1234"}, False)[0] for v in values]
     return series
 
@@ -101,12 +101,12 @@ def test_the_threshold_of_one_day_is_not_anothers_and_days_can_be_jumped_to(log)
 
 def test_what_fails_comes_first_in_its_day(log):
     lines = [line(value=1, check="a"), line(value=1, check="fk")]
-    assert [s.check for s in report_on(log, *lines).series] == ["fk", "a"]
+    assert [s.wanted.check for s in report_on(log, *lines).series] == ["fk", "a"]
 
 
 def test_what_the_manifest_asks_for_is_shown_before_it_is_run(log):
     (series,) = report_on(log).series
-    assert (series.check, series.status) == ("fk", "none")
+    assert (series.wanted.check, series.status) == ("fk", "none")
     assert "not run yet" in page.render(report_on(log), "")
 
 
@@ -211,17 +211,17 @@ def test_each_point_names_its_commit(log):
 
 
 def test_thresholds_are_the_manifests_and_a_broken_one_is_named(tmp_path):
-    limits = thresholds()
+    limits = thresholds(all_days())
     assert limits[1, "fk_identity_check", "inv_err"].max == 1e-10
     assert limits[1, "fk_by_hand", "max_abs_err"].max == 1e-8
-    assert thresholds(tmp_path) == {}
+    assert thresholds(all_days(tmp_path)) == {}
     manifest = tmp_path / "w1-x" / "day1" / "day.toml"
     manifest.parent.mkdir(parents=True)
     write_week(tmp_path / "w1-x", 1)
     for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
         manifest.write_text(text)
         with pytest.raises(Robo47Error, match=r"day\.toml"):
-            thresholds(tmp_path)
+            thresholds(all_days(tmp_path))
 
 
 def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log, run):

@@ -5,7 +5,8 @@ import pytest
 
 from labkit.judge import Scalar
 from labkit.judge import argument_mistakes as kinds
-from labkit.judge.row import REDONE, Row
+from labkit.judge.mistake import REDONE
+from labkit.judge.row import Row
 
 
 def row_of_two(answers):

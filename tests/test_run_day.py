@@ -2,8 +2,8 @@
 
 import pytest
 
-from labkit.lesson import originals
 from labkit.lesson.day import days_of, find_day
+from labkit.lesson.script import is_kits, require_kits
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -89,7 +89,7 @@ def test_a_script_that_is_not_the_kits_is_refused_in_a_line(run_in, day, text):
         day.source.unlink()
     else:
         day.source.write_text(text, "latin-1")
-    assert not originals.is_kits(day)
+    assert not is_kits(day)
     for command in ((RUN, "1", "--kit"), (START, "1"), (START, "--reset", "1.1")):
         done = run_in(*command)
         assert done.returncode == 2
@@ -100,14 +100,14 @@ def test_a_script_that_is_not_the_kits_is_refused_in_a_line(run_in, day, text):
 
 
 def test_the_kits_own_is_the_kits(day):
-    originals.require_kits(day)
+    require_kits(day)
     text = day.source.read_text("utf-8").replace("# region 1.8", "#", 1)
     day.source.write_text(text, "utf-8")
     with pytest.raises(
         Robo47Error,
         match=r"py, line \d+: endregion 1\.8, but no region is open\. Do you write",
     ):
-        originals.require_kits(day)
+        require_kits(day)
 
 
 def test_the_week_is_one_table_of_numbers_and_limits(run_in, day):

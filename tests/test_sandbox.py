@@ -5,8 +5,9 @@ import contextlib
 import numpy as np
 import pytest
 
-from labkit.base.exchange import Exchange, Limits, LoadError, Path, Question
+from labkit.base.exchange import Exchange, LoadError, Path, Question
 from labkit.judge import Robot
+from labkit.lesson.day import Limits
 from labkit.sandbox import messages, process, sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -187,7 +188,7 @@ class TestALoop:
             Question("1.4", "fine", ()),
             Question("1.5", "fine", ()),
         ]
-        replies = ask(code, *questions, needs={"1.3": ["1.2"], "1.4": ["1.3"]})
+        replies = ask(code, *questions, needs={"1.3": ["1.2"], "1.4": ["1.2", "1.3"]})
         kinds = [reply.kind for reply in replies]
         assert kinds == ["", "", "stopped", "stopped", "waits", "waits", ""]
         assert [replies[i].again for i in (0, 6)] == [47, 47]
@@ -353,12 +354,26 @@ class TestWhatItMayImport:
         (reply,) = ask(code, Question("", "f", (Robot("panda"),)))
         assert reply.value == 9
 
-    def test_is_sent_the_panda_only_where_code_names_it(self, student):
-        assert messages.request(student("x = 1"), [], None)["models"] == []
-        script = student("from robo47 import panda")
-        (copy,) = messages.request(script, [], None)["models"]
+    @pytest.mark.parametrize(
+        ("code", "sent"),
+        [
+            ("x = 1", 0),
+            ("from robo47 import panda\nX = panda.READY_Q", 0),
+            ("from robo47 import panda\ndef main():\n  panda.load()\nrun(main)", 0),
+            ("from robo47 import panda\ndef f():\n  return panda.load()", 1),
+            ("from robo47.panda import load as get\nX = get()", 1),
+            (
+                "from robo47 import panda\ndef main():\n  panda.load()\n"
+                "def f():\n  main()\nrun(main)",
+                1,
+            ),
+        ],
+    )
+    def test_is_sent_the_panda_only_where_a_task_may_load_it(self, student, code, sent):
+        script = student(code)
+        assert len(messages.request(script, [], None)["models"]) == sent
+        (copy,) = messages.request(script, [Robot()], None)["models"]
         assert copy["entry"] == "panda_nohand"
-        assert messages.request(script, [Robot()], None)["models"] == [copy]
 
     def test_is_no_module_that_does_not_exist(self, ask):
         with pytest.raises(LoadError, match=r"named 'robo47\.nothing'"):

@@ -7,12 +7,17 @@ import numpy as np
 import pytest
 
 from labkit.check.lab_run import rehearse
-from labkit.check.source import old_names
 from labkit.check.tasks import check_tasks
 from labkit.lesson import borrowed
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.starter import BORROWED, borrowed_tasks, make_starter, read_script
+from labkit.lesson.script import (
+    BORROWED,
+    borrowed_tasks,
+    make_starter,
+    old_names,
+    read_script,
+)
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 

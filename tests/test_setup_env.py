@@ -33,7 +33,7 @@ def setup(monkeypatch, tmp_path):
     module = load()
     for name in ("pyproject.toml", "constraints.txt"):
         (tmp_path / name).write_text((ROOT / name).read_text("utf-8"), "utf-8")
-    monkeypatch.setattr(module, "ROOT", str(tmp_path))
+    monkeypatch.setattr(module, "ROOT", tmp_path)
     monkeypatch.setattr(module.shutil, "which", lambda name: None)
     module.commands = []
     module.answers = {}
@@ -99,28 +99,28 @@ def test_an_extra_is_installed_once_and_another_folder_is_another_environment(
 def test_an_environment_without_a_stamp_or_a_python_or_pip_is_not_whole(tmp_path):
     real, venv = load(), tmp_path / "v"
     python = venv / real.PYTHON_IN_VENV
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
     python.parent.mkdir(parents=True)
     python.symlink_to(sys.executable)
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
     (venv / ".made").write_bytes(b"")
-    assert real.made_with(str(venv)) == NOW
+    assert real.made_with(venv) == NOW
     python.unlink()
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
 
 
 def test_an_environment_that_uv_filled_is_whole_and_one_that_it_began_is_not(tmp_path):
     real, venv = load(), tmp_path / "v"
     subprocess.run([sys.executable, "-m", "venv", venv], check=True)
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
     with (venv / "pyvenv.cfg").open("a") as file:
         file.write("uv = 0.13.9\n")
-    assert real.made_with(str(venv)) is None
+    assert real.made_with(venv) is None
     (package,) = venv.rglob("site-packages")
     (package / "mujoco.py").touch()
-    assert real.made_with(str(venv)) == NOW
+    assert real.made_with(venv) == NOW
 
 
 def test_what_uv_and_pip_install_are_the_same_versions_and_public():

@@ -10,8 +10,9 @@ from test_screws import any_screws, poses
 
 from bench.bench_fk import tilted_panda
 from robo47 import jacobian, kinematics, panda, screws, verify
+from robo47.fast.chains import one_of
 from robo47.fast.exponentials import plan_of
-from robo47.fast.jacobians import jacobians
+from robo47.fast.jacobians import columns_of, jacobians
 
 EVERY_JOINT = """
 <mujoco><worldbody><body name="a" pos="0.1 0.2 0.3" quat="1 2 3 4">
@@ -38,7 +39,6 @@ def test_slides_and_references_are_taken_into_account():
     q = verify.random_q(model, 20, seed=5)
     truth = verify.mujoco_poses(model, q)["site:tip"]
     chain = kinematics.chain_to(model, "tip")
-    assert chain.plan.single is not None
     for row, T in zip(q, truth, strict=True):
         assert_same(kinematics.fk(chain, row), T, 1e-14)
 
@@ -54,17 +54,19 @@ def test_the_jacobians_are_the_formulas_whatever_the_joints(S, M):
     assert_same(jacobians(S, M, q, at_end=True), at_end, 1e-12)
     for i in range(2):
         assert_same(jacobian.space_jacobian(S, q[i]), formula[i], 1e-12)
-        columns, frame = plan_of(S, M).alone.jacobian(q[i].tolist(), at_end=True)
+        columns, frame = columns_of(plan_of(S, M), one_of(q[i].tolist()), at_end=True)
         assert_same(np.transpose(frame), T[i, :3], 1e-12)
         assert_same(np.transpose(columns), at_end[i], 1e-12)
 
 
-def test_a_robot_with_a_ball_joint_is_left_to_the_batch():
+def test_a_ball_joint_alone_is_what_it_is_in_a_batch():
     model = mujoco.MjModel.from_xml_string(EVERY_JOINT.format(more=BALL))
     chain = kinematics.chain_to(model, "body:b")
-    assert chain.plan.single is None
-    q = np.array([0.3, 0.4, 1.0, 0.0, 0.0, 0.0])
-    assert_same(kinematics.fk(chain, q), kinematics.fk(chain, [q, q])[1], 0.0)
+    q = np.array([0.3, 0.4, 1.0, 2.0, 0.0, 3.0])
+    assert_same(kinematics.fk(chain, q), kinematics.fk(chain, [q, q])[1], 1e-15)
+    q[2:] = 0.0
+    with pytest.raises(ValueError, match="joint 2: its quaternion in qpos has length"):
+        kinematics.fk(chain, q)
 
 
 def test_the_shape_is_the_callers_and_nothing_is_shared(twin):

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from labkit.base import html
-from labkit.base.text import visible, visible_lines
+from labkit.base.text import count, visible, visible_lines
 
 
 class TestVisible:
@@ -49,3 +49,7 @@ def test_no_page_holds_what_a_reader_would_obey_and_not_see():
     assert not set(odd) - {" "} & set(whole)
     assert "<p>a          b</p>\nnext" in whole
     whole.encode("utf-8")
+
+
+def test_a_count_agrees_with_its_noun():
+    assert [count(n, "row") for n in (0, 1, 1000)] == ["0 rows", "1 row", "1,000 rows"]

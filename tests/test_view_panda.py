@@ -3,19 +3,20 @@
 import importlib.util
 import re
 import socket
-import subprocess
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
-from inspection import SCRIPT, Served
+from inspection import Served
 
-from conftest import ROOT, need
+from conftest import need
+from labkit.commands import view
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
 VIEW = "scripts/view_panda.py"
-NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
 ON_LINUX = sys.platform.startswith("linux")
 
 
@@ -24,29 +25,28 @@ def viser() -> None:
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
 
 
-def run_after(preparation: str, *arguments: object) -> subprocess.CompletedProcess[str]:
-    """Run the script in a Python that was prepared first."""
-    code = (
-        f"import runpy, sys; sys.argv[:] = {[str(SCRIPT), *map(str, arguments)]!r}\n"
-        f"sys.path.insert(0, {str(SCRIPT.parent)!r})\n"
-        f"{preparation}\n"
-        "runpy.run_path(sys.argv[0], run_name='__main__')"
-    )
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+@pytest.fixture
+def look(monkeypatch):
+    """Run the command in this process; return its exit code."""
+
+    def called(*arguments: object) -> int:
+        monkeypatch.setattr(sys, "argv", [VIEW, *map(str, arguments)])
+        return view.main()
+
+    return called
 
 
-def is_refused(done, *says: str) -> bool:
-    """Return whether it ended with exit code 2 and one line, which has these words."""
-    line = done.stderr
-    one = line.startswith("error: ") and line.count("\n") == 1
-    return done.returncode == 2 and one and all(word in line for word in says)
+@pytest.fixture
+def refused(look):
+    """Run the command where it must refuse; return its one line."""
+
+    def called(*arguments: object) -> str:
+        with pytest.raises(Robo47Error) as error:
+            look(*arguments)
+        assert "\n" not in str(error.value)
+        return str(error.value)
+
+    return called
 
 
 def test_help_shows_every_way_to_look_and_fits_80_columns(run):
@@ -56,41 +56,38 @@ def test_help_shows_every_way_to_look_and_fits_80_columns(run):
     assert max(map(len, said.splitlines())) <= 80
 
 
-def test_it_prints_the_robot_the_address_one_ssh_line_and_ends_with_ctrl_c(viser):
+@pytest.fixture(scope="module")
+def first():
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
     with Served("--port", "0") as server:
-        assert server.press_ctrl_c() == 0
-    lines = server.said.splitlines()
+        yield server
+
+
+def test_a_second_inspector_takes_the_next_free_port_and_says_so(first):
+    with Served("--port", str(first.port)) as second:
+        pass
+    assert second.port > first.port
+    assert f"port {first.port} is taken; using {second.port}\n" in second.said
+    assert second.path != first.path  # every start has an address of its own
+    assert len(second.path.strip("/")) >= 16
+
+
+def test_it_prints_the_robot_the_address_one_ssh_line_and_ends_with_ctrl_c(first):
+    assert first.press_ctrl_c() == 0
+    lines = first.said.splitlines()
     assert lines[0].startswith("robot: Franka Panda (panda_nohand), ")
-    assert lines[1].startswith(f"inspector: {server.url} ")
+    assert lines[1].startswith(f"inspector: {first.url} ")
     ssh = [line.strip() for line in lines if line.strip().startswith("ssh ")]
     assert len(ssh) == 1
-    end = f"{server.port}:127.0.0.1:{server.port}"
+    end = f"{first.port}:127.0.0.1:{first.port}"
     assert re.fullmatch(rf"ssh -L {end} \S+@\S+", ssh[0])
-    assert "viser" not in server.said  # its own banner would say it all twice
-    assert server.said.endswith("\ninspector stopped\n")
-    assert "Traceback" not in server.said
-
-
-def test_a_taken_port_moves_to_the_next_free_one_and_says_so(viser):
-    with socket.socket() as other:
-        other.bind(("127.0.0.1", 0))
-        other.listen()
-        taken = other.getsockname()[1]
-        with Served("--port", str(taken)) as server:
-            pass
-    assert server.port > taken
-    assert f"port {taken} is taken; using {server.port}\n" in server.said
-
-
-def test_two_inspectors_at_once_get_a_port_each(viser):
-    with Served("--port", "0") as first, Served("--port", str(first.port)) as second:
-        pass
-    assert second.port != first.port
+    assert "viser" not in first.said  # its own banner would say it all twice
+    assert first.said.endswith("\ninspector stopped\n")
+    assert "Traceback" not in first.said
 
 
 def test_no_free_port_at_all_is_one_clear_line(viser, monkeypatch):
     from labkit.inspector import serve
-    from robo47.errors import Robo47Error
 
     monkeypatch.setattr(serve, "PORTS_TRIED", 1)
     with socket.socket() as other:
@@ -101,52 +98,53 @@ def test_no_free_port_at_all_is_one_clear_line(viser, monkeypatch):
 
 
 @pytest.mark.parametrize("wrong", ["70000", "-1", "http"])
-def test_a_port_that_is_none_is_refused(run, wrong):
-    done = run(VIEW, "--web", f"--port={wrong}")
-    assert done.returncode == 2
-    assert "argument --port" in done.stderr
+def test_a_port_that_is_none_is_refused(look, capsys, wrong):
+    with pytest.raises(SystemExit, match="2"):
+        look("--web", f"--port={wrong}")
+    assert "argument --port" in capsys.readouterr().err
 
 
-def test_without_viser_it_names_the_command_that_installs_it():
-    hide = (
-        "import importlib.util as u; find = u.find_spec\n"
-        "u.find_spec = lambda name, *a: None if name == 'viser' else find(name, *a)"
-    )
-    assert is_refused(run_after(hide, "--web"), "`make view` installs it")
+def test_without_viser_it_names_the_command_that_installs_it(refused, monkeypatch):
+    find = importlib.util.find_spec
+    hidden = lambda name, *more: None if name == "viser" else find(name, *more)  # noqa: E731
+    monkeypatch.setattr(importlib.util, "find_spec", hidden)
+    assert "`make view` installs it" in refused("--web")
     # the browser is the default, whatever display there is
-    assert is_refused(run_after(hide), "the inspector needs viser")
+    assert "the inspector needs viser" in refused()
 
 
 @pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
+@pytest.mark.parametrize(
+    ("display", "says"),
+    [("", "no display"), (":4747", "the display cannot open an OpenGL window")],
+)
 def test_without_a_display_the_window_is_refused_in_one_line_that_names_the_browser(
-    run,
+    refused, monkeypatch, display, says
 ):
-    done = run(VIEW, "--native", **NO_DISPLAY)
-    assert is_refused(done, "no display", "make view")
-
-
-@pytest.mark.skipif(not ON_LINUX, reason="only Linux tells by its environment")
-def test_a_display_that_is_not_there_does_not_end_the_process_by_surprise(run):
-    done = run(VIEW, "--native", DISPLAY=":4747", WAYLAND_DISPLAY="")
-    assert is_refused(done, "make view")
+    monkeypatch.setenv("DISPLAY", display)
+    monkeypatch.setenv("WAYLAND_DISPLAY", "")
+    line = refused("--native")
+    assert says in line
+    assert "make view" in line
 
 
 def test_a_day_that_is_not_there_is_one_line(run):
-    assert is_refused(run(VIEW, "99"), "no day 99")
+    done = run(VIEW, "99")
+    assert done.returncode == 2
+    assert re.fullmatch("error: .*no day 99.*\n", done.stderr)
 
 
-def test_a_clip_never_replaces_a_file_and_knows_its_endings(run, tmp_path):
+def test_a_clip_never_replaces_a_file_and_knows_its_endings(refused, tmp_path):
     path = tmp_path / "arm.gif"
     path.write_text("mine")
-    assert is_refused(run(VIEW, "1", "--clip", path))
+    assert "is there already" in refused("1", "--clip", path)
     assert path.read_text() == "mine"
-    done = run(VIEW, "1", "--clip", tmp_path / "arm.mp4")
-    assert is_refused(done, ".gif or .webp")
+    assert ".gif or .webp" in refused("1", "--clip", tmp_path / "arm.mp4")
 
 
-def test_a_clip_of_a_file_that_is_not_there_is_one_line(run, tmp_path):
-    done = run(VIEW, "1", "--clip", tmp_path / "a.gif", "--file", tmp_path / "no.py")
-    assert is_refused(done)
+def test_a_clip_of_a_file_that_is_not_there_is_one_line(refused, tmp_path):
+    line = refused("1", "--clip", tmp_path / "a.gif", "--file", tmp_path / "no.py")
+    assert "no.py is not there" in line
 
 
 @pytest.mark.gl
@@ -167,32 +165,40 @@ def test_the_documented_screenshot_is_accepted_as_the_days_figure(run_in, clone)
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 @pytest.mark.parametrize("start", ["ready", "home", "zero"])
-def test_a_screenshot_cuts_nothing_off(run, tmp_path, start):
+def test_a_screenshot_cuts_nothing_off(look, tmp_path, monkeypatch, start):
     image = pytest.importorskip("PIL.Image")
+    from labkit.figures import portrait
+
+    # the same camera, without shadows
+    quick = partial(portrait.render_panda, fast=True)
+    monkeypatch.setattr(portrait, "render_panda", quick)
     path = tmp_path / "new" / "arm.png"
-    done = run(VIEW, "--screenshot", path, "--start", start)
-    assert done.returncode == 0, done.stderr
+    assert look("--screenshot", path, "--start", start) == 0
     picture = np.asarray(image.open(path).convert("L"))
     edges = [picture[:5], picture[-5:], picture[:, :5], picture[:, -5:]]
     assert picture.min() < 60
     assert min(int(edge.min()) for edge in edges) > 150  # floor and sky alone
 
 
-def test_an_option_that_cannot_be_honoured_is_refused(run, tmp_path):
-    done = run(VIEW, "--screenshot", tmp_path / "a.png", "--entry", "panda")
-    assert is_refused(done, "--entry is for --web")
-    assert is_refused(run(VIEW, "--web", "--file", "a.py"), "--file is for --clip")
+def test_an_option_that_cannot_be_honoured_is_refused(refused, tmp_path):
+    line = refused("--screenshot", tmp_path / "a.png", "--entry", "panda")
+    assert "--entry is for --web" in line
+    assert "--file is for --clip" in refused("--web", "--file", "a.py")
 
 
-def test_a_screenshot_never_replaces_a_file(tmp_path):
+def test_a_screenshot_never_replaces_a_file(refused, tmp_path):
     path = tmp_path / "mine.png"
     path.write_text("mine")
-    assert is_refused(run_after("", "--screenshot", path))
+    assert "is there already and stays as it is" in refused("--screenshot", path)
     assert path.read_text() == "mine"
 
 
-def test_without_the_means_to_draw_a_screenshot_says_what_installs_them(tmp_path):
+def test_without_the_means_to_draw_a_screenshot_says_what_installs_them(
+    refused, tmp_path, monkeypatch
+):
+    for module in [name for name in sys.modules if name.startswith("labkit.figures")]:
+        monkeypatch.delitem(sys.modules, module)
+    monkeypatch.setitem(sys.modules, "PIL", None)
     path = tmp_path / "arm.png"
-    done = run_after("sys.modules['PIL'] = None", "--screenshot", path)
-    assert is_refused(done, "make view ARGS=--screenshot")
+    assert "make view ARGS=--screenshot" in refused("--screenshot", path)
     assert not path.exists()

@@ -19,8 +19,7 @@ from labkit.lesson.marks import Writers, file_mark, marks_of
 from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
-from labkit.report.week_facts import DayFacts, Number, minutes_of, numbers_of
-from labkit.report.week_labs import name_of
+from labkit.report.week_facts import OwnDay, facts_of, minutes_of
 
 pytestmark = pytest.mark.kit
 
@@ -45,19 +44,28 @@ def begun(one_day):
     return day
 
 
+def ran(metric, kit=2e-15):
+    """Return the runs of a number: a bad one, a good one, and one of the kit's."""
+    series = Series(1, metric)
+    series.rows = [row(0.5, b"a"), row(1.234e-15, b"a")]
+    series.kits = [row(kit, b"kit")] if kit else []
+    return series
+
+
 def facts(day, **changed):
-    number = Number(SMALL, 1e-15, "pass", 0.5, 2e-15)
+    number = ran(SMALL)
     met = [
         Met("1.3", "t-not-negated", "left behind", "It keeps t."),
         Met("1.8", "chain-reversed", "still there"),
     ]
-    return replace(DayFacts(day, [number], 7, 8, 8, 9, 200, 4, met), **changed)
+    passed = {task.id: "passed" for task in day.tasks[:-1]}
+    return replace(OwnDay(day, passed, [number], 200, 4, met), **changed)
 
 
 def test_a_number_is_called_by_its_check_and_by_its_metric_where_there_are_two(day):
     metrics = (SMALL, SHARE, Metric("right", "other", max=1.0))
     both = replace(day, metrics=metrics)
-    assert [name_of(both, m) for m in metrics] == ["fk", "right share", "right other"]
+    assert [both.name_of(m) for m in metrics] == ["fk", "right share", "right other"]
 
 
 def test_the_weeks_labs_stand_in_one_table(run_in, begun):
@@ -99,11 +107,10 @@ def row(value, script, when="2026-09-01"):
 def numbers(day, metric, *rows, own=b"a"):
     day = replace(day, metrics=(metric,))
     writers = Writers(marks_of(day.source.read_bytes()), marks_of(own))
-    series = Series((day.number, metric.check, metric.metric), metric, writers)
+    series = Series(day.number, metric, writers)
     for one in rows:
         series.add(one)
-    key = (day.number, metric.check, metric.metric)
-    (found,) = numbers_of(day, {key: series})
+    (found,) = facts_of(day, [series]).numbers
     return found
 
 
@@ -117,12 +124,12 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
     )
     found = numbers(day, SMALL, *rows, own=own)
     assert (found.latest, found.worst, found.kit) == (1e-15, 0.3, 2e-15)
-    assert found.passed
+    assert found.status == "pass"
 
 
 def test_a_number_of_a_file_that_changed_since_is_no_pass(day):
     found = numbers(day, SMALL, row(1e-15, b"before"))
-    assert (found.latest, found.status, found.passed) == (1e-15, "stale", False)
+    assert (found.latest, found.status) == (1e-15, "stale")
     one = facts(day, numbers=[found])
     assert "your file changed since" in week_page.render([one], "")
     assert "| 1.0e-15 (my file changed since) |" in week_retro.as_markdown([one])
@@ -130,13 +137,13 @@ def test_a_number_of_a_file_that_changed_since_is_no_pass(day):
 
 def test_the_worst_is_the_smallest_where_a_minimum_is_asked_for(day):
     found = numbers(day, SHARE, row(0.2, b"a"), row(1.0, b"a"))
-    assert (found.latest, found.worst, found.passed) == (1.0, 0.2, True)
+    assert (found.latest, found.worst, found.status) == (1.0, 0.2, "pass")
 
 
 def test_both_pages_say_that_a_row_with_failed_trials_failed(day):
     failed = {**row(1e-15, b"a"), "n_failures": 7, "n_trials": 1000}
     assert numbers(day, SMALL, failed).status == "fail"
-    series = Series((1, "fk", "err"), SMALL)
+    series = Series(1, SMALL)
     series.rows = [failed]
     assert series.status == "fail"
 
@@ -144,14 +151,13 @@ def test_both_pages_say_that_a_row_with_failed_trials_failed(day):
 def test_a_number_that_is_none_is_the_worst_of_all(day):
     found = numbers(day, SMALL, row(float("nan"), b"a"), row(5.0, b"a"))
     assert found.worst != found.worst
-    assert not found.passed
+    assert found.status == "fail"
 
 
 def test_without_rows_there_are_no_numbers(day):
     found = numbers(day, SMALL)
-    assert (found.latest, found.worst, found.kit, found.passed) == (None,) * 3 + (
-        False,
-    )
+    assert (found.latest, found.worst, found.kit) == (None, None, None)
+    assert found.status == "none"
 
 
 def commit(clone, path, when):
@@ -213,9 +219,8 @@ def test_the_page_shows_the_week(day):
 
 
 def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
-    ran = Number(SMALL, 1e-15, "pass", 0.5, 2e-15)
-    own = replace(ran, kit=None)
-    assert "the kit's here" in week_page.render([facts(day, numbers=[ran, own])], "")
+    both, own = ran(SMALL), ran(SMALL, kit=None)
+    assert "the kit's here" in week_page.render([facts(day, numbers=[both, own])], "")
     assert "the kit's here" not in week_page.render([facts(day, numbers=[own])], "")
 
 
@@ -234,8 +239,7 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
     day, tmp_path, width, chromium
 ):
     week = [
-        facts(d, numbers=[Number(m, 1.234e-15, "pass", 0.5, 2e-15) for m in d.metrics])
-        for d in days_of(find_week(1))
+        facts(d, numbers=[ran(m) for m in d.metrics]) for d in days_of(find_week(1))
     ]
     text = week_page.render(week, "of my log")
     box = "getBoundingClientRect()"
@@ -268,7 +272,7 @@ def test_a_retrospective_gets_its_numbers_and_nothing_else_changes(begun, diary)
     text = diary.read_bytes()
     assert text.startswith(BEFORE)
     assert text.endswith(AFTER)
-    assert b"| 1 | fk | 1.0e-15 | 0.5 | under 1e-08 |\r\n" in text
+    assert b"| 1 | fk | 1.2e-15 | 0.5 | under 1e-08 |\r\n" in text
     assert b"old" not in text
     assert b"Tasks passed: 7 of 8. Functions of my own: 8 of 9.\r\n" in text
     assert b"\n" not in text.replace(b"\r\n", b"")

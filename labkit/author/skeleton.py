@@ -1,11 +1,13 @@
-"""The files of a new day, and of a new week: they pass their own tests as they are."""
+"""The files of a new day, and of a new week: they pass their own tests as they are.
+
+In templates/ $number, $name, $title, $week and so on are filled in.
+"""
 
 import re
 from pathlib import Path
 from string import Template
 
-from labkit.author.sheet import worksheet_of
-from labkit.lesson.day import day_numbers, load_day
+from labkit.lesson.day import Day, day_numbers, load_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -14,6 +16,22 @@ TEMPLATES = Path(__file__).parent / "templates"
 OF_A_WEEK = {"week.toml": "week.toml", "README.md": "README.md"}
 COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
 LAST_DAY = 47
+HEAD = """\
+# Day {number} worksheet
+
+Write below each heading; what is in *(italics)* is yours to replace. `make check
+DAY={number}` looks at what you have so far.
+"""
+PREDICTIONS = """\
+## Predictions
+
+Write the first column before you run anything, the others after it. If your prediction
+was right, say why it could be.
+
+| number | predicted | measured | why apart |
+|---|---|---|---|
+"""
+PREDICTION = "| {} | *(your prediction)* | *(your number)* | *(your reason)* |\n"
 
 
 def new_day(number: int, week: str, name: str) -> list[Path]:
@@ -91,3 +109,28 @@ def _list(manifest: Path, number: int) -> None:
     text = text.replace(days[0], f"days = {numbers}")
     text = re.sub(rf"\n *\{{ *number = {number}\b.*?\}},?", "", text)
     manifest.write_text(text, "utf-8", newline="\n")
+
+
+def worksheet_of(day: Day) -> str:
+    """Return an empty worksheet: its terms, drawings, numbers, questions, checklist."""
+    parts = [HEAD.format(number=day.number), "## Glossary\n"]
+    parts += [f"### {term}\n\n*(your words)*\n" for term in day.terms]
+    parts += ["## Drawings\n"] * (day.drawings > 0)
+    drawn = "### Drawing {}: what it shows\n\n*(your drawing)*\n"
+    parts += [drawn.format(i + 1) for i in range(day.drawings)]
+    checks = dict.fromkeys(metric.check for metric in day.metrics)
+    parts.append(PREDICTIONS + "".join(map(PREDICTION.format, checks)))
+    parts.append("## Can you explain?\n")
+    asked = "{}. What do you want to ask?\n\n   *(your answer)*\n"
+    parts += [asked.format(i + 1) for i in range(day.questions)]
+    boxes = [f"I ran `make run DAY={day.number}` and saw `All checks PASSED.`"]
+    boxes += [f"All tasks of `make check DAY={day.number}` pass", *_handed_in(day)]
+    lines = "".join(f"- [ ] {box}\n" for box in [*boxes, "I committed all of it"])
+    return "\n".join([*parts, f"## Checklist\n\n{lines}"])
+
+
+def _handed_in(day: Day) -> list[str]:
+    """Return what the checklist says of the picture and of the log."""
+    found = [f"My picture is `{day.files['figure']}`"] if day.figure else []
+    log = "`metrics/metrics.csv` has my rows for the day"
+    return [*found, "The words above are mine", *([log] if day.metrics else [])]

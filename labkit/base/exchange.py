@@ -1,14 +1,9 @@
 """A question to a student's function, and the reply that came of it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
-NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 MOST = 10  # entries of any list in a reply
-# Bytes of a student's file, ten times as many as the longest lab has: to compile a
-# megabyte of functions of one name takes half a minute.
-SCRIPT = 100_000
 CHANNEL = "it wrote into the checker's own channel"
 
 
@@ -20,17 +15,6 @@ class Question:
     function: str  # a name in the student's file
     # Floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
     args: tuple[Any, ...]
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What a file of a day's may take."""
-
-    # For all calls of a task, where it says more than the usual.
-    seconds: Mapping[str, float] = field(default_factory=dict)
-    memory: float = 1.0  # GB, of the process
-    numbers: int = NUMBERS  # of one answer
-    extras: tuple[str, ...] = ()  # packages that it may import, pinned: "scipy==1.17.1"
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from labkit.base import processes
 
@@ -62,7 +62,8 @@ class History:
             return blob is not None
         # git on Windows may have written CRLF where the commit has LF
         versions = (data, data.replace(b"\r\n", b"\n"))
-        return blob in (_blob_hash(version, len(blob)) for version in versions)
+        sha = hashlib.sha256 if len(blob) == 64 else hashlib.sha1
+        return blob in (sha(b"blob %d\0" % len(v) + v).hexdigest() for v in versions)
 
 
 def read_history(
@@ -80,20 +81,18 @@ def read_history(
         GitError: git is not there, or takes too long.
     """
     git = _repository(clone, own)
-    if git is None:
-        return History(readable=False)
     named = _git(git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say=at)
-    commit, _, size = (named or "").strip().partition(" ")
     if named is None:  # what took all its time is not asked again
         return History(readable=False)
+    commit, _, size = named.strip().partition(" ")
     if not size.isdecimal():
         return History(readable=_git(git, "rev-list", "-1", "--all") == "")
     if int(size) > LARGEST_COMMIT:
         return History(readable=False)
     text = _git(git, "cat-file", "commit", commit)
     listing = ("ls-tree", "-z", "--full-tree", commit, "--", *wanted)
-    tree = None if text is None else _git(git, *listing)
-    if text is None or tree is None:
+    tree = text and _git(git, *listing)
+    if tree is None:
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
     blobs = {name: facts.split()[2] for facts, _, name in entries if name}
@@ -114,9 +113,7 @@ def before(clone: Path, moment: int) -> tuple[str, int]:
     Raises:
         GitError: git is not there, or takes too long.
     """
-    git = _repository(clone, own=False)
-    if git is None:
-        return "", 0
+    git = _repository(clone)
     seen = ("HEAD", f"--glob={SEEN}*")
     found = _git(git, "rev-list", "-1", f"--min-age={moment}", *seen)
     later = _git(git, "rev-list", "--count", f"--max-age={moment + 1}", "HEAD")
@@ -131,9 +128,8 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
         commit: its hash.
         names: paths; one that ends with "/" means what is right below it.
     """
-    git = _repository(clone, own=False)
     listing = ("ls-tree", "-lz", "--full-tree", commit, "--")
-    listed = _git(git, *listing, *names) if git and names else ""
+    listed = _git(_repository(clone), *listing, *names) if names else ""
     found = {}
     for entry in (listed or "").split("\0"):
         facts, _, name = entry.partition("\t")
@@ -145,8 +141,7 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
 
 def blob(clone: Path, name: str) -> bytes:
     """Return the content of an object, b"" where git cannot read it."""
-    git = _repository(clone, own=False)
-    return (git and _git_bytes(git, "cat-file", "blob", name)) or b""
+    return _git(_repository(clone), "cat-file", "blob", name, text=False) or b""
 
 
 def short_sha(folder: Path) -> str:
@@ -182,22 +177,14 @@ def too_much(folder: Path, commit: str) -> str:
 
 
 def run(
-    *arguments: str, folder: Path, seconds: float, **more: Any
-) -> subprocess.CompletedProcess[str]:
-    """Run git as `run_bytes` does; what it says is text."""
-    done = run_bytes(*arguments, folder=folder, seconds=seconds, **more)
-    texts = [said.decode("utf-8", "replace") for said in (done.stdout, done.stderr)]
-    return subprocess.CompletedProcess(done.args, done.returncode, *texts)
-
-
-def run_bytes(
     *arguments: str,
     folder: Path,
     seconds: float,
     say: str = "",
     largest: int = LARGEST_OUTPUT,
+    text: bool = True,
     **more: str,
-) -> subprocess.CompletedProcess[bytes]:
+) -> subprocess.CompletedProcess[Any]:
     """Run git and return what became of it; all that it started ends with it.
 
     Args:
@@ -206,6 +193,7 @@ def run_bytes(
         seconds: the limit.
         say: its standard input.
         largest: bytes of a file that it writes, and of what it says (Linux).
+        text: what it says is text, else bytes.
         more: variables of its environment.
 
     Raises:
@@ -239,17 +227,16 @@ def run_bytes(
             process.stdin.close()
         if processes.was_killed(process):
             raise GitError("git was killed")
-        said = [_read(file) for file in (out, err)]
+        said: list[Any] = []
+        for file in (out, err):
+            file.seek(0)
+            said.append(file.read(LARGEST_OUTPUT))
+    if text:
+        said = [each.decode("utf-8", "replace") for each in said]
     return subprocess.CompletedProcess(command, process.returncode, *said)
 
 
-def _read(file: IO[bytes]) -> bytes:
-    """Return what git wrote into a file, up to a point."""
-    file.seek(0)
-    return file.read(LARGEST_OUTPUT)
-
-
-def _repository(clone: Path, own: bool) -> Path | None:
+def _repository(clone: Path, own: bool = False) -> Path | None:
     """Return the git folder of a clone, or None."""
     git = clone / ".git"
     try:
@@ -302,24 +289,21 @@ def _environment(**more: str) -> dict[str, str]:
     return {**kept, "GIT_TERMINAL_PROMPT": "0", "LC_ALL": "C", **more}
 
 
-def _git(git: Path, *arguments: str, say: str = "") -> str | None:
-    """Return what git prints, or None where it fails or the repository is too much."""
-    said = _git_bytes(git, *arguments, say=say)
-    return None if said is None else said.decode("utf-8", "replace")
-
-
-def _git_bytes(git: Path, *arguments: str, say: str = "") -> bytes | None:
+def _git(git: Path | None, *arguments: str, **more: Any) -> Any:
+    """Return what git prints; None where it fails, or the repository is too much."""
+    if git is None:
+        return None
     try:
-        done = run_bytes(
+        done = run(
             *arguments,
             folder=git if git.is_dir() else git.parent,  # in a worktree it is a file
             seconds=SECONDS,
-            say=say,
             GIT_ALLOC_LIMIT=LARGEST_OBJECT,
             GIT_DIR=str(git),  # none around it, and whoever owns it
             GIT_NO_LAZY_FETCH="1",
             GIT_ALLOW_PROTOCOL="none",
             GIT_NO_REPLACE_OBJECTS="1",
+            **more,
         )
     except _SlowError:
         return None
@@ -342,8 +326,3 @@ def _time(commit: str) -> int | None:
 def _author(commit: str) -> str:
     """Return who a commit's text says wrote it, without the address."""
     return _line(commit, "author").removeprefix("author ").rpartition("<")[0].strip()
-
-
-def _blob_hash(data: bytes, digits: int) -> str:
-    algorithm = hashlib.sha256 if digits == 64 else hashlib.sha1
-    return algorithm(b"blob %d\0" % len(data) + data).hexdigest()

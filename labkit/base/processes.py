@@ -3,8 +3,9 @@
 The standard library alone: a student installs no process tool for this.
 """
 
+from __future__ import annotations  # the doctor runs on old Pythons too
+
 import contextlib
-import ctypes
 import os
 import shutil
 import signal
@@ -13,11 +14,31 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-if sys.platform != "win32":
+if sys.platform == "win32":
+    import ctypes
+
+    class _Counters(ctypes.Structure):
+        """PROCESS_MEMORY_COUNTERS of psapi.h."""
+
+        _fields_ = [
+            ("cb", ctypes.c_ulong),
+            ("PageFaultCount", ctypes.c_ulong),
+            ("sizes", ctypes.c_size_t * 8),  # the seventh is PagefileUsage
+        ]
+
+    def _windows_commit(handle: int) -> int:
+        """Return the bytes that a Windows process has committed."""
+        counters = _Counters(cb=ctypes.sizeof(_Counters))
+        ctypes.windll.kernel32.K32GetProcessMemoryInfo(
+            ctypes.c_void_p(handle), ctypes.byref(counters), counters.cb
+        )
+        return int(counters.sizes[6])
+
+else:
     import resource
 
 END_SECONDS = 5.0  # for a killed process to be gone
@@ -90,13 +111,10 @@ def start_options() -> dict[str, object]:
     return {"start_new_session": True}
 
 
-def run(
-    command: Sequence[str], *, env: Mapping[str, str], **more: Any
-) -> subprocess.CompletedProcess[str]:
+def run(command: Sequence[str], **more: Any) -> subprocess.CompletedProcess[str]:
     """Run a program that reads no input; return what it printed, bad bytes as "?"."""
     return subprocess.run(
         command,
-        env=env,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
@@ -111,11 +129,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
     """End a child and whatever it started, and wait for it."""
     if sys.platform == "win32":
         if process.poll() is None:
-            subprocess.run(
-                ["taskkill", "/F", "/T", "/PID", str(process.pid)],
-                capture_output=True,
-                check=False,
-            )
+            run(["taskkill", "/F", "/T", "/PID", str(process.pid)])
     else:
         # Also when the child is gone already: its own children may not be.
         with contextlib.suppress(ProcessLookupError, PermissionError):
@@ -154,8 +168,7 @@ def resident_bytes(process: subprocess.Popen[bytes]) -> int:
             pages = sum(int(words[1]) for words in sizes if words)
             return pages * os.sysconf("SC_PAGE_SIZE")
         ps = ["ps", "-o", "rss=", "-p", str(process.pid)]
-        said = subprocess.run(ps, capture_output=True, text=True, check=False)
-        return int(said.stdout or 0) * 1024
+        return int(run(ps).stdout or 0) * 1024
     except (OSError, ValueError, IndexError):
         return 0
 
@@ -199,23 +212,3 @@ def _read(path: str) -> str:
         return Path(path).read_text("ascii")
     except OSError:
         return ""
-
-
-class _Counters(ctypes.Structure):
-    """PROCESS_MEMORY_COUNTERS of psapi.h."""
-
-    _fields_ = [
-        ("cb", ctypes.c_ulong),
-        ("PageFaultCount", ctypes.c_ulong),
-        ("sizes", ctypes.c_size_t * 8),  # the seventh is PagefileUsage
-    ]
-
-
-def _windows_commit(handle: int) -> int:
-    """Return the bytes that a Windows process has committed."""
-    counters = _Counters(cb=ctypes.sizeof(_Counters))
-    kernel = ctypes.windll.kernel32  # type: ignore[attr-defined,unused-ignore]
-    kernel.K32GetProcessMemoryInfo(
-        ctypes.c_void_p(handle), ctypes.byref(counters), counters.cb
-    )
-    return int(counters.sizes[6])

@@ -1,16 +1,38 @@
-"""Text that somebody else wrote, made fit for a terminal, a file and a table.
+"""Text of the kit's: counts, blocks of documents, and what somebody else wrote.
 
 A submission's words (an exception's message, a printed line, a file's name) may hold
 escape sequences, letters that turn the reading direction, line breaks that look like
-lines of ours, or a megabyte. All of it passes through here at the border.
+lines of ours, or a megabyte. All of it passes through `visible` at the border.
+
+A block of a document is filled anew; every other byte stays as it is:
+
+<!-- name: request -->
+what is written anew
+<!-- end -->
 """
 
+import re
 import unicodedata
+from collections.abc import Callable, Mapping
+
+Maker = Callable[[str, str], str]  # from the request and the old content to the new
 
 LENGTH, LINE = 500, 200  # characters
 # What a terminal or a page obeys instead of showing it: controls, line and paragraph
 # separators, and format characters, which include those of the reading direction.
 _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
+
+
+def count(number: int, thing: str) -> str:
+    """Return "1 row", "2 rows", "1,000 rows"."""
+    return f"{number:,} {thing}" if number == 1 else f"{number:,} {thing}s"
+
+
+def number_of(value: float) -> str:
+    """Return a number as a lab prints it: rounding errors short, others readable."""
+    if value != value or abs(value) < 1e-3 or abs(value) >= 1e4:
+        return f"{value:.1e}" if value else "0"
+    return f"{value:.4g}"
 
 
 def visible(text: object, length: int = LENGTH) -> str:
@@ -46,3 +68,24 @@ def _one(character: str) -> str:
     if category in _OBEYED:
         return " "
     return "?" if category in ("Cs", "Cn", "Co") else character
+
+
+def refill(document: str, makers: Mapping[str, Maker]) -> str:
+    """Return a document with new contents of its blocks, in its own line ends."""
+
+    def fresh(block: re.Match[str]) -> str:
+        opening, name, request, newline, old, closing = block.groups()
+        new = makers[name](request or "", old).replace("\r\n", "\n")
+        return opening + new.replace("\n", newline) + closing
+
+    return _pattern(*makers).sub(fresh, document)
+
+
+def blocks(document: str, name: str) -> list[str]:
+    """Return what the blocks of a name hold."""
+    return [found[4] for found in _pattern(name).findall(document)]
+
+
+def _pattern(*names: str) -> re.Pattern[str]:
+    opening = rf"<!-- ({'|'.join(names)})(?:: (.+?))? -->[ \t]*(\r?\n)"
+    return re.compile(rf"({opening})(.*?)(<!-- end -->)", re.DOTALL)

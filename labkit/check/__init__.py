@@ -2,7 +2,6 @@
 
     tasks          from a student's file to one verdict per task
     lab_run        the day's lab, run with a file's functions
-    source         the file as text: the slips that it shows, code put below it
     memory         how tasks stood when last checked, which mistakes were met
     report         how it all reads
     own_functions  the student's functions, the library's where one fails

@@ -19,13 +19,12 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
-from labkit.check.source import old_names
-from labkit.handin.item import Item
+from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
-from labkit.lesson import folder
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.lab import Lab, number_of
+from labkit.lesson.script import load_lab, old_names
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
@@ -101,7 +100,7 @@ def rehearse(
     numbers: dict[tuple[str, str], float] = {}
     if not day.source.is_file():
         return "", numbers
-    lab = folder.load_lab(day.source)
+    lab = load_lab(day.source)
     own = behind_wall(day, script, sandbox, lab, Budget(calls))
     for name, function in own.items():
         setattr(lab, name, function)

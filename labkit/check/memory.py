@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
-from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import helpers_of
 from robo47.paths import ROOT
 
 if TYPE_CHECKING:
@@ -64,6 +64,11 @@ def known(day: Day) -> dict[str, str]:
     return _of(store.read(STATES), key_of(day))
 
 
+def passing(day: Day, states: Mapping[str, str]) -> list[str]:
+    """Return the functions of a day's tasks that pass, by how its tasks stand."""
+    return [f for t in day.tasks if states.get(t.id) == "passed" for f in t.functions]
+
+
 def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
     """Keep the checker's word on files of a key taken before it; return it, by task."""
     states = {result.task.id: in_words(result.verdict) for result in results}
@@ -85,7 +90,7 @@ def key_of(day: Day) -> str:
     """
     script = day.files["script"]
     content = day.work.read_bytes() if day.work.is_file() else b""
-    helpers = helpers_of(day.folder.parent, script, {script: content})
+    helpers = helpers_of(day.folder.parent, script, content)
     own = [f"{name}\0".encode() + helpers[name] for name in sorted(helpers)]
     given = hashlib.sha256(b"\0".join([content, *own, _kit()])).digest()
     digest = _digest(sorted(day.own.rglob("*.py")), given)

@@ -85,16 +85,15 @@ def load(week: Week | None = None) -> Mine:
         why = statuses(day)
         module = _module(day) if "passed" in why.values() else None
         for task in day.tasks:
+            passed = why[task.id] == "passed"
+            told = "does not load here" if passed else why[task.id]
             for name in task.functions:
                 if owner.get(name, day.number) != day.number:
                     continue
-                own = getattr(module, name, None)
-                if why[task.id] == "passed" and own is not None:
-                    setattr(mine.functions, name, own)
+                if passed and hasattr(module, name):
+                    setattr(mine.functions, name, getattr(module, name))
                     mine.yours.append(name)
                 else:
-                    passed = why[task.id] == "passed"
-                    told = "does not load here" if passed else why[task.id]
                     mine.replaced.append((day.number, name, told))
     return mine
 

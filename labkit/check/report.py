@@ -11,7 +11,7 @@ from labkit.judge.mistake import Verdict
 from labkit.lesson.day import Day, Task, day_numbers
 
 if TYPE_CHECKING:
-    from labkit.handin.item import Item
+    from labkit.handin.handin import Item
 
 WIDTH = 80
 _LABEL = {
@@ -97,14 +97,17 @@ def as_json(report: Report) -> dict[str, Any]:
         deliverable "id", "kind", "title", "status", "mistake", "message", "measured";
         of a task also "follows" and "call".
     """
+    told = ("status", "mistake", "message", "measured", "follows", "call")
     tasks = [
-        _entry("task", result.task.id, result.task.title, result.verdict)
-        | {"follows": result.verdict.follows, "call": result.verdict.call}
+        {"id": result.task.id, "kind": "task", "title": result.task.title}
+        | {name: getattr(result.verdict, name) for name in told}
         for result in report.tasks
     ]
     items = [
-        _entry("deliverable", i.name, i.name, Verdict(i.status, message=i.message))
-        for i in report.items
+        {"id": item.name, "kind": "deliverable", "title": item.name}
+        | {"status": item.status, "mistake": "", "message": item.message}
+        | {"measured": ()}
+        for item in report.items
     ]
     return {
         "day": report.day.number,
@@ -114,18 +117,6 @@ def as_json(report: Report) -> dict[str, Any]:
         "problem": report.problem,
         "next": report.next_step(),
         "entries": tasks + items,
-    }
-
-
-def _entry(kind: str, name: str, title: str, verdict: Verdict) -> dict[str, Any]:
-    return {
-        "id": name,
-        "kind": kind,
-        "title": title,
-        "status": verdict.status,
-        "mistake": verdict.mistake,
-        "message": verdict.message,
-        "measured": list(verdict.measured),
     }
 
 

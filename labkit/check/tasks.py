@@ -8,14 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply
-from labkit.check.source import (
-    arguments,
-    kits_functions,
-    kits_own,
-    old_names,
-    renamed,
-    unfinished,
-)
 from labkit.judge.ask import Asked, make_round, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
@@ -23,7 +15,15 @@ from labkit.judge.problems import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
 from labkit.lesson.day import Day, Task
-from labkit.lesson.starter import borrowed_tasks
+from labkit.lesson.script import (
+    arguments,
+    borrowed_tasks,
+    kits_functions,
+    kits_own,
+    old_names,
+    renamed,
+    unfinished,
+)
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
@@ -81,12 +81,13 @@ def check_tasks(
     seed = secrets.randbits(32) if seed is None else seed
     check = _Check(day, script, sandbox, seed)
     try:
-        results = check.first_look(wanted)
-        if only:
-            results |= check.below(results[wanted[0].id])
+        results = check.ask(wanted)
+        if only and results[wanted[0].id].verdict.status not in ("passed", "todo"):
+            results |= check.ask([day.task(id) for id in day.needs(wanted[0].id)])
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))
         return [TaskResult(task, verdict, error.reply.printed) for task in wanted]
+    results = {id: _following(one, day, results) for id, one in results.items()}
     for task in wanted:
         with contextlib.suppress(LoadError):  # a file that loads only now and then
             results[task.id] = check.second_look(task, results)
@@ -104,34 +105,43 @@ class _Check:
         self.borrowed = borrowed_tasks(day, self.source)
         self.renamed = old_names(day, self.source)
         self.added = self.renamed + kits_own(day, self.borrowed)
+        self.asked: dict[str, list[Asked]] = {}  # of each task, when it was asked last
 
-    def first_look(self, tasks: Sequence[Task]) -> dict[str, TaskResult]:
-        """Return a result per task, by id.
+    def ask(
+        self, tasks: Sequence[Task], added: str | None = None
+    ) -> dict[str, TaskResult]:
+        """Return a result per task, by id; `added` is code below the file.
 
         Raises:
             LoadError: the file does not load.
+            Robo47Error: the day has no file of a function of the manifest.
         """
-        rounds = self._ask(tasks, self.added)
-        results: dict[str, TaskResult] = {}
         for task in tasks:
-            if task in self.borrowed:
-                results[task.id] = TaskResult(task, _borrowed(task))
-                continue
-            found = self._result(task, rounds[task.id])
-            results[task.id] = _following(found, self.day, results)
-        return results
+            rows = [(name, row_of(self.day, name).ask) for name in task.functions]
+            rounds = [make_round(task.id, *row, self.seed) for row in rows]
+            self.asked[task.id] = rounds
+        if tasks:
+            self.sandbox.run(
+                self.script,
+                [e for task in tasks for e in _exchanges(self.asked[task.id])],
+                library_of(self.day),
+                {task.id: self.day.needs(task.id) for task in tasks},
+                self.added if added is None else added,
+                self.day.limits,
+            )
+        return {task.id: self._result(task) for task in tasks}
 
-    def below(self, found: TaskResult) -> dict[str, TaskResult]:
-        """Return results of the tasks that a wrong one builds on, and its own anew.
-
-        Raises:
-            LoadError: the file does not load any more.
-        """
-        needs = [self.day.task(need) for need in self.day.needs(found.task.id)]
-        if not needs or found.verdict.status in ("passed", "todo"):
-            return {}
-        known = self.first_look(needs)
-        return {**known, found.task.id: _following(found, self.day, known)}
+    def _result(self, task: Task) -> TaskResult:
+        """Return a task's verdict, what its functions printed and what was refused."""
+        if task in self.borrowed:
+            says = "Borrowed from the kit; it counts when you write it yourself: "
+            says += f"make start RESET={task.id}"
+            return TaskResult(task, Verdict("todo", "borrowed", says))
+        asked = self.asked[task.id]
+        came = replies(_exchanges(asked))
+        printed = next((reply.printed for reply in came if reply.printed), "")
+        refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
+        return TaskResult(task, _verdict_of(task, asked, self.source), printed, refused)
 
     def second_look(self, task: Task, results: dict[str, TaskResult]) -> TaskResult:
         """Return a task's result with what further questions say of a wrong one.
@@ -145,32 +155,25 @@ class _Check:
             broken = [one for one in needed if not results[one.id].passed]
             if kits := kits_functions(self.day, broken):
                 added = self.renamed + kits
-                again = self._result(task, self._ask([task], added)[task.id])
+                again = self.ask([task], added)[task.id]
                 if again.passed:
-                    roots = [
-                        one for one in broken if not results[one.id].verdict.follows
-                    ]
-                    return replace(result, verdict=_inherited(roots or broken))
+                    follow = [o for o in broken if not results[o.id].verdict.follows]
+                    return replace(result, verdict=_inherited(follow or broken))
                 result = again
-        if result.verdict.call:
-            verdict = self._with_command(task, result.verdict)
-            result = replace(result, verdict=verdict)
-        if len(result.verdict.wrong_calls) < 3:
-            return result
-        return replace(result, verdict=self._with_experiments(task, result, added))
-
-    def _with_command(self, task: Task, verdict: Verdict) -> Verdict:
-        """Return a verdict with the command that gives it again on any machine."""
-        says = f'The same again: make check TASK={task.id} ARGS="--seed {self.seed}"'
-        verdict = replace(verdict, measured=(*verdict.measured, says))
-        if verdict.mistake in FRESH_ONLY:
-            verdict = replace(verdict, message=f"{verdict.message} {says}")
-        return verdict
-
-    def _with_experiments(self, task: Task, result: TaskResult, added: str) -> Verdict:
-        """Return a verdict with the arguments that, neutral, make the answer right."""
         verdict = result.verdict
-        rounds = rounds_of(self.day, [task], self.seed)[task.id]
+        if verdict.call:
+            typed = f'make check TASK={task.id} ARGS="--seed {self.seed}"'
+            says = f"The same again: {typed}"
+            verdict = replace(verdict, measured=(*verdict.measured, says))
+            if verdict.mistake in FRESH_ONLY:
+                verdict = replace(verdict, message=f"{verdict.message} {says}")
+        if len(verdict.wrong_calls) >= 3:
+            verdict = self._with_experiments(task, verdict, added)
+        return replace(result, verdict=verdict)
+
+    def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
+        """Return a verdict with the arguments that, neutral, make the answer right."""
+        rounds = self.asked[task.id]
         asked = next(one for one in rounds if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(
@@ -186,25 +189,9 @@ class _Check:
             says = right_when(asked, verdict.wrong_calls, names, session.ask)
         return replace(verdict, message=f"{verdict.message} {says}".strip())
 
-    def _ask(self, tasks: Sequence[Task], added: str) -> dict[str, list[Asked]]:
-        """Return the questions to some tasks' functions with their replies."""
-        rounds = rounds_of(self.day, tasks, self.seed)
-        self.sandbox.run(
-            self.script,
-            [exchange for some in rounds.values() for exchange in _exchanges(some)],
-            library_of(self.day),
-            {task.id: set(self.day.needs(task.id)) for task in tasks},
-            added,
-            self.day.limits,
-        )
-        return rounds
 
-    def _result(self, task: Task, asked: Sequence[Asked]) -> TaskResult:
-        """Return a task's verdict, what its functions printed and what was refused."""
-        came = replies(_exchanges(asked))
-        printed = next((reply.printed for reply in came if reply.printed), "")
-        refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
-        return TaskResult(task, _verdict_of(task, asked, self.source), printed, refused)
+def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
+    return [exchange for one in asked for exchange in one.exchanges]
 
 
 def _inherited(broken: Sequence[Task]) -> Verdict:
@@ -213,30 +200,6 @@ def _inherited(broken: Sequence[Task]) -> Verdict:
     ids = f"{', '.join(before)} and {last} are" if before else f"{last} is"
     says = f"Right as soon as {ids}."
     return Verdict("todo", "inherited", says, follows=broken[0].id)
-
-
-def _borrowed(task: Task) -> Verdict:
-    """Return the verdict on a task whose function is the kit's."""
-    says = "Borrowed from the kit; it counts when you write it yourself: "
-    return Verdict("todo", "borrowed", f"{says}make start RESET={task.id}")
-
-
-def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
-    return [exchange for one in asked for exchange in one.exchanges]
-
-
-def rounds_of(day: Day, tasks: Sequence[Task], seed: int) -> dict[str, list[Asked]]:
-    """Return the questions to every function of some tasks, by task.
-
-    Raises:
-        Robo47Error: the day has no file of a function of the manifest.
-    """
-    return {
-        task.id: [
-            make_round(task.id, f, row_of(day, f).ask, seed) for f in task.functions
-        ]
-        for task in tasks
-    }
 
 
 def _following(

@@ -12,12 +12,21 @@ import os
 import re
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from importlib.util import find_spec
 
-from labkit.author import looks
+import numpy as np
+
+from labkit.author.skeleton import worksheet_of
 from labkit.base import cli, processes
+from labkit.base.exchange import Exchange, Question
 from labkit.commands import docs, notebook
+from labkit.handin.worksheet import split_sections
+from labkit.judge.answers import InTurn
+from labkit.judge.ask import stacked
+from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
+from labkit.lesson.script import find_regions, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -25,6 +34,93 @@ TESTS = ("test_days.py", "test_days_judging.py", "test_days_catalogue.py")
 TOLD = "test_a_file_is_told_what_the_catalogue_says"  # the catalogue has better words
 MOST_FAILURES = 10  # that are told
 MARKS = "not soak and not browser and not network"
+
+
+def faults(day: Day) -> Iterator[str]:
+    """Yield what is missing or does not fit between a day's files, with its remedy."""
+    for part in (_regions, _functions, _guide, _worksheet, _pictures, _tabs):
+        yield from part(day)
+
+
+def _regions(day: Day) -> Iterator[str]:
+    manifest, source = shown(day.own / "day.toml"), shown(day.source)
+    wanted = {(task.id, name) for task in day.tasks for name in task.functions}
+    regions = find_regions(read_script(day.source), source)
+    found = {(region.task, region.function): region.start + 1 for region in regions}
+    for task, name in sorted(wanted - set(found)):
+        yield (
+            f"{source}: no region {task} in {name}, which {manifest} asks for. Put "
+            f"`# region {task}` and `# endregion {task}` around its body"
+        )
+    for task, name in sorted(set(found) - wanted):
+        yield (
+            f"{source}, line {found[task, name]}: region {task} in {name}, which "
+            f"{manifest} does not know. Add it to the functions of task {task}"
+        )
+
+
+def _functions(day: Day) -> Iterator[str]:
+    for name, row in rows_of(day).items():
+        if not callable(getattr(row.lab, name, None)):
+            yield f"{shown(day.source)}: no function {name}"
+            continue
+        calls, file = row.ask.inputs, f"{shown(day.own)}/{name}.py"
+        first = next(iter(calls(np.random.default_rng(0))))
+        if len(first) != len(row.arguments):
+            yield (
+                f"{file}: @row.inputs yields {len(first)} arguments; "
+                f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
+            )
+        elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
+            row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+
+
+def _guide(day: Day) -> Iterator[str]:
+    path = day.folder / day.guide
+    if not path.is_file():
+        yield f"{shown(path)} is not there; it is the guide"
+        return
+    headings = re.findall(r"^#+ (.+)$", path.read_text("utf-8"), re.MULTILINE)
+    for task in day.tasks:
+        section = task.read.partition(";")[0].removeprefix("Lab guide, ")
+        if section not in headings:
+            yield (
+                f"{shown(day.own / 'day.toml')}, task {task.id}: {shown(path)} has no "
+                f"heading {section!r}; it has {', '.join(map(repr, headings[1:]))}"
+            )
+
+
+def _worksheet(day: Day) -> Iterator[str]:
+    """Yield the sections that a worksheet lacks; write one where there is none."""
+    if not day.worksheet:
+        return
+    path = day.folder / day.worksheet
+    if not path.is_file():
+        path.write_text(worksheet_of(day), "utf-8", newline="\n")
+        yield f"{shown(path)} was not there: written from day.toml, yours to fill in"
+        return
+    there = split_sections(path.read_text("utf-8"))
+    for name in split_sections(worksheet_of(day)):
+        asked = [one for one in there if one.startswith(name.partition(":")[0])]
+        if name and name != "predictions" and not asked:
+            yield f"{shown(path)}: no section {name!r}, which day.toml asks for"
+
+
+def _pictures(day: Day) -> Iterator[str]:
+    file = day.own / "figures.py"
+    if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
+        yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
+
+
+def _tabs(day: Day) -> Iterator[str]:
+    """Yield why the day's tabs do not load; nothing where viser is not installed."""
+    if day.has("inspector") and find_spec("viser"):
+        from labkit.inspector.tab import day_tabs
+
+        try:
+            day_tabs(day)
+        except Robo47Error as error:
+            yield str(error)
 
 
 def run(day: Day, *command: str) -> tuple[int, list[str]]:
@@ -49,9 +145,8 @@ def tests(day: Day) -> Iterator[str]:
     of_library = (f"tests/test_{module}.py" for module in day.library)
     files += [name for name in of_library if (ROOT / name).is_file()]
     quiet = ("-q", "-q", "--tb=short", "-rN", "--no-header", "-p", "no:cacheprovider")
-    code, lines = run(
-        day, "-m", "pytest", *files, *quiet, "-m", MARKS, "-k", f"not {TOLD}"
-    )
+    some = ("-m", MARKS, "-k", f"not {TOLD}")
+    code, lines = run(day, "-m", "pytest", *files, *quiet, *some)
     if code:
         yield from (_failures(lines, shown(day.own)) or lines[-5:])[:MOST_FAILURES]
         yield f"more: ROBO47_DAY={day.number} .venv/bin/python -m pytest " + files[0]
@@ -63,10 +158,9 @@ def _failures(lines: list[str], own: str) -> list[str]:
     for block in re.split(r"^_{3,} ", "\n".join(lines), flags=re.MULTILINE)[1:]:
         name = block.partition(" ___")[0]
         places = re.findall(r"^(\S+:\d+): in", block, re.MULTILINE)
-        place = next((p for p in reversed(places) if p.startswith(own)), places[:1])
+        where = [place for place in places if place.startswith(own)][-1:] or places[:1]
         errors = re.findall(r"^E +(.+)", block, re.MULTILINE)[:1]
-        where = place if isinstance(place, str) else "".join(place)
-        found.append(f"{name} ({where}): {''.join(errors)}")
+        found.append(f"{name} ({''.join(where)}): {''.join(errors)}")
     return found
 
 
@@ -94,9 +188,8 @@ def style(day: Day) -> Iterator[str]:
         yield f"to format: .venv/bin/python -m ruff format {shown(day.own)}"
 
 
-Part = Callable[[Day], Iterator[str]]
-PARTS: dict[str, Part] = {
-    "files": looks.faults,
+PARTS = {
+    "files": faults,
     "catalogue": catalogue,
     "documents": documents,
     "notebook": notebooks,
@@ -105,12 +198,12 @@ PARTS: dict[str, Part] = {
 }
 
 
-def look(name: str, part: Part, day: Day) -> bool:
+def look(name: str, day: Day) -> bool:
     """Print how one part of a day is; return whether it is as it must be."""
     began = time.monotonic()
     try:
         with cli.busy(name):
-            found = list(part(day))
+            found = list(PARTS[name](day))
     except Robo47Error as error:
         found = [str(error)]
     print(f"{cli.verdict(not found)}  {name:10}{time.monotonic() - began:6.1f} s")
@@ -129,9 +222,9 @@ def main() -> int:
     day = find_day(number)
     print(f"Day {number}: {day.title}, in {shown(day.own)}/")
     wrong = []
-    for name, part in PARTS.items():
+    for name in PARTS:
         skipped = options.fast and name == "tests"
-        wrong += [] if skipped or look(name, part, day) else [name]
+        wrong += [] if skipped or look(name, day) else [name]
         if wrong == ["files"]:  # nothing else could say more than that
             break
     says = f"not yet as it must be: {', '.join(wrong)}" if wrong else ""

@@ -13,10 +13,10 @@ machine. Writes bench/results.json and bench/bench.png.
 
 import datetime
 import importlib
-import importlib.metadata
 import json
 import platform
 import sys
+from importlib import metadata
 from typing import Any
 
 from labkit.base import cli
@@ -39,17 +39,12 @@ VERSIONS = ("mujoco", "numpy", "pin", *RIVALS)
 
 def machine() -> dict[str, Any]:
     """Return what the numbers were measured on and with."""
-    versions = {}
-    for name in VERSIONS:
-        try:
-            versions[name] = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            versions[name] = "not installed"
+    found = {it.metadata["Name"]: it.version for it in metadata.distributions()}
     return {
         "date": datetime.date.today().isoformat(),
         "machine": f"{platform.system()} {platform.machine()}, {cpu()}",
         "python": platform.python_version(),
-        **versions,
+        **{name: found.get(name, "not installed") for name in VERSIONS},
     }
 
 

@@ -138,10 +138,10 @@ def main() -> int:
     print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
     print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
     if options.clip or options.picture:
-        from labkit.figures.picking import clip, picture
+        from labkit.figures.clip import pick_clip, pick_picture
 
         if options.picture:
-            print(picture(result, options.picture))
+            print(pick_picture(result, options.picture))
         if options.clip:
-            print(clip(result, options.clip))
+            print(pick_clip(result, options.clip))
     return verdict(int(result.failed), 1)

@@ -27,7 +27,8 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
-from labkit.base import blocks, cli, processes
+from labkit.base import cli, processes
+from labkit.base.text import Maker, refill
 from labkit.lesson.day import Day, days_of, find_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
@@ -36,9 +37,7 @@ from robo47.paths import ROOT, shown
 SMALL = "figures/day{}_small.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-9  # errors this small differ between processors, and should
-OLD_ZERO = re.compile(
-    r"(?<![\d.])0(?:\.0+)?e[-+]?\d+"
-)  # a lab prints an exact zero as 0
+OLD_ZERO = re.compile(r"(?<![\d.])0(?:\.0+)?e[-+]?\d+")  # a lab prints such as 0
 # What depends on where the robot came from, and where among equals the worst was.
 VARIES = re.compile(r"^robot: .*|worst at \S+|where q = .*", re.MULTILINE)
 
@@ -86,11 +85,9 @@ def same(old: str, new: str) -> bool:
         return False
     if OLD_ZERO.search(old) and not OLD_ZERO.search(new):
         return False
-    pairs = zip(NUMBER.findall(old), NUMBER.findall(new), strict=True)
-    return all(
-        math.isclose(float(a), float(b), rel_tol=1e-9, abs_tol=ROUNDING)
-        for a, b in pairs
-    )
+    numbers = (map(float, NUMBER.findall(each)) for each in (old, new))
+    close = functools.partial(math.isclose, rel_tol=1e-9, abs_tol=ROUNDING)
+    return all(map(close, *numbers))
 
 
 def days_list(wanted: str, folder: Path) -> str:
@@ -105,11 +102,12 @@ def days_list(wanted: str, folder: Path) -> str:
         unwritten = {one.number: one.title for one in week.soon}
         for day in days_of(week):
             unwritten.pop(day.number, None)
-            paths = day.folder / day.guide, day.folder / SMALL.format(day.number)
+            names = day.guide, SMALL.format(day.number)
             guide, small = (
-                os.path.relpath(path, folder).replace(os.sep, "/") for path in paths
+                Path(os.path.relpath(day.folder / name, folder)).as_posix()
+                for name in names
             )
-            if paths[1].is_file():
+            if (folder / small).is_file():
                 row.append(f"[![A picture of day {day.number}]({small})]({guide})")
             lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
         soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
@@ -136,23 +134,20 @@ def rebuilt(
         return body
 
     def run(request: str, old: str) -> str:
-        body = f"```text\n{wanted(request).rstrip()}\n```\n"
-        return renewed(request, old, body)
+        return renewed(request, old, f"```text\n{wanted(request).rstrip()}\n```\n")
 
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))
 
-    makers: dict[str, blocks.Maker] = {"days": days}
-    return blocks.refill(document, makers if tables else makers | {"run": run}), drifted
+    makers: dict[str, Maker] = {"days": days}
+    return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
 def documents_of(day: Day) -> dict[Path, bool]:
     """Return a day's documents and those that list it, and whether in a table alone."""
-    own = [
-        day.folder / name for name in (day.guide, day.worksheet, "README.md") if name
-    ]
-    found = {path: False for path in own if path.is_file()}
-    return found | {ROOT / "README.md": True}
+    names = filter(None, (day.guide, day.worksheet, "README.md"))
+    own = [path for name in names if (path := day.folder / name).is_file()]
+    return dict.fromkeys(own, False) | {ROOT / "README.md": True}
 
 
 def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
@@ -164,8 +159,7 @@ def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
     """
     drift = 0
     for path, tables in documents.items():
-        text = path.read_text("utf-8")
-        text, drifted = rebuilt(text, path.parent, tables=tables)
+        text, drifted = rebuilt(path.read_text("utf-8"), path.parent, tables=tables)
         for request in drifted:
             print(f"{shown(path)}: {'drifted' if check else 'new'}: {request}")
         drift += len(drifted)

@@ -15,8 +15,8 @@ from pathlib import Path
 from labkit import log
 from labkit.base import cli
 from labkit.lesson.day import all_days
+from labkit.lesson.script import read_script
 from labkit.lesson.sealed import seal
-from labkit.lesson.starter import read_script
 from labkit.update.merge import NOBODY, ask
 from robo47 import __version__
 from robo47.errors import Robo47Error

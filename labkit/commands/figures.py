@@ -90,7 +90,7 @@ def draw_own(day: Day, path: Path) -> int:
         return cli.EXIT_FAILED
     about = PngImagePlugin.PngInfo()
     about.add_text(SIGNATURE.decode(), mark)
-    print(save(sheet.signed(picture, f"{day.script}, {mark}"), path, about))
+    print(save(sheet.with_line(picture, f"{day.script}, {mark}"), path, about))
     return cli.EXIT_OK
 
 

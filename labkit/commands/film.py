@@ -4,24 +4,19 @@ from pathlib import Path
 
 import numpy as np
 
-from labkit.base.exchange import LoadError
-from labkit.figures.clip import Caption, arm_clip, kind_of, save_clip, there_and_back
+from labkit.figures import clip
 from labkit.inspector.arm import Arm
-from labkit.inspector.ghost import Difference, Ghost, Seen, compare
-from labkit.inspector.student import poses_of, source_of
+from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
-from labkit.judge.problems import not_loaded
 from labkit.lesson.day import Day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 ENTRY, FRAMES = "panda_nohand", 40
-REACH_Q = np.array(
-    [0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6]
-)  # where the arm goes and back
+# Where the arm goes and back.
+REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])
 
 
 def film(path: Path, day: Day, file: Path | None = None) -> int:
@@ -38,47 +33,25 @@ def film(path: Path, day: Day, file: Path | None = None) -> int:
     Raises:
         Robo47Error: nothing draws here, or another ending.
     """
-    kind_of(path)
-    arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
+    clip.kind_of(path)
     script = file or day.work
     if file and not file.is_file():
         raise Robo47Error(f"{file} is not there")
     ghost = day_tabs(day).ghost
-    qs = there_and_back(panda.READY_Q, REACH_Q, FRAMES)
-    said: dict[bytes, Difference] = {}
-    alone = f"MuJoCo's arm; {shown(script)} is not there" if ghost else ""
+    qs = clip.there_and_back(panda.READY_Q, REACH_Q, FRAMES)
+    alone = f"MuJoCo's arm; {shown(script)} is not there"
     if ghost is None:
         alone = f"MuJoCo's arm; day {day.number} has no other. Live: make view"
+    shots: list[clip.Shot] = [(clip.arm_scene(q), (alone, None)) for q in qs]
     if ghost is not None and script.is_file():
-        said = _differences(arm, ghost, day, script, qs)
-
-    def ghost_of(q: Array) -> dict[str, Array]:
-        return dict(said[q.tobytes()].drawn) if said else {}
-
-    def caption_of(q: Array) -> Caption:
-        if not said:
-            return alone, None
-        apart = said[q.tobytes()]
-        return apart.sentence.rstrip("."), apart.good
-
-    return save_clip(arm_clip(qs, ghost_of, caption_of), path)
-
-
-def _differences(
-    arm: Arm, ghost: Ghost, day: Day, script: Path, qs: Array
-) -> dict[bytes, Difference]:
-    """Return how the student's arm differs at each configuration."""
-    found = {}
-    with Sandbox() as sandbox:
-        source = source_of(day, arm.model, sandbox)
-        try:
-            asker = source.open(script)
-        except LoadError as error:
-            raise Robo47Error(not_loaded(script, error.reply)) from None
-        for q in qs:
-            poses, problem = poses_of(asker.ask, source, ghost, arm.model, q)
-            seen = Seen(q, poses, problem)
-            found[q.tobytes()] = compare(ghost, seen, arm.poses_at(q))
-            if not asker.alive:
-                raise Robo47Error(problem)
-    return found
+        arm = Arm(panda.load(ENTRY), panda.END_FRAME[ENTRY])
+        with Sandbox() as sandbox:
+            student = Student(day, arm, ghost, sandbox, script, CALL_SECONDS)
+            student.look()
+            for i, q in enumerate(qs):
+                seen = student.see(q)
+                if student.problem:
+                    raise Robo47Error(student.problem.removesuffix(AGAIN))
+                words = seen.sentence.rstrip(".")
+                shots[i] = clip.arm_scene(q, seen.drawn), (words, seen.kind == "good")
+    return clip.save_clip(clip.drawn(shots), path)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from labkit.base import cli, store
 from labkit.base.processes import sweep
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.fresh import FRESH
 from labkit.fresh.clone import clone_commit, head_of, set_up
 from labkit.fresh.compare import faults

@@ -28,20 +28,18 @@ import os
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, git, store
 from labkit.grade import engine, week_page
-from labkit.grade.classroom import Classroom, Tally, write_all
+from labkit.grade.classroom import Classroom, pull, write_all
+from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
-from labkit.grade.platforms import PLATFORMS, known
-from labkit.grade.platforms import as_csv as platforms_csv
-from labkit.grade.roster import find_students
-from labkit.grade.sheet import write
-from labkit.grade.week import STATES, Week, as_csv
+from labkit.grade.roster import Student, find_students
+from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
+from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
 from labkit.proof.class_pages import write_pages
@@ -119,11 +117,9 @@ def positive(text: str) -> int:
 
 def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
-    if options.dask:
-        print("wall: each worker's own; without one it refuses", flush=True)
-        return
-    print(f"wall: {wall().says}", flush=True)
-    why = "" if options.i_know_them else refusal()
+    says = "each worker's own; without one it refuses" if options.dask else wall().says
+    print(f"wall: {says}", flush=True)
+    why = "" if options.dask or options.i_know_them else refusal()
     if why:
         raise Robo47Error(
             f"{why}, use a container (docs/teaching.md), or add --i-know-them"
@@ -164,28 +160,25 @@ def main() -> int:
     several = len(days) > 1
     name = "grades-days" if several else f"grades-day{days[0].number}"
     out = options.out or Path(name) / "grades.csv"
-    week = Week(find_students(options.root, options.roster))
+    students = find_students(options.root, options.roster)
     platform = PLATFORMS.get(options.format)
     if platform:
-        known(platform, week.students)
+        known(platform, students)
     admit(options)
-    tally = Tally()
-    where = engine.dask(options.dask, options.i_know_them) if options.dask else None
-    with where or engine.local(options.processes) as it:
-        for day in days:  # one after the other: a week takes the memory of a day
-            own = out.parent / f"day{day.number}" / "grades.csv" if several else out
-            grade_day(day, week, own, options, it, tally)
+    notes: dict[str, str] = {}
+    courses = grade_days(days, students, out, options, notes)
     if several:
-        write(out, as_csv(week))
-        write(out.parent / "class.html", week_page.render(week).encode("utf-8"))
+        write(out, of_days(courses))
+        write(out.parent / "class.html", week_page.render(courses).encode("utf-8"))
     if platform:
         own = out.with_name(f"{options.format}.csv")
-        write(own, platforms_csv(platform, week, options.assignment))
+        write(own, for_platform(platform, courses, options.assignment))
         print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
     if options.proof:
-        prove(week, out.parent / "proof", options.processes)
-    tell(tally, week, out)
-    return cli.EXIT_FAILED if tally.notes or tally.faults else cli.EXIT_OK
+        week = days[-1].week.number
+        prove(students, week, out.parent / "proof", options.processes)
+    failed = tell(courses, notes, out)
+    return cli.EXIT_FAILED if failed else cli.EXIT_OK
 
 
 def with_kit(tag: str) -> int:
@@ -221,73 +214,84 @@ def kit_at(tag: str) -> Path:
     return folder
 
 
-def grade_day(
-    day: Day,
-    week: Week,
+def grade_days(
+    days: list[Day],
+    students: list[Student],
     out: Path,
     options: argparse.Namespace,
-    where: engine.Engine,
-    tally: Tally,
-) -> None:
-    """Grade a day: its table, its page, the students' files; say how it went."""
-    # What is no folder is named below.
-    with contextlib.suppress(FileExistsError, FileNotFoundError):
-        out.parent.mkdir(parents=True, exist_ok=True)
-    given = options.deadline is not None
-    since = options.deadline if given else int(time.time())
-    journal = Journal(
-        out.parent / "grading.jsonl", day, since, deadline=given, seed=options.seed
-    )
-    with contextlib.closing(journal):
-        if not week.days:
-            options.seed = journal.seed  # one for all days
-            print(
-                f"kit: {version()}; fresh inputs for everybody: --seed {journal.seed}"
+    notes: dict[str, str],
+) -> list[Course]:
+    """Grade each day: its table, its page, the students' files; say how it went.
+
+    Args:
+        days: one after the other: a week takes the memory of a day.
+        students: from the roster.
+        out: the table; of several days that of all, with a folder for each beside it.
+        options: the command line.
+        notes: filled with who could not be pulled, and why, by folder.
+    """
+    courses: list[Course] = []
+    where = engine.dask(options.dask, options.i_know_them) if options.dask else None
+    with where or engine.local(options.processes) as it:
+        for day in days:
+            folder = out.parent / f"day{day.number}"
+            own = folder / "grades.csv" if len(days) > 1 else out
+            # What is no folder is named by the journal.
+            with contextlib.suppress(FileExistsError, FileNotFoundError):
+                own.parent.mkdir(parents=True, exist_ok=True)
+            path = own.parent / "grading.jsonl"
+            journal = Journal(path, day, options.deadline, options.seed)
+            with contextlib.closing(journal):
+                if not courses:
+                    options.seed = journal.seed  # one for all days
+                    drawn = f"fresh inputs for everybody: --seed {journal.seed}"
+                    print(f"kit: {version()}; {drawn}")
+                    notes |= pull(students) if options.pull else {}
+                again = options.again and options.again.split(",")
+                again = () if again is None else (again or None)
+                how = (again, options.frozen, options.keep, notes)
+                room = Classroom(students, day, journal, *how)
+                course = room.grade(it, own.parent / "feedback")
+                write_all(course, own, anonymous=options.anonymous)
+            count = course.counts
+            words = ", ".join(
+                f"{count[state]} {state}" for state in ROLES if count[state]
             )
-        again = options.again and options.again.split(",")
-        again = () if again is None else (again or None)
-        how = (again, options.frozen, options.keep)
-        room = Classroom(week.students, day, journal, *how, tally)
-        if options.pull and not week.days:
-            room.pull()
-        course = room.grade(where, out.parent / "feedback")
-        write_all(course, out, anonymous=options.anonymous)
-    week.add(course)
-    tally.outdated += journal.outdated
-    if journal.odd:
-        path = shown(journal.path.absolute())
-        tally.odd.append(f"{path}: lines that are no result, left out: {journal.odd:,}")
-    counts = week.counts(day)
-    words = ", ".join(f"{counts[state]} {state}" for state in STATES if counts[state])
-    print(f"Day {day.number}, {len(week.students):,} students: {words}", flush=True)
+            print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
+            courses.append(course.lean())
+    return courses
 
 
-def prove(week: Week, folder: Path, at_once: int) -> None:
+def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:
     """Write each student's page to show; say who has none, and why."""
-    pages = write_pages(week.students, week.days[-1].week.number, folder, at_once)
+    pages = write_pages(students, week, folder, at_once)
     without = [(student, why) for student, why in pages if why]
-    print(f"pages to show: {len(week.students) - len(without):,} in {shown(folder)}")
+    print(f"pages to show: {len(students) - len(without):,} in {shown(folder)}")
     for student, why in without:
         print(cli.wrapped(f"{student.name}: {why}", "  "))
 
 
-def tell(tally: Tally, week: Week, out: Path) -> None:
-    """Print what came out of all days."""
-    kept = len(week.graded) - tally.graded_now - tally.faults
-    print(f"graded now: {tally.graded_now:,}; unchanged since: {kept:,}")
-    several = len(week.days) > 1  # then the page has them, day by day
-    for task, mistake, number in [] if several else week.mistakes[week.days[0].number]:
-        print(f"  {number:4}  {task}  {mistake}")
-    if tally.notes:
-        print(f"not pulled: {len(tally.notes):,}; the column error says why")
-    if tally.faults:
-        print(f"this machine failed: {tally.faults:,}; run the same command again")
-    if any(one.percent is None for one in week.graded.values()):
+def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:
+    """Print what came out of all days; return whether something failed."""
+    graded = [one for course in courses for one in course.class_]
+    faults = sum(one.fault for one in graded)
+    now = sum(course.graded_now for course in courses)
+    print(f"graded now: {now:,}; unchanged since: {len(graded) - now - faults:,}")
+    several = len(courses) > 1  # then the page has them, day by day
+    for mark, who in [] if several else courses[0].mistakes()[: week_page.MISTAKES]:
+        print(f"  {len(who):4}  {mark.id}  {mark.mistake}")
+    if notes:
+        print(f"not pulled: {len(notes):,}; the column error says why")
+    if faults:
+        print(f"this machine failed: {faults:,}; run the same command again")
+    if not all(map(percent, graded)):
         print("ungraded: the column error says why")
-    if tally.outdated:
-        print(f"another version of the kit had graded: {tally.outdated:,}; done anew")
-    for line in tally.odd:
-        print(line)
+    if outdated := sum(course.outdated for course in courses):
+        print(f"another version of the kit had graded: {outdated:,}; done anew")
+    for course in courses:
+        if course.odd:
+            print(course.odd)
     page = shown((out.parent / "class.html").absolute())
     beside = "a folder for each day" if several else "feedback/"
     print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {page}")
+    return bool(notes or faults)

@@ -13,8 +13,9 @@ import argparse
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.base.words import command, count
+from labkit.base.text import count
 from labkit.log import append_row
+from labkit.log.logfile import command
 from labkit.log.rows import typed
 from labkit.log.scan import Line, watched
 from labkit.log.upkeep import came_back, restore, unsaved_rows
@@ -28,12 +29,14 @@ EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
 def main() -> int:
     """Do the one thing that the command line asks for."""
     args = parser().parse_args()
-    if args.check or args.restore:
-        if args.fields:
-            raise Robo47Error(
-                "give fields to add a row, or --check, or --restore; not both."
-            )
-        return show_check(args.file) if args.check else put_back(args.file)
+    if args.fields and (args.check or args.restore):
+        says = "give fields to add a row, or --check, or --restore; not both."
+        raise Robo47Error(says)
+    if args.check:
+        return show_check(args.file)
+    if args.restore:
+        print(f"{count(restore(args.file), 'row')} put back into {shown(args.file)}")
+        return cli.EXIT_OK
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
         args.file, sync=args.sync, allow_nonfinite=args.allow_nonfinite, **fields
@@ -82,12 +85,6 @@ def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
     if faults:
         raise Robo47Error(f"not recorded: {'; '.join(faults)}. Example: {EXAMPLE}")
     return fields
-
-
-def put_back(path: Path) -> int:
-    """Add the refused rows again; return the exit code."""
-    print(f"{count(restore(path), 'row')} put back into {shown(path)}")
-    return cli.EXIT_OK
 
 
 def show_check(path: Path) -> int:

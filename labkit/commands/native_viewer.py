@@ -97,21 +97,15 @@ def show() -> int:
             viewer.cam.azimuth = float(np.degrees(camera.azimuth))
             viewer.cam.elevation = float(np.degrees(camera.elevation))
             while viewer.is_running():
-                _advance(viewer, model, data)
+                start = time.perf_counter()
+                with viewer.lock():
+                    steps = round(FRAME_SECONDS / model.opt.timestep)
+                    mujoco.mj_step(model, data, nstep=steps)
+                viewer.sync()
+                time.sleep(max(0.0, start + FRAME_SECONDS - time.perf_counter()))
     except KeyboardInterrupt:
         print("\nwindow closed")
     finally:
         # Its thread is still tidying up: without the wait most runs crashed at exit.
         time.sleep(1.0)
     return cli.EXIT_OK
-
-
-def _advance(
-    viewer: "mujoco.viewer.Handle", model: mujoco.MjModel, data: mujoco.MjData
-) -> None:
-    """Simulate and show one picture's worth of time, in real time."""
-    start = time.perf_counter()
-    with viewer.lock():
-        mujoco.mj_step(model, data, nstep=round(FRAME_SECONDS / model.opt.timestep))
-    viewer.sync()
-    time.sleep(max(0.0, start + FRAME_SECONDS - time.perf_counter()))

@@ -10,16 +10,17 @@ cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml
 """
 
 import ast
-import contextlib
 import re
 import textwrap
 import tomllib
+from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
+from labkit.lesson.script import lab_of, make_starter, read_script
 from labkit.lesson.sealed import is_sealed
-from labkit.lesson.starter import make_starter, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -67,7 +68,11 @@ def build(day: Day, starter: bool = False) -> str:
     if starter or is_sealed(day.source.read_text("utf-8")):  # an edition has no answers
         source = make_starter(source, day.script, day.number)
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
-    cells = [*head(day, tree, starter), *library(tree, lines), *lab(day, tree, lines)]
+    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
+    main = next(node for node in functions if node.name == "main")
+    cells = head(day, tree, starter)
+    cells += library(tree.body[: tree.body.index(main)], lines)
+    cells += lab(day, main.body, lines)
     notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")
     notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
     for i, cell in enumerate(notebook.cells):
@@ -133,14 +138,16 @@ def head(day: Day, tree: ast.Module, starter: bool = False) -> list[str]:
     return [text("\n\n".join([f"# {title}", *prose, made])), code(setup)]
 
 
-def library(tree: ast.Module, lines: list[str]) -> list[str]:
+def segments(body: list[ast.stmt], lines: list[str]) -> Iterator[tuple[ast.stmt, str]]:
+    """Yield what follows a docstring, each with the lines since the one before."""
+    for before, node in pairwise(body):
+        yield node, "".join(lines[before.end_lineno : node.end_lineno])
+
+
+def library(body: list[ast.stmt], lines: list[str]) -> list[str]:
     """Return what stands before main(): the constants, then a function per cell."""
-    docstring, *nodes = tree.body[: tree.body.index(find_main(tree))]
     constants, functions = "", []
-    end = docstring.end_lineno
-    for node in nodes:
-        segment = "".join(lines[end : node.end_lineno])
-        end = node.end_lineno
+    for node, segment in segments(body, lines):
         if isinstance(node, ast.Try):  # whose message is for a shell
             wanted = lines[node.body[0].lineno - 1 : node.body[-1].end_lineno]
             segment = "\n" + textwrap.dedent("".join(wanted))
@@ -153,12 +160,12 @@ def library(tree: ast.Module, lines: list[str]) -> list[str]:
     return [code(constants), text("## The functions"), *functions]
 
 
-def lab(day: Day, tree: ast.Module, lines: list[str]) -> list[str]:
+def lab(day: Day, body: list[ast.stmt], lines: list[str]) -> list[str]:
     """Return main(): a heading and a cell per step, and what the day adds."""
     cells, more = [text("## The lab")], extras(day)
-    for title, body in sections(day, tree, lines):
+    for title, own in sections(day, body, lines):
         cells += [text(f"### {title}")] if title else []
-        cells.append(code(body))
+        cells.append(code(own))
         cells += more.pop(title.partition(".")[0], [])
     cells += more.pop("end", [])
     if more:
@@ -166,68 +173,19 @@ def lab(day: Day, tree: ast.Module, lines: list[str]) -> list[str]:
     return cells
 
 
-def sections(day: Day, tree: ast.Module, lines: list[str]) -> list[tuple[str, str]]:
+def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]]:
     """Return the titles and bodies of main()'s steps; the first has no title."""
-    docstring, *nodes = find_main(tree).body
-    names = literals(tree)
-    found, title, body = [], "", ""
-    end = docstring.end_lineno
-    for node in nodes:
-        segment = "".join(lines[end : node.end_lineno])
-        end = node.end_lineno
-        method, arguments = lab_call(node)
-        if isinstance(node, ast.Return) and node.value:
-            found.append((title, body))
-            title, body = LAST, f"\n    {ast.unparse(node.value)};"  # no "Out: 0"
-        elif method == "step":
-            found.append((title, body))
-            title, body = evaluate(arguments[0], names, day.script), ""
-        else:
-            body += segment
-    return [*found, (title, body)]
-
-
-def find_main(tree: ast.Module) -> ast.FunctionDef:
-    """Return the definition of main()."""
-    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
-    return next(node for node in functions if node.name == "main")
-
-
-def lab_call(node: ast.stmt) -> tuple[str, list[ast.expr]]:
-    """Return the method and the arguments of `lab.method(...)`, or "" and none."""
-    call = node.value if isinstance(node, ast.Expr) else None
-    if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
-        return "", []
-    on_lab = isinstance(call.func.value, ast.Name) and call.func.value.id == "lab"
-    return (call.func.attr, call.args) if on_lab else ("", [])
-
-
-def literals(tree: ast.Module) -> dict[str, object]:
-    """Return the constants that headings may name, such as CONFIGURATIONS."""
-    names: dict[str, object] = {}
-    for node in tree.body:
-        if isinstance(node, ast.Assign):
-            with contextlib.suppress(ValueError):  # not a literal
-                value = ast.literal_eval(node.value)
-                exec(f"{ast.unparse(node.targets[0])} = value", {"value": value}, names)
-    return names
-
-
-def evaluate(heading: ast.expr, names: dict[str, object], script: str) -> str:
-    """Return the words of a heading, an f-string or a plain one."""
-    return str(eval(compile(ast.Expression(heading), script, "eval"), names))
-
-
-def write_starter(day: Day) -> int:
-    """Write a notebook with gaps beside the student's file; overwrite nothing."""
-    path = day.work.with_suffix(".ipynb")
-    if path.exists():
-        raise Robo47Error(f"{shown(path)} is there already and stays as it is")
-    fresh = build(day, starter=True)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(fresh, "utf-8", newline="\n")
-    print(f"{shown(path)} written; the answers are yours to find")
-    return cli.EXIT_OK
+    found = [["", ""]]
+    for node, segment in segments(body, lines):
+        match node:
+            case ast.Return(ast.expr() as value):  # without "Out: 0"
+                found.append([LAST, f"\n    {ast.unparse(value)};"])
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name("lab"), "step"), [heading])):
+                title = eval(ast.unparse(heading), vars(lab_of(day)))
+                found.append([title, ""])
+            case _:
+                found[-1][1] += segment
+    return found
 
 
 def main() -> int:
@@ -238,10 +196,11 @@ def main() -> int:
     how.add_argument("--check", action="store_true", help="write nothing")
     how.add_argument("--starter", action="store_true", help="without answers, in work/")
     options = parser.parse_args()
-    day = chosen_day(options.day)
-    if options.starter:
-        return write_starter(day)
-    path, fresh = notebook_of(day), build(day)
+    day, starter = chosen_day(options.day), options.starter
+    path = day.work.with_suffix(".ipynb") if starter else notebook_of(day)
+    if starter and path.exists():
+        raise Robo47Error(f"{shown(path)} is there already and stays as it is")
+    fresh = build(day, starter)
     if path.exists() and fresh == path.read_text("utf-8"):
         print(f"{shown(path)} is up to date")
         return cli.EXIT_OK
@@ -250,6 +209,7 @@ def main() -> int:
         return cli.EXIT_FAILED
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(fresh, "utf-8", newline="\n")
-    print(f"{shown(path)} written")
-    print("Open it with Jupyter or VS Code (kernel .venv).")
+    print(f"{shown(path)} written{'; the answers are yours to find' * starter}")
+    if not starter:
+        print("Open it with Jupyter or VS Code (kernel .venv).")
     return cli.EXIT_OK

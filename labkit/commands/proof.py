@@ -62,14 +62,14 @@ def found(week: Week, clone: facts.Clone) -> page.Proof:
             folders.append(Path(stack.enter_context(kept)).resolve())
             with cli.busy(f"day {day.number}"):
                 known.append(facts.facts_of(day, clone, folders[-1], sandbox))
-            own, total = len(known[-1].own), len(known[-1].states)
+            own, total = len(known[-1].own), known[-1].functions
             print(f"  day {day.number}: {own} of {total} functions theirs", flush=True)
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
         with cli.busy("the pick"):
             picked = pick(known, folders, sandbox)
     fresh = store.read(FRESH) if clone.own else {}
-    return page.Proof(clone, known, picked, fresh, teacher=not clone.own)
+    return page.Proof(clone, known, picked, fresh)
 
 
 def write(path: Path, text: str) -> None:

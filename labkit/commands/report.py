@@ -17,11 +17,12 @@ import datetime
 from pathlib import Path
 
 from labkit.base import cli
-from labkit.base.words import command, count
+from labkit.base.text import count
 from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.marks import Writers, writers_of
 from labkit.lesson.week import Week
+from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
 from labkit.report.series import Report, collect, thresholds
@@ -39,15 +40,13 @@ def main() -> int:
     writers = {day.number: writers_of(day) for day in days}
     if not mine:  # nobody knows the files of another log
         writers = {n: Writers(known.kits) for n, known in writers.items()}
-    report = collect(lines, thresholds(), since, args.day, args.check, writers)
+    report = collect(lines, thresholds(days), since, args.day, args.check, writers)
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
     week = chosen_week(None) if whole else None
     number = week.number if week else None
-    checked: dict[int | None, str] = {}
-    if mine:
-        checked |= {day.number: last_check(day) for day in days}
+    checked = {day.number: last_check(day) for day in days} if mine else {}
     write(out / "report.html", page.render(report, heading, number, checked).encode())
     if week is not None:
         write_week(report, heading, out, week, args.file)
@@ -69,8 +68,7 @@ def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
 
-    series = {(one.day, one.check, one.metric): one for one in report.series}
-    facts = [facts_of(day, series) for day in days_of(week)]
+    facts = [facts_of(day, report.series) for day in days_of(week)]
     page = week_page.render(facts, heading)
     write(out / f"report-week{week.number}.html", page.encode())
     if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine

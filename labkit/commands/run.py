@@ -15,7 +15,7 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.commands.start import require_begun
 from labkit.lesson.day import chosen_day
-from labkit.lesson.originals import require_kits
+from labkit.lesson.script import require_kits
 
 
 def main() -> int:

@@ -11,15 +11,9 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.originals import require_kits
-from labkit.lesson.starter import make_starter, put_back, read_script
+from labkit.lesson.script import put_back, read_script, require_kits, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
-
-
-def starter_of(day: Day) -> str:
-    """Return the starter of a day's lab script."""
-    return make_starter(read_script(day.source), shown(day.source), day.number)
 
 
 def start(day: Day) -> int:

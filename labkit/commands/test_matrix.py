@@ -11,7 +11,6 @@ not on this machine's PATH is named and left out.
 import os
 import shlex
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -29,7 +28,7 @@ def find_python(version: str) -> str | None:
     test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
     known = (f"python{version}", "python3", sys.executable)
     for path in filter(None, map(shutil.which, known)):
-        if subprocess.run([path, "-c", test], capture_output=True).returncode == 0:
+        if processes.run([path, "-c", test]).returncode == 0:
             return path
     return None
 
@@ -56,7 +55,7 @@ def environment(python: str, version: str, mujoco: str) -> Path:
 
 def run(command: list[str]) -> None:
     """Run a quiet command in the clone, or say how it failed."""
-    done = processes.run(command, env=os.environ, cwd=ROOT)
+    done = processes.run(command, cwd=ROOT)
     if done.returncode != 0:
         why = done.stderr[-500:].strip()
         raise Robo47Error(f"`{shlex.join(command)}` failed: {why}")
@@ -80,11 +79,11 @@ def main() -> int:
             print(f"matrix: {name} ...", flush=True)
             inside = environment(path, version, mujoco)
             tests = [str(inside), "-m", "pytest", "-q", *shlex.split(options.pytest)]
-            done = subprocess.run(tests, cwd=ROOT, stdout=subprocess.PIPE, text=True)
-            failed |= done.returncode != 0
-            if done.returncode != 0:
-                print(done.stdout)
-            verdict = "PASS" if done.returncode == 0 else "FAIL"
+            done = processes.run(tests, cwd=ROOT)
+            if done.returncode:
+                failed = True
+                print(done.stdout + done.stderr)
+            verdict = "FAIL" if done.returncode else "PASS"
             lines.append(f"{verdict:8}  {name}: {done.stdout.splitlines()[-1]}")
     print("\n".join(lines))
     return cli.EXIT_FAILED if failed else cli.EXIT_OK

@@ -15,17 +15,17 @@ import argparse
 import functools
 import importlib.util
 from pathlib import Path
+from typing import NoReturn
 
 import mujoco
-import numpy as np
 
 from labkit.base import cli
 from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
+from labkit.inspector.arm import Arm
 from labkit.judge.ask import model_of
 from labkit.lesson.day import Day, chosen_day
 from robo47 import panda
-from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import shown
@@ -34,15 +34,14 @@ DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 
 
-def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int:
+def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> NoReturn:
     """Serve the inspector until Ctrl-C; without a start where it was left."""
     if importlib.util.find_spec("viser") is None:
         raise Robo47Error(
             "the inspector needs viser, which this Python does not have. "
             "`make view` installs it, or: python3 scripts/setup_env.py view"
         )
-    from labkit.inspector.arm import Arm
-    from labkit.inspector.serve import Show, serve
+    from labkit.inspector.serve import serve
 
     scene = day.folder / entry if entry.endswith(".xml") else None
     print(f"robot: {shown(scene)}" if scene else panda.describe(entry), flush=True)
@@ -58,7 +57,7 @@ def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> int
     arm.move(arm.named_q.get(start or CONFIGURATIONS[0], arm.named_q["home"]))
     dressed = functools.partial(panda.load, entry, meshes=True)
     dressed = functools.partial(model_of, scene) if scene else dressed
-    return serve(Show(day, arm, about, dressed, simple, start is None), port)
+    serve(day, arm, about, dressed, port, simple=simple, back=start is None)
 
 
 def end_of(model: mujoco.MjModel) -> str:
@@ -66,14 +65,6 @@ def end_of(model: mujoco.MjModel) -> str:
     if model.nsite:
         return f"site:{model.site(model.nsite - 1).name}"
     return f"body:{model.body(model.nbody - 1).name}"
-
-
-def native() -> int:
-    """Open MuJoCo's window, or say in one line why not."""
-    why = native_viewer.obstacle()
-    if why:
-        raise Robo47Error(f"{why}. The browser needs none of that: make view")
-    return native_viewer.show()
 
 
 def screenshot(path: Path, start: str) -> int:
@@ -94,7 +85,8 @@ def screenshot(path: Path, start: str) -> int:
         ) from None
     from PIL import PngImagePlugin
 
-    picture = draw(configuration(start), start)
+    arm = Arm(panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"])
+    picture = draw(arm.named_q[start], start)
     about = PngImagePlugin.PngInfo()
     about.add_text(PORTRAIT, start)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -117,14 +109,6 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
     size = film(path, day, file)
     print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
     return cli.EXIT_OK
-
-
-def configuration(name: str) -> Array:
-    """Return the arm's joint angles at one of CONFIGURATIONS, (7,)."""
-    if name == "ready":  # the handout's home_q; `home` is the model's own key
-        return panda.READY_Q
-    model = panda.load("panda_nohand")
-    return panda.home_q(model) if name == "home" else np.zeros(model.nq)
 
 
 def port(text: str) -> int:
@@ -191,9 +175,11 @@ def main() -> int:
             raise Robo47Error("--entry is for --web; a picture has the hand on")
         return screenshot(picture_of(options), options.start or CONFIGURATIONS[0])
     if options.native:
-        return native()
+        if why := native_viewer.obstacle():
+            raise Robo47Error(f"{why}. The browser needs none of that: make view")
+        return native_viewer.show()
     day = chosen_day(options.day)
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or day.week.robot
-    return web(day, entry, options.start, options.port, options.simple)
+    web(day, entry, options.start, options.port, options.simple)

@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from tqdm import tqdm
 
 from labkit.base import cli
-from labkit.base.words import count, number_of
+from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.marks import writers_of
-from labkit.report.week_labs import Ran, name_of, run_labs
+from labkit.report.week_labs import Ran, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit", "")
@@ -29,12 +29,11 @@ def lines_of(ran: Ran) -> list[Line]:
     whose = "yours" if ran.mine else "kit's"
     if ran.mine and writers_of(ran.day).borrowed:
         whose = "part kit's"
-    for metric in ran.day.metrics:
-        value = ran.value(metric)
-        number = "none" if value is None else number_of(value)
-        verdict = "PASS" if ran.passes(metric) else "FAIL"
-        name = name_of(ran.day, metric)[:NAMED]
-        lines.append((str(ran.day.number), whose, name, number, metric.limit, verdict))
+    for one in ran.numbers:
+        number = "none" if one.latest is None else number_of(one.latest)
+        verdict = "PASS" if one.status == "pass" else "FAIL"
+        name, limit = ran.day.name_of(one.wanted)[:NAMED], one.wanted.limit
+        lines.append((str(ran.day.number), whose, name, number, limit, verdict))
     return lines
 
 

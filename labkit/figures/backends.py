@@ -89,8 +89,9 @@ def rendering_environment(*, forget: bool = False) -> dict[str, str]:
         Robo47Error: nothing draws here; the line names what to install.
     """
     options = candidates()
-    known = None if forget else _recall()
-    if known in options:
+    record = {} if forget else store.read(NAME, ROOT)
+    known = record.get("backend")
+    if known in options and record.get("key") == _key():
         return {**os.environ, **options[known]}
     reasons = {}
     for name, variables in options.items():
@@ -130,8 +131,3 @@ def _key() -> dict[str, str]:
         "MUJOCO_GL": os.environ.get("MUJOCO_GL", ""),
         "DISPLAY": os.environ.get("DISPLAY", ""),
     }
-
-
-def _recall() -> str | None:
-    record = store.read(NAME, ROOT)
-    return record.get("backend") if record.get("key") == _key() else None

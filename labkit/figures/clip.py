@@ -1,33 +1,47 @@
-"""Short clips, drawn without a display: the arm moving, another arm beside it.
+"""Short clips, drawn without a display: the arm with another beside it, or its pick.
 
-    frames = arm_clip(there_and_back(q0, q1, 40), ghost_of, caption_of)
-    save_clip(frames, Path("arm.gif"))
+    qs = there_and_back(q0, q1, 40)
+    save_clip(drawn((arm_scene(q), ("there and back", None)) for q in qs), path)
 
 GIF for what shows nothing else, WebP for a third of the size.
 """
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 from tqdm import tqdm
 
 from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
-from labkit.figures.scene import Camera, Ghost, Scene
-from robo47 import se3
+from labkit.figures.scene import Box, Camera, Ghost, Scene
+from labkit.figures.sheet import with_line
+from robo47 import scenes, se3
+from robo47.capstone.phases import Result
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 SIZE, SECONDS = (480, 420), 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
 GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
+PICK_SIZE, PICTURE_SIZE, FRAMES = (420, 340), (1200, 800), 60
+AT_THE_TABLE = Camera(
+    lookat=(0.33, 0.0, 0.36),
+    distance=2.3,
+    azimuth=np.radians(215.0),
+    elevation=np.radians(-18.0),
+)
+ARM = 9  # numbers of qpos: seven joints and two fingers; the cube's seven follow
+TABLE, CUBE = (0.80, 0.74, 0.66, 1.0), (0.85, 0.35, 0.10, 1.0)
+MOMENTS = ("descend", "lift", "put down")  # whose ends a picture shows
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
+Shot = tuple[Scene, Caption]
 
 
 def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
@@ -37,32 +51,32 @@ def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
     return start + s[:, None] * (end - start)
 
 
-def arm_clip(
-    qs: ArrayLike,
-    ghost_of: Callable[[Array], Mapping[str, Array]] = lambda q: {},
-    caption_of: Callable[[Array], Caption] = lambda q: ("", None),
-) -> list[Image.Image]:
-    """Return one picture of the Panda per configuration.
+def arm_scene(q: ArrayLike, other: Mapping[str, Array] | None = None) -> Scene:
+    """Return the Panda at a configuration, (7,).
 
     Args:
-        qs: the arm's configurations, (n, 7).
-        ghost_of: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
+        q: radians.
+        other: {link: its pose in the world, (4, 4)} of another arm, drawn in red;
             link7 carries the hand along.
-        caption_of: what stands below.
     """
+    full = with_fingers(q)
+    true = link_frames(full)
+    ghosts = tuple(
+        Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
+        for link, T in (other or {}).items()
+        if link in LINKS
+    )
+    return Scene(full, SIZE, CAMERA, ghosts, fast=True)
+
+
+def drawn(shots: Iterable[Shot]) -> list[Image.Image]:
+    """Return one picture per scene, with its caption below."""
     pictures = []
-    for q in tqdm(
-        np.asarray(qs, dtype=float), "drawing", delay=1, leave=False, disable=None
-    ):
-        full = with_fingers(q)
-        true = link_frames(full)
-        ghosts = tuple(
-            Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
-            for link, T in ghost_of(q).items()
-            if link in LINKS
-        )
-        scene = Scene(full, SIZE, CAMERA, ghosts, fast=True)
-        pictures.append(captioned(Image.fromarray(client.draw(scene)), caption_of(q)))
+    waits = tqdm(list(shots), "drawing", delay=1, leave=False, disable=None)
+    for scene, (words, good) in waits:
+        picture = Image.fromarray(client.draw(scene))
+        colour = INK if good is None else GOOD if good else BAD
+        pictures.append(with_line(picture, words, colour, 15, 26, "mm"))
     return pictures
 
 
@@ -120,16 +134,53 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
     return buffer.getvalue()
 
 
-def captioned(picture: Image.Image, caption: Caption) -> Image.Image:
-    """Return a picture with words below it, as it is where there are none."""
-    words, good = caption
-    if not words:
-        return picture
-    font = ImageFont.load_default(15)
-    band = 26
-    sheet = Image.new("RGB", (picture.width, picture.height + band), "white")
-    sheet.paste(picture, (0, 0))
-    colour = INK if good is None else GOOD if good else BAD
-    middle = (picture.width / 2, picture.height + band / 2)
-    ImageDraw.Draw(sheet).text(middle, words, colour, font, anchor="mm")
-    return sheet
+def pick_clip(result: Result, path: Path) -> str:
+    """Write a film of a pick, .gif or .webp; return a line about it."""
+    kind_of(path)
+    rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
+    shots = (
+        (_scene(result.qpos[row], PICK_SIZE, fast=True), phase(result, row))
+        for row in rows
+    )
+    size = save_clip(drawn(shots), path, seconds=result.seconds)
+    return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
+
+
+def pick_picture(result: Result, path: Path) -> str:
+    """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
+    whole = [client.draw(_scene(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    quarter = PICTURE_SIZE[0] // 4
+    middles = [part[:, quarter:-quarter] for part in whole]
+    sheet = Image.fromarray(np.hstack(middles))
+    try:
+        sheet.save(path, "PNG")
+    except (OSError, ValueError) as error:
+        raise Robo47Error(f"cannot write {shown(path.absolute())}: {error}") from None
+    return f"{shown(path.absolute())}  {sheet.width} x {sheet.height}"
+
+
+def phase(result: Result, row: int) -> Caption:
+    """Return what the arm does at an instant, and when that is."""
+    t = float(result.t[row])
+    name = [name for name, begins in result.phases if begins <= t][-1]
+    return f"{name}, {t:.1f} s", None
+
+
+def moments(result: Result) -> list[Array]:
+    """Return everything's configuration at the ends of three phases, (16,) each."""
+    names = [name for name, _ in result.phases]
+    ends = [begins for _, begins in result.phases[1:]] + [result.seconds]
+    times = [ends[names.index(name)] for name in MOMENTS]
+    return [result.qpos[min(int(np.searchsorted(result.t, t)), len(result.t) - 1)]
+            for t in times]  # fmt: skip
+
+
+def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:
+    """Return one configuration of arm and cube, (16,)."""
+    table = se3.make_T(np.eye(3), [*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT / 2])
+    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
+    boxes = (
+        Box(table, (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2), TABLE),
+        Box(cube, (scenes.CUBE_HALF,) * 3, CUBE),
+    )
+    return Scene(qpos[:ARM], size, AT_THE_TABLE, fast=fast, boxes=boxes)

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 from labkit.figures.sheet import thumbnail
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 
 
@@ -16,8 +15,8 @@ def lesson_figures(number: int, own: bool = False) -> dict[str, Callable[[], Any
         own: draw with the functions of the student's file, not with the kit's.
     """
     day = find_day(number)
-    figures = folder.offered(day, "figures", day.work if own else None)
-    if figures and (small := getattr(folder.load(day, "figures"), "SMALL", None)):
+    figures = day.offered("figures", day.work if own else None)
+    if figures and (small := getattr(day.module("figures"), "SMALL", None)):
         name, *part = small  # a picture, and the part of it that a table shows
         draw = figures[f"day{number}_{name}"]
         figures[f"day{number}_small"] = lambda: thumbnail(draw(), *part)

@@ -2,9 +2,9 @@
 
 from PIL import Image, ImageDraw, ImageFont
 
+Colour = tuple[int, int, int]  # red, green, blue, of 255
 INK, FAINT, RULE = (33, 37, 41), (90, 97, 104), (206, 212, 218)
 HEAD, TITLE, SMALL = 130, 44, 30  # pixels: the space above, and two sizes of text
-FOOT = 44  # pixels: the space below
 TINY = (168, 126)  # pixels: four beside each other in a README, two on a phone
 
 
@@ -17,13 +17,24 @@ def thumbnail(
     return part.resize(TINY, Image.Resampling.LANCZOS)
 
 
-def signed(picture: Image.Image, text: str) -> Image.Image:
-    """Return a picture with a line of text below it."""
+def with_line(
+    picture: Image.Image,
+    words: str,
+    colour: Colour = FAINT,
+    font: int = 22,
+    band: int = 44,
+    anchor: str = "rm",
+) -> Image.Image:
+    """Return a picture with a line of text in a band below it: "rm" right, "mm" middle.
+
+    The text's size and the band's height are pixels.
+    """
     width, height = picture.size
-    sheet = Image.new("RGB", (width, height + FOOT), "white")
+    sheet = Image.new("RGB", (width, height + band), "white")
     sheet.paste(picture, (0, 0))
-    place = (width - 16, height + FOOT / 2)
-    ImageDraw.Draw(sheet).text(place, text, FAINT, ImageFont.load_default(22), "rm")
+    place = (width - 16 if anchor == "rm" else width / 2, height + band / 2)
+    style = ImageFont.load_default(font)
+    ImageDraw.Draw(sheet).text(place, words, colour, style, anchor)
     return sheet
 
 

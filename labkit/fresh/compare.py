@@ -4,15 +4,14 @@ A number at the level of rounding differs between two processors, and should: it
 be within its limit again. A physical one must be the same within a factor of two.
 """
 
-from collections.abc import Mapping
 from pathlib import Path
 
-from labkit.base.words import number_of
+from labkit.base.text import number_of
 from labkit.handin.handin import read_handin
 from labkit.handin.rows import own_rows
-from labkit.lesson.day import Metric
 from labkit.log.rows import Row
-from labkit.report.week_labs import Ran, name_of
+from labkit.report.series import Series, value_of
+from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error
 
 ROUNDING = 1e-9
@@ -34,25 +33,27 @@ def faults(ran: Ran, clone: Path) -> list[str]:
     except Robo47Error as error:
         return [f"day {day.number}: {error}"]
     found = []
-    for metric in day.metrics:
-        why = _fault(metric, ran, rows)
-        found += [f"day {day.number}, {name_of(day, metric)}: {why}"] if why else []
+    for number in ran.numbers:
+        row = rows.get((number.wanted.check, number.wanted.metric))
+        if why := _fault(number, row, mine=ran.mine):
+            found.append(f"day {day.number}, {day.name_of(number.wanted)}: {why}")
     return found
 
 
-def _fault(metric: Metric, ran: Ran, rows: Mapping[tuple[str, str], Row]) -> str:
-    value = ran.value(metric)
+def _fault(number: Series, row: Row | None, *, mine: bool) -> str:
+    value = number.latest
     if value is None:
         return "the lab recorded no such number"
-    if not ran.passes(metric):
-        return f"{number_of(value)} in the clone; it must be {metric.limit}"
-    if not ran.mine:
+    if number.status != "pass":
+        return f"{number_of(value)} in the clone; it must be {number.wanted.limit}"
+    if not mine:
         return ""  # the kit's own: nobody committed a row
-    row = rows.get((metric.check, metric.metric))
-    before = row["value"] if row else None
-    if not isinstance(before, int | float):
+    before = value_of(row) if row else None
+    if before is None:
         return "no committed row of this file; make run, then commit the log"
-    return "" if same(float(before), value) else _differs(float(before), value)
+    if same(before, value):
+        return ""
+    return f"{number_of(value)} in the clone, {number_of(before)} in the committed log"
 
 
 def same(before: float, now: float) -> bool:
@@ -60,7 +61,3 @@ def same(before: float, now: float) -> bool:
     if abs(before) < ROUNDING:
         return True
     return 1 / FACTOR <= now / before <= FACTOR
-
-
-def _differs(before: float, now: float) -> str:
-    return f"{number_of(now)} in the clone, {number_of(before)} in the committed log"

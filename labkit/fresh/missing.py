@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
-from labkit.handin.handin import helpers_of
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import helpers_of
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
 
@@ -55,9 +55,8 @@ def _only_here(
             rule = ignored_by(name, root)
             lacks[name] = f"ignored by git ({rule})" if rule else "not in the commit"
     for day in days:
-        script = day.files["script"]
-        own = {script: day.work.read_bytes()} if day.work.is_file() else {}
-        for name in helpers_of(root, script, own):
+        own = day.work.read_bytes() if day.work.is_file() else b""
+        for name in helpers_of(root, day.files["script"], own):
             if not (clone / name).is_file():
                 lacks[name] = f"{day.work.name} imports it; not in the commit"
     return lacks
@@ -115,7 +114,10 @@ def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
 def _absolute(week: Path, clone: Path) -> Iterator[str]:
     """Yield the lines that name a place which other machines do not have."""
     for script in sorted((week / "work").glob("*.py")):
-        for node in _nodes(script):
+        nodes: list[ast.AST] = []
+        with contextlib.suppress(SyntaxError, ValueError):  # its lab says so itself
+            nodes = list(ast.walk(ast.parse(script.read_bytes())))
+        for node in nodes:
             if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
                 continue
             text = node.value
@@ -131,8 +133,3 @@ def _absolute(week: Path, clone: Path) -> Iterator[str]:
 def _line(path: Path, clone: Path, number: int, text: str) -> str:
     name = path.relative_to(clone).as_posix()
     return f"{name}, line {number}: {text[:60]!r} is a path of this machine alone"
-
-
-def _nodes(script: Path) -> Iterator[ast.AST]:
-    with contextlib.suppress(SyntaxError, ValueError):  # its lab says so itself
-        yield from ast.walk(ast.parse(script.read_bytes()))

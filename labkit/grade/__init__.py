@@ -2,7 +2,7 @@
 
 On the teacher's machine, the coordinator:
 
-    classroom   one class, from start to end, for one day or more
+    classroom   one class, from start to end, for a day
     roster      who is in the class, in which folder, and their files' names
     pull        clone and update, where asked to
     package     from a clone to what travels: a few files as bytes, and its fingerprint
@@ -12,16 +12,14 @@ On the teacher's machine, the coordinator:
 
 Wherever grading happens, here or on a worker:
 
-    grader      a process of its own for the checker, with a time limit
-    child       what runs in that process: from a package to a result
+    child       a process of its own for the checker: from a package to a result
     result      what a grade consists of
 
 What comes out:
 
-    sheet       the table, one row per student, and a file for each of them
-    platforms   the table as Canvas and Moodle import it
-    overview    what the class stumbles over, and who is stuck
-    page, people, charts   the same as one HTML page
+    course      everybody's grades for a day, and the mistakes that they share
+    sheet       the tables, one row per student, as Canvas and Moodle import them, too
+    page        a day as one HTML page; week_page of several days; both draw charts
 
 Student code only ever runs in the checker's sandbox, and nothing of a student's clone
 (its robo47/, manifests, conftest.py, Makefile or git configuration) takes part. What a

@@ -55,19 +55,13 @@ FITS = 28  # letters of a label on a phone, where the words at the right need ro
 
 @dataclass(frozen=True)
 class Row:
-    """One row: a label, words at the right, and the bar below them.
-
-    Attributes:
-        label: at the left.
-        words: at the right.
-        parts: (role, number) from left to right; a role is a colour of the page.
-        whole: the number that fills the width.
-    """
+    """One row: a label, words at the right, and the bar below them."""
 
     label: str
     words: str
+    # (role, number) from left to right; a role is a colour of the page.
     parts: Sequence[tuple[str, int]]
-    whole: int
+    whole: int  # the number that fills the width
 
 
 def chart(rows: Sequence[Row], about: str) -> str:

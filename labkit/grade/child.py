@@ -15,17 +15,17 @@ import shutil
 import sys
 import tempfile
 import threading
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from labkit.base.text import visible
 from labkit.check import report
 from labkit.check.lab_run import check_lab
-from labkit.check.tasks import TaskResult, check_tasks
+from labkit.check.tasks import TaskResult, check_tasks, required_pass
 from labkit.grade.package import Package, unpack
-from labkit.grade.result import Mark, Result, counted, ungraded
+from labkit.grade.result import Mark, Result, ungraded
 from labkit.handin.deliverables import check_files
-from labkit.handin.item import Item
+from labkit.handin.handin import Item
 from labkit.judge import Verdict
 from labkit.lesson.day import Day, find_day
 from labkit.sandbox.sandbox import Sandbox
@@ -33,6 +33,7 @@ from robo47.errors import FaultError
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
 LINES, LINE = 200, 400  # of a text, and characters of one
+NOTHING_TO_RUN = ("does-not-load", "not-started")
 # What is another at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
 _FOLDERS = re.compile(r"robo47-(?:check|grader?)-\w{1,40}[/\\]?")
@@ -51,26 +52,17 @@ def main() -> None:
             package = pickle.load(sys.stdin.buffer)  # from our own parent
         except EOFError:
             break
-        day = find_day(package.day)
         try:
-            answer = signed(grade(package, day), package).to_json()
+            answer = asdict(grade(package, find_day(package.day)))
         except (FaultError, OSError, MemoryError) as error:  # not the student's
             name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
             answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
         except Exception as error:  # a hole in the checker costs one grade
             why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
-            answer = signed(ungraded(day, why), package).to_json()
+            answer = asdict(ungraded(find_day(package.day), why))
         out.write(json.dumps(answer).encode("ascii") + b"\n")
         out.flush()
     shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone
-
-
-def signed(result: Result, package: Package) -> Result:
-    """Return a result with what another machine needs to come to the same."""
-    again = f'make check DAY={package.day} ARGS="--seed {package.seed} --explain"'
-    text = f"{result.text}\nGraded by robo47 {package.version} with the seed "
-    text += f"{package.seed}, for everybody.\nThe same on your machine: {again}\n"
-    return replace(result, text=text, kit=package.version, seed=package.seed)
 
 
 def grade(package: Package, day: Day) -> Result:
@@ -85,28 +77,22 @@ def grade(package: Package, day: Day) -> Result:
     """
     if package.problem:
         return ungraded(day, package.problem)
-    with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
-        tasks, lab, error = _tasks(package, day, Path(folder).resolve())
     day = day.named_as(lambda name: name in package.handin.files)
-    items = check_files(day, package.handin, tasks_pass=_done(tasks, day))
+    with tempfile.TemporaryDirectory(prefix="robo47-grade-") as folder:
+        results, lab = _run(package, day, Path(folder).resolve())
+    done = required_pass(results)
+    items = check_files(day, package.handin, tasks_pass=done)
     if lab:  # its numbers cannot be right: every class has the same columns
         failed = replace(lab[0], name="metrics")
         items = [failed if item.name == "metrics" else item for item in items]
-    return _result(day, tasks, [*items, package.commit_item], error)
+    return _result(day, results, [*items, package.commit_item])
 
 
-def _done(tasks: list[TaskResult], day: Day) -> bool:
-    """Return whether all tasks that count pass."""
-    return all(task.passed for task in tasks if task.task.id in counted(day))
-
-
-def _tasks(
+def _run(
     package: Package, day: Day, folder: Path
-) -> tuple[list[TaskResult], list[Item], str]:
-    """Return the tasks' results, the lab's, and why there is nothing to run or ""."""
-    handin = package.handin
-    day = day.named_as(lambda name: name in handin.files)
-    name = day.files["script"]
+) -> tuple[list[TaskResult], list[Item]]:
+    """Return the tasks' results, and the lab's where they all pass."""
+    handin, name = package.handin, day.files["script"]
     if name not in handin.files:
         if name in handin.unread:
             says = f"{name} {handin.unread[name]}."
@@ -114,43 +100,44 @@ def _tasks(
         else:
             start = f"{name} is not there. Begin with: make start DAY={day.number}"
             verdict = Verdict("todo", "not-started", start)
-        return [TaskResult(task, verdict) for task in day.tasks], [], verdict.message
+        return [TaskResult(task, verdict) for task in day.tasks], []
     unpack(package, folder)
     with Sandbox() as sandbox:
         script = folder / day.script
         results = check_tasks(day, script, sandbox, seed=package.seed)
-        lab = check_lab(day, script, sandbox) if _done(results, day) else []
-    loads = results[0].verdict.mistake != "does-not-load"
-    return results, lab, "" if loads else results[0].verdict.message
+        lab = check_lab(day, script, sandbox) if required_pass(results) else []
+    return results, lab
 
 
-def _result(day: Day, tasks: list[TaskResult], items: list[Item], error: str) -> Result:
+def _result(day: Day, results: list[TaskResult], items: list[Item]) -> Result:
     """Return the result with the words that `make check` has for it."""
     marks = [
         Mark(
-            r.task.id,
-            r.verdict.status,
-            r.verdict.mistake,
-            _tidy(f"{r.verdict.message} {r.verdict.call}".strip()),
+            one.task.id,
+            one.verdict.status,
+            one.verdict.mistake,
+            _tidy(f"{one.verdict.message} {one.verdict.call}".strip()),
         )
-        for r in tasks
-        if r.task.id in counted(day)
+        for one in results
+        if not one.task.optional
     ]
-    refused = [what for r in tasks for what in r.refused]
-    told = [replace(r, verdict=_brief(r.verdict), printed="") for r in tasks]
+    refused = [_tidy(what) for one in results for what in one.refused]
+    first = results[0].verdict
+    # What was measured is told of a wrong answer alone.
+    told = [
+        replace(one, printed="", verdict=replace(one.verdict, measured=()))
+        if one.passed
+        else replace(one, printed="")
+        for one in results
+    ]
     text = report.as_text(report.Report(day, told, items), explain=True)
     return Result(
         tuple(marks),
         tuple(Mark(item.name, item.status, "", _tidy(item.message)) for item in items),
         _tidy(text) + "\n",
-        _tidy(error),
-        tuple(dict.fromkeys(map(_tidy, refused)))[:20],
+        _tidy(first.message) if first.mistake in NOTHING_TO_RUN else "",
+        tuple(dict.fromkeys(refused))[:20],
     )
-
-
-def _brief(verdict: Verdict) -> Verdict:
-    """Return a verdict with what was measured of a wrong answer alone."""
-    return replace(verdict, measured=()) if verdict.status == "passed" else verdict
 
 
 def _tidy(text: str) -> str:

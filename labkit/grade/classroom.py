@@ -1,25 +1,26 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
 from array import array
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from tqdm import tqdm
 
 from labkit.base.git import GitError
 from labkit.base.text import visible
 from labkit.grade import page, similar
+from labkit.grade.course import Course, Graded
 from labkit.grade.engine import Engine, grade_all
-from labkit.grade.journal import Journal
-from labkit.grade.overview import Course
+from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
-from labkit.grade.roster import Student, file_names
-from labkit.grade.sheet import Graded, as_csv, nameless, write, write_feedback
+from labkit.grade.roster import Student
+from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.lesson.day import Day
-from labkit.lesson.starter import make_starter, read_script
+from labkit.lesson.script import read_script, starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
@@ -28,53 +29,18 @@ FAULT = "this machine failed ({}); the same command tries again"
 
 
 @dataclass
-class Tally:
-    """What is said at the end of all days.
-
-    Attributes:
-        graded_now: how many results are new.
-        faults: how many are none, since this machine or a worker failed.
-        outdated: how many another version of the kit had given.
-        odd: on lines of journals that are no result.
-        notes: what to add to a student's error, by folder.
-    """
-
-    graded_now: int = 0
-    faults: int = 0
-    outdated: int = 0
-    odd: list[str] = field(default_factory=list)
-    notes: dict[str, str] = field(default_factory=dict)
-
-
-@dataclass
 class Classroom:
-    """One class on the way to its grades for a day.
+    """One class on the way to its grades for a day."""
 
-    Attributes:
-        students: from the roster.
-        day: from the kit's manifest.
-        journal: results so far.
-        again: folders to grade though they have a result; None is everybody.
-        frozen: what another version of the kit gave stays.
-        keep: "last", or "best" of all results of somebody.
-        tally: where is counted what becomes of them.
-    """
-
-    students: Sequence[Student]
-    day: Day
-    journal: Journal
+    students: Sequence[Student]  # from the roster
+    day: Day  # from the kit's manifest
+    journal: Journal  # results so far
+    # Folders to grade though they have a result; None is everybody.
     again: Collection[str] | None = ()
-    frozen: bool = False
-    keep: str = "last"
-    tally: Tally = field(default_factory=Tally)
-
-    def pull(self) -> None:
-        """Clone and update; who cannot be updated is graded as they are."""
-        with _bar(len(self.students), "pulling") as bar:
-            for student, problem in pull_all(list(self.students)):
-                if problem:
-                    self.tally.notes[student.folder] = f"not pulled: {problem}"
-                bar.update()
+    frozen: bool = False  # what another version of the kit gave stays
+    keep: str = "last"  # or "best" of all results of somebody
+    # What to add to a student's error, by folder.
+    notes: Mapping[str, str] = field(default_factory=dict)
 
     def grade(self, engine: Engine, feedback: Path) -> Course:
         """Grade everybody whose work has changed.
@@ -91,42 +57,36 @@ class Classroom:
         """
         graded: dict[str, Graded] = {}
         runs: dict[str, list[array[int]]] = {}
-        students = {student.folder: student for student in self.students}
-        files, starter = file_names(students), _starter(self.day)
+        starter, now = starter_of(self.day), 0
+        due = self.journal.reference if self.journal.deadline else None
 
-        def note(folder: str, package: Package, result: Result | FaultError) -> None:
-            one = self._graded(students[folder], files[folder], package, result)
-            graded[folder] = one
-            write_feedback(feedback, one)
+        def note(one: Student, package: Package, result: Result | FaultError) -> None:
+            graded[one.folder] = self._graded(one, package, result)
+            text = f"{one.name}\n\n{graded[one.folder].result.text}"
+            write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
             bar.update()
 
-        def changed() -> Iterator[tuple[str, Package]]:
-            for folder, student in students.items():
-                package = self._collected(student)
-                if isinstance(package, FaultError):
-                    note(folder, Package(self.day.number, ""), package)
+        def changed() -> Iterator[tuple[Student, Package]]:
+            for student in self.students:
+                try:
+                    package = collect(student, self.day, self.journal.seed, due)
+                except (OSError, GitError, MemoryError) as error:
+                    why = visible(error) or type(error).__name__
+                    note(student, Package(self.day.number, ""), FaultError(why))
                     continue
-                runs[folder] = _runs(package, self.day, starter)
-                if known := self._known(folder, package):
-                    note(folder, package, known)
+                runs[student.folder] = _runs(package, self.day, starter)
+                if known := self._known(student.folder, package):
+                    note(student, package, known)
                 else:
-                    yield folder, package
+                    yield student, package
 
-        with _bar(len(students), "grading") as bar:
-            for folder, package, result in grade_all(changed(), engine):
+        with _bar(len(self.students), "grading") as bar:
+            for student, package, result in grade_all(changed(), engine):
                 if isinstance(result, Result):
-                    result = result.lean()
-                    self.journal.keep(folder, package, result)
-                    self.tally.graded_now += 1
-                note(folder, package, result)
-        return self._course([graded[folder] for folder in students], runs)
-
-    def _collected(self, student: Student) -> Package | FaultError:
-        due = self.journal.reference if self.journal.deadline else None
-        try:
-            return collect(student, self.day, self.journal.seed, due)
-        except (OSError, GitError, MemoryError) as error:
-            return FaultError(visible(error) or type(error).__name__)
+                    self.journal.keep(student.folder, package, result)
+                    now += 1
+                note(student, package, result)
+        return self._course([graded[one.folder] for one in self.students], runs, now)
 
     def _known(self, folder: str, package: Package) -> Result | None:
         """Return the result that stays, or None for who is to be graded."""
@@ -135,33 +95,45 @@ class Classroom:
         return None if self.again is None or folder in self.again else known
 
     def _graded(
-        self,
-        student: Student,
-        file: str,
-        package: Package,
-        result: Result | FaultError,
+        self, student: Student, package: Package, result: Result | FaultError
     ) -> Graded:
+        given: Package | Kept = package
         fault, late = isinstance(result, FaultError), package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
-            self.tally.faults += 1
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
-            result, package = self.journal.best(student.folder, package)
+            given = self.journal.best(student.folder)
+            result = given.result
         minutes = None
-        if package.committed is not None:
-            minutes = (self.journal.reference - package.committed) // 60
-        note = self.tally.notes.get(student.folder, "")
-        facts = (package.commit, minutes, note, fault, file)
+        if given.committed is not None:
+            minutes = (self.journal.reference - given.committed) // 60
+        note = self.notes.get(student.folder, "")
+        facts = (given.commit, minutes, note, fault)
         return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(
-        self, everybody: Sequence[Graded], runs: Mapping[str, list["array[int]"]]
+        self,
+        everybody: Sequence[Graded],
+        runs: Mapping[str, list["array[int]"]],
+        now: int,
     ) -> Course:
         alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
-        journal = self.journal
+        journal, odd = self.journal, ""
+        if journal.odd:
+            path = shown(journal.path.absolute())
+            odd = f"{path}: lines that are no result, left out: {journal.odd:,}"
         facts = (journal.reference, journal.deadline, journal.seed)
-        return Course(self.day, everybody, alike, *facts)
+        return Course(self.day, everybody, alike, *facts, now, journal.outdated, odd)
+
+
+def pull(students: Sequence[Student]) -> dict[str, str]:
+    """Clone and update; return what to add to a student's error, by folder.
+
+    Who cannot be updated is graded as they are.
+    """
+    done = _bar(len(students), "pulling", pull_all(students))
+    return {one.folder: f"not pulled: {problem}" for one, problem in done if problem}
 
 
 def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
@@ -182,15 +154,11 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _starter(day: Day) -> str:
-    return make_starter(read_script(day.source), shown(day.source), day.number)
-
-
 def _runs_of_kit(day: Day) -> "array[int]":
     """Return the runs of a day's solution and of the library's modules that hold it."""
-    files = [day.source, *map(file_of, day.library)]
+    files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
-    return similar.runs_of(texts.encode(), _starter(day))
+    return similar.runs_of(texts.encode(), starter_of(day))
 
 
 def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
@@ -200,7 +168,6 @@ def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
     return [similar.runs_of(files[name], starter) for name in names]
 
 
-def _bar(total: int, doing: str) -> "tqdm[None]":
-    return tqdm(
-        total=total, desc=doing, unit="student", leave=False, delay=1, disable=None
-    )
+def _bar(total: int, doing: str, some: Iterable[Any] | None = None) -> "tqdm[Any]":
+    how: dict[str, Any] = {"unit": "student", "leave": False, "delay": 1}
+    return tqdm(some, total=total, desc=doing, disable=None, **how)

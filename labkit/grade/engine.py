@@ -1,10 +1,19 @@
 """Packages in, results out: on this machine's processors, or on a Dask cluster.
 
-Both are executors of the standard library's kind and run the same function. Only so
-many packages are under way at once, so a class of any size takes the same memory.
+Both are executors of the standard library's kind and run the same function, which has
+each package graded by a process of its own, within a limit (`labkit.grade.child`). Only
+so many packages are under way at once, so a class of any size takes the same memory.
 """
 
+import atexit
 import contextlib
+import json
+import os
+import pickle
+import queue
+import shutil
+import socket
+import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
@@ -15,22 +24,19 @@ from concurrent.futures import (
     ThreadPoolExecutor,
     wait,
 )
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
-from labkit.base.processes import sweep
+from labkit.base.processes import Child, sweep
 from labkit.base.text import visible
-from labkit.grade import in_time
-from labkit.grade.grader import (
-    FOLDER,
-    LEFT_BEHIND,
-    close_graders,
-    grade_behind_wall,
-    grade_package,
-)
-from labkit.grade.package import Package
+from labkit.grade.package import FOLDER as COMMIT_FOLDER
+from labkit.grade.package import Package, fingerprint
 from labkit.grade.result import Result, from_json
+from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
+from labkit.sandbox.wall import refusal, wall
 from robo47.errors import FaultError, Robo47Error
+from robo47.paths import ROOT
 
 PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 PATIENCE = 60.0  # seconds without any worker before giving up
@@ -43,23 +49,129 @@ NO_CERTIFICATES = (
     "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
     "docs/cluster.md says how"
 )
+# For one package. The sandbox stops a file after 100 s of its own, so only a machine
+# under load gets here.
+SECONDS = 240.0
+LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
+FOLDER = "robo47-grader-"
+
+
+class Grader(Child):
+    """One grading process and its folder, from start to end."""
+
+    def __init__(self) -> None:
+        """Start the process, behind the wall that was promised, in a new folder."""
+        # The wall that was promised, or none of this: not what stands at that moment.
+        promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
+        self.folder = tempfile.mkdtemp(prefix=FOLDER)
+        temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
+        environment = {**os.environ, **temporary, **promised}
+        try:  # in its folder, since MuJoCo writes its warnings there
+            super().__init__(
+                "labkit.grade.child", self.folder, cwd=self.folder, env=environment
+            )
+        except OSError:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+
+    def grade(self, package: Package, seconds: float = SECONDS) -> dict[str, Any]:
+        """Return a package's result as JSON, which `result.from_json` reads.
+
+        Args:
+            package: one submission.
+            seconds: after so many the process is ended.
+
+        Raises:
+            FaultError: grading ended early, or the machine failed.
+        """
+        with self.within(seconds):
+            self.send(pickle.dumps(package))
+            answer = self.process.stdout.readline()
+        if answer.endswith(b"\n"):
+            found: dict[str, Any] = json.loads(answer)
+            if "fault" in found:
+                raise FaultError(found["fault"])
+            return found
+        self.close()
+        why = f"it took more than {seconds:.0f} s" if self.late else "it was killed"
+        raise FaultError(f"grading it was stopped: {why}")
+
+    def close(self) -> None:
+        """End the process and remove its folder."""
+        super().close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+_idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
+
+
+def grade_package(package: Package) -> dict[str, Any]:
+    """Return a package's result as JSON; each call has a process of its own.
+
+    Args:
+        package: one submission; any thread may bring one.
+
+    Raises:
+        Robo47Error: this machine has another kit than the one that sent it.
+        FaultError: the machine failed; the package is as good as new.
+    """
+    own = fingerprint(package.day)
+    if package.kit != own:
+        raise Robo47Error(
+            f"a worker's kit ({own}) is not the coordinator's "
+            f"({package.kit}); check out the same commit on both"
+        )
+    grader = None
+    try:
+        try:
+            grader = _idle.get_nowait()
+        except queue.Empty:
+            grader = Grader()
+        return grader.grade(package)
+    except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
+        raise FaultError(f"no process for it: {error}") from None
+    finally:
+        if grader and grader.alive:
+            _idle.put(grader)
+
+
+def grade_behind_wall(package: Package) -> dict[str, Any]:
+    """Return what `grade_package` does, where a wall keeps such code from here.
+
+    Args:
+        package: one submission.
+
+    Raises:
+        Robo47Error: it does not, or has another kit.
+        FaultError: the machine failed; the package is as good as new.
+    """
+    if why := refusal():
+        raise Robo47Error(
+            f"a worker on {socket.gethostname()} refuses: {why}, run workers in a "
+            "container (docs/cluster.md), or add --i-know-them"
+        )
+    return grade_package(package)
+
+
+@atexit.register
+def close_graders() -> None:
+    """End the idle grading processes."""
+    while True:
+        try:
+            _idle.get_nowait().close()
+        except queue.Empty:
+            return
 
 
 @dataclass(frozen=True)
 class Engine:
-    """Where packages are graded.
+    """Where packages are graded."""
 
-    Attributes:
-        executor: runs `grade`.
-        workers: returns how many packages can be graded at the same time now.
-        lost: the exception that a package brings back whose workers all died.
-        grade: what is run.
-    """
-
-    executor: Executor
-    workers: Callable[[], int]
+    executor: Executor  # runs `grade`
+    workers: Callable[[], int]  # how many packages can be graded at the same time now
+    # What a package brings back whose workers all died.
     lost: type[BaseException] = FaultError
-    grade: Callable[[Package], Result] = grade_package
+    grade: Callable[[Package], Any] = grade_package
 
 
 @contextlib.contextmanager
@@ -69,7 +181,7 @@ def local(processes: int) -> Iterator[Engine]:
     Args:
         processes: how many submissions at a time.
     """
-    for prefix in (FOLDER, in_time.FOLDER):
+    for prefix in (FOLDER, COMMIT_FOLDER):
         sweep(prefix, LEFT_BEHIND)
     pool = ThreadPoolExecutor(processes)  # each thread waits for a process of its own
     try:
@@ -115,21 +227,22 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
 
 
 def grade_all(
-    packages: Iterable[tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | FaultError]]:
+    packages: Iterable[tuple[Student, Package]], engine: Engine
+) -> Iterator[tuple[Student, Package, Result | FaultError]]:
     """Yield each package's result as it comes, in any order.
 
     Args:
-        packages: each with a key, the student's folder; taken as there is room.
+        packages: whose each is, and it; taken as there is room.
         engine: where to grade.
 
     Raises:
         Robo47Error: no worker is left, or one cannot run this kit.
     """
-    under_way: dict[Future[Result], tuple[str, Package]] = {}
+    under_way: dict[Future[Any], tuple[Student, Package]] = {}
     try:
-        for key, package in packages:
-            under_way[engine.executor.submit(engine.grade, package)] = (key, package)
+        for student, package in packages:
+            future = engine.executor.submit(engine.grade, package)
+            under_way[future] = (student, package)
             while len(under_way) >= PER_WORKER * max(1, engine.workers()):
                 yield from _finished(under_way, engine)
         while under_way:
@@ -140,43 +253,41 @@ def grade_all(
 
 
 def _finished(
-    under_way: dict[Future[Result], tuple[str, Package]], engine: Engine
-) -> Iterator[tuple[str, Package, Result | FaultError]]:
+    under_way: dict[Future[Any], tuple[Student, Package]], engine: Engine
+) -> Iterator[tuple[Student, Package, Result | FaultError]]:
     """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
-
-    def some() -> set[Future[Result]]:
-        return wait(under_way, PATIENCE, FIRST_COMPLETED).done
-
-    while not (done := some()) and time.monotonic() < silent:
+    while not (done := wait(under_way, PATIENCE, FIRST_COMPLETED).done):
+        if time.monotonic() >= silent:
+            break
         if not engine.workers():
             raise Robo47Error(
                 f"no Dask worker has been there for {PATIENCE:.0f} s. What is graded "
                 "is kept: start workers and run the same command again"
             )
     for future in done or list(under_way):
-        key, package = under_way.pop(future)
-        if not future.done():
+        student, package = under_way.pop(future)
+        if future.done():
+            yield student, package, _answer(future, package, engine)
+        else:
             future.cancel()
-            yield key, package, FaultError(f"no answer for {SILENCE:.0f} s")
-            continue
-        yield key, package, _answer(future, package, engine)
+            yield student, package, FaultError(f"no answer for {SILENCE:.0f} s")
 
 
 def _answer(
-    future: Future[Result], package: Package, engine: Engine
+    future: Future[Any], package: Package, engine: Engine
 ) -> Result | FaultError:
     """Return what came of a package; a worker may raise and return anything.
 
     Raises:
         Robo47Error: no worker like that one can grade.
     """
-    try:
-        error = future.exception()
-    except CancelledError as cancelled:
-        error = cancelled
+    error = CancelledError() if future.cancelled() else future.exception()
     if error is None:
-        return _believed(future.result(), package)
+        try:  # the answer can be anything
+            return signed(from_json(future.result(), find_day(package.day)), package)
+        except Exception:
+            return FaultError("a worker's answer is no result of the day")
     if isinstance(error, FaultError):
         return error
     if isinstance(error, engine.lost):
@@ -188,12 +299,9 @@ def _answer(
     return FaultError(f"a worker ended with {type(error).__name__}: {error}")
 
 
-def _believed(answer: object, package: Package) -> Result | FaultError:
-    """Return a worker's answer, which can be anything, if it is one to this package."""
-    try:
-        result = from_json(answer.to_json(), find_day(package.day))  # type: ignore
-    except Exception:
-        return FaultError("a worker's answer is no result of the day")
-    if (result.kit, result.seed) != (package.version, package.seed):
-        return FaultError("a worker's answer is of another kit or seed")
-    return result
+def signed(result: Result, package: Package) -> Result:
+    """Return a result with what another machine needs to come to the same."""
+    again = f'make check DAY={package.day} ARGS="--seed {package.seed} --explain"'
+    text = f"{result.text}\nGraded by robo47 {package.version} with the seed "
+    text += f"{package.seed}, for everybody.\nThe same on your machine: {again}\n"
+    return replace(result, text=text, kit=package.version, seed=package.seed)

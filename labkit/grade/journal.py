@@ -9,9 +9,10 @@ import contextlib
 import json
 import os
 import secrets
-from dataclasses import replace
+import time
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from labkit.base.lock import lock
 from labkit.grade.package import Package
@@ -22,6 +23,16 @@ from robo47.paths import shown
 
 KIND = "robo47 grading"
 _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
+
+
+class Kept(NamedTuple):
+    """A result, and what of somebody's package and the kit it was given to."""
+
+    package: str  # fingerprints
+    kit: str
+    commit: str
+    committed: int | None
+    result: Result
 
 
 class Journal:
@@ -37,54 +48,47 @@ class Journal:
     """
 
     def __init__(
-        self,
-        path: Path,
-        day: Day,
-        reference: int,
-        *,
-        deadline: bool,
-        seed: int | None = None,
+        self, path: Path, day: Day, deadline: int | None = None, seed: int | None = None
     ) -> None:
         """Open it for ourselves alone and read what is there.
 
         Args:
             path: the file.
             day: what is graded; a journal of another day is refused.
-            reference: see above.
-            deadline: see above; any other reference gives way to one that is there.
+            deadline: seconds since 1970; None is the one that is there, if any.
             seed: see above; None is the one that is there, or a new one.
 
         Raises:
             Robo47Error: the file cannot be written, is another day's, or somebody else
                 is grading into it.
         """
-        self.path, self.reference, self.deadline = path, reference, deadline
-        self.odd = self.outdated = 0
+        self.path, self._day = path, day
+        self.reference, self.deadline = int(time.time()), False
         self.seed = secrets.randbits(32)
-        self._day = day
-        self._results: dict[str, tuple[str, str, Result]] = {}  # by folder
-        self._best: dict[str, tuple[Result, str, int | None]] = {}
+        self.odd = self.outdated = 0
+        self._last: dict[str, Kept] = {}  # by folder
+        self._best: dict[str, Kept] = {}
         try:
             self._file = path.open("a+b")
         except OSError as error:
-            raise Robo47Error(
-                f"{shown(path)} cannot be written: {error.strerror}"
-            ) from None
+            raise self._unwritten(error) from None
         try:
             self._lock()
             self._file.seek(0)
-            known = sum([self._takes(line) for line in self._file]) > 0
+            known = sum(map(self._takes, self._file)) > 0
         except BaseException:
             self._file.close()
             raise
-        kept = (self.reference, self.deadline, self.seed)
-        if not known or deadline:
-            self.reference, self.deadline = reference, deadline
+        kept = self._head() if known else {}
+        if deadline is not None:
+            self.reference, self.deadline = deadline, True
         self.seed = self.seed if seed is None else seed
-        if not known or kept != (self.reference, self.deadline, self.seed):
-            since = {"reference": self.reference, "deadline": self.deadline}
-            head = {"kind": KIND, "days": [day.number], "seed": self.seed}
-            self._append({**head, **since})
+        if kept != self._head():
+            self._append(self._head())
+
+    def _head(self) -> dict[str, Any]:
+        since = {"reference": self.reference, "deadline": self.deadline}
+        return {"kind": KIND, "days": [self._day.number], "seed": self.seed, **since}
 
     def find(
         self, folder: str, package: Package, *, frozen: bool = False
@@ -96,52 +100,36 @@ class Journal:
             package: what they hand in now.
             frozen: another version of the kit may have given it.
         """
-        known = self._results.get(folder)
-        if known is None or known[0] != package.fingerprint:
+        known = self._last.get(folder)
+        if known is None or known.package != package.fingerprint:
             return None
-        if frozen or known[1] == package.kit:
-            return known[2]
+        if frozen or known.kit == package.kit:
+            return known.result
         self.outdated += 1
         return None
 
-    def best(self, folder: str, package: Package) -> tuple[Result, Package]:
-        """Return a student's best result of all that were kept, the last one of equals.
-
-        Args:
-            folder: the student's.
-            package: what they hand in now, which has a result.
-
-        Returns:
-            The result, and the package as it was then: its commit and its time.
-        """
-        result, commit, committed = self._best[folder]
-        return result, replace(package, commit=commit, committed=committed)
-
-    def _note(self, folder: str, result: Result, commit: str, at: Any) -> None:
-        if at is not None and type(at) is not int:
-            raise TypeError(at)
-        known = self._best.get(folder)
-        late = self.deadline and at is not None and at > self.reference
-        if known and known[0].seed != result.seed:
-            known = None  # of a seed that is no longer asked
-        if known is None or (result.score >= known[0].score and not late):
-            self._best[folder] = (result, commit, at)
+    def best(self, folder: str) -> Kept:
+        """Return a student's best result of all that were kept, the last of equals."""
+        return self._best[folder]
 
     def keep(self, folder: str, package: Package, result: Result) -> None:
         """Write a result and wait until the disk has it."""
-        self._results[folder] = (package.fingerprint, package.kit, result)
-        self._note(folder, result, package.commit, package.committed)
-        self._append(
-            {
-                "day": package.day,
-                "folder": folder,
-                "package": package.fingerprint,
-                "kit": package.kit,
-                "commit": package.commit,
-                "committed": package.committed,
-                "result": result.to_json(),
-            }
-        )
+        facts = (package.fingerprint, package.kit, package.commit, package.committed)
+        kept = Kept(*facts, result)
+        self._note(folder, kept)
+        told = {**kept._asdict(), "result": asdict(result)}
+        self._append({"day": package.day, "folder": folder, **told})
+
+    def _note(self, folder: str, kept: Kept) -> None:
+        self._last[folder] = kept
+        rival, at = self._best.get(folder), kept.committed
+        late = self.deadline and at is not None and at > self.reference
+        if (
+            rival is None
+            or rival.result.seed != kept.result.seed  # which is no longer asked
+            or (kept.result.score >= rival.result.score and not late)
+        ):
+            self._best[folder] = kept
 
     def close(self) -> None:
         """Close the file, which lets go of it."""
@@ -165,10 +153,13 @@ class Journal:
         except OSError as error:
             with contextlib.suppress(OSError):
                 self._file.close()
-            raise Robo47Error(
-                f"{shown(self.path)} cannot be written: {error.strerror}. What is "
-                "graded is kept; the same command goes on"
-            ) from None
+            goes_on = ". What is graded is kept; the same command goes on"
+            raise self._unwritten(error, goes_on) from None
+
+    def _unwritten(self, error: OSError, more: str = "") -> Robo47Error:
+        return Robo47Error(
+            f"{shown(self.path)} cannot be written: {error.strerror}{more}"
+        )
 
     def _takes(self, line: bytes) -> bool:
         """Take over a line; return whether it is a header."""
@@ -191,16 +182,16 @@ class Journal:
                 )
             if type(reference) is not int or not 0 <= reference < _LATEST:
                 raise ValueError(reference)
-            self.reference, self.deadline = reference, record["deadline"] is True
-            self.seed = int(record["seed"])
+            seed, self.deadline = int(record["seed"]), record["deadline"] is True
+            self.reference, self.seed = reference, seed
             return True
         if record["day"] != self._day.number:
             raise ValueError(record["day"])
-        facts = (record["folder"], record["package"], record["kit"], record["commit"])
-        if not all(isinstance(fact, str) for fact in facts):
+        folder, at = record["folder"], record["committed"]
+        facts = (record["package"], record["kit"], record["commit"])
+        if not all(isinstance(fact, str) for fact in (folder, *facts)):
             raise TypeError(facts)
-        folder, fingerprint, kit, commit = facts
-        result = from_json(record["result"], self._day)
-        self._note(folder, result, commit, record["committed"])
-        self._results[folder] = (fingerprint, kit, result)
+        if at is not None and type(at) is not int:
+            raise TypeError(at)
+        self._note(folder, Kept(*facts, at, from_json(record["result"], self._day)))
         return False

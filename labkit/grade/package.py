@@ -1,21 +1,44 @@
-"""The package that is graded: a few files as bytes, and what git said of them."""
+"""The package that is graded: a few files as bytes, and what git said of them.
 
+Of a folder as it is, or of its last commit before the deadline.
+"""
+
+import errno
 import hashlib
 import json
+import os
+import tempfile
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import short_sha
-from labkit.grade.in_time import read_in_time
+from labkit.base.git import (
+    History,
+    before,
+    blob,
+    files_of,
+    read_history,
+    short_sha,
+)
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit
-from labkit.handin.handin import Handin
-from labkit.handin.item import Item
+from labkit.handin.deliverables import check_commit, wanted_names
+from labkit.handin.handin import (
+    LIMITS,
+    PICTURES,
+    Handin,
+    Item,
+    image_names,
+    picture_path,
+    read_handin,
+)
 from labkit.lesson.day import Day, find_day
+from labkit.lesson.own_files import HELPERS, NO_NAME
 from robo47 import __version__
 from robo47.paths import ROOT
 
+FOLDER = "robo47-commit-"
+LARGEST = max(LIMITS.values())  # bytes of a file that is looked at
+MOST = 4 * HELPERS  # files beside the script: one blob may have any number of names
 # What decides a grade: the code, the manifests, the solution, what a definition and a
 # drawing must not be. `work/` is somebody's own.
 _DECIDES = (
@@ -31,31 +54,20 @@ _DECIDES = (
 
 @dataclass(frozen=True)
 class Package:
-    """One submission for one day, without the student's name.
+    """One submission for one day, without the student's name."""
 
-    Attributes:
-        day: its number.
-        kit: fingerprint of the kit that collected it; no other may grade it.
-        handin: the files.
-        commit_item: the deliverable "commit", which only the clone can tell.
-        commit: the hash of the commit that counts; "" without one.
-        committed: its time by the student's own clock, seconds since 1970, or None.
-        problem: why there is nothing to grade; "" where there is.
-        seed: of the fresh inputs, the same for everybody.
-        version: of the kit that collected it, in words.
-        late: how many commits came after the deadline.
-    """
-
-    day: int
-    kit: str
-    handin: Handin = field(default_factory=Handin)
+    day: int  # its number
+    kit: str  # fingerprint of the kit that collected it; no other may grade it
+    handin: Handin = field(default_factory=Handin)  # the files
+    # The deliverable "commit", which only the clone can tell.
     commit_item: Item = field(default_factory=lambda: Item("commit", "todo"))
-    commit: str = ""
+    commit: str = ""  # the hash of the commit that counts; "" without one
+    # Its time by the student's own clock, seconds since 1970, or None.
     committed: int | None = None
-    problem: str = ""
-    seed: int = 0
-    version: str = ""
-    late: int = 0
+    problem: str = ""  # why there is nothing to grade; "" where there is
+    seed: int = 0  # of the fresh inputs, the same for everybody
+    version: str = ""  # of the kit that collected it, in words
+    late: int = 0  # how many commits came after the deadline
 
     @property
     def fingerprint(self) -> str:
@@ -96,8 +108,8 @@ def collect(
     Raises:
         OSError, GitError: this machine failed.
     """
-    package = Package(day.number, fingerprint(day.number))
-    package = replace(package, seed=seed, version=version())
+    kit = fingerprint(day.number)
+    package = Package(day.number, kit, seed=seed, version=version())
     problem = student.problem
     if not problem and not student.path.is_dir():
         problem = "there is no such folder"
@@ -113,6 +125,75 @@ def collect(
         committed=history.committed,
         late=late,
     )
+
+
+def read_in_time(
+    day: Day, clone: Path, deadline: int | None
+) -> tuple[Handin, History, int]:
+    """Return what a student hands in, its commit, and how many commits came too late.
+
+    Where the last commit is late, the last one that is not counts; where all are late,
+    the last one. Uncommitted work counts as long as no commit is late.
+
+    Args:
+        day: from the kit's manifest.
+        clone: the student's folder.
+        deadline: seconds since 1970, or None.
+
+    Raises:
+        OSError, GitError: this machine failed.
+    """
+    handin = read_handin(_as_there(day, clone), clone)
+    history = read_history(clone, wanted_names(day, handin))
+    is_late = history.committed is None or history.committed > (deadline or 0)
+    if deadline is None or not history.commit or not is_late:
+        return handin, history, 0
+    commit, late = before(clone, deadline)
+    if not commit:
+        return handin, history, late
+    with tempfile.TemporaryDirectory(prefix=FOLDER) as folder:
+        _check_out(day, clone, commit, Path(folder))
+        handin = read_handin(_as_there(day, Path(folder)), Path(folder))
+    return handin, read_history(clone, wanted_names(day, handin), at=commit), late
+
+
+def _as_there(day: Day, root: Path) -> Day:
+    return day.named_as(lambda name: os.path.isfile(root / name))
+
+
+def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
+    """Write what a day may hand in of a commit, without running anything of git's."""
+    work = f"{Path(day.files['script']).parent.as_posix()}/"
+    _write(clone, files_of(clone, commit, *day.files.values()), folder)
+    beside = files_of(clone, commit, work).items()
+    helpers = {name: facts for name, facts in beside if name.endswith(".py")}
+    _write(clone, helpers, folder, LIMITS["script"])
+    sheet = day.files.get("worksheet", "")
+    there = sheet and (folder / sheet).is_file()
+    text = (folder / sheet).read_text("utf-8", "replace") if there else ""
+    names = [picture_path(one, sheet) for one in image_names(text)[:PICTURES]]
+    _write(clone, files_of(clone, commit, *filter(None, names)), folder)
+
+
+def _write(
+    clone: Path,
+    files: dict[str, tuple[str, int]],
+    folder: Path,
+    largest: int = LARGEST,
+) -> None:
+    for name, (hash_, size) in list(files.items())[:MOST]:
+        path = folder / name
+        try:
+            if path.exists() or ".." in path.parts:
+                continue
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(b"" if size > largest else blob(clone, hash_))
+        except OSError as error:
+            if error.errno in (*NO_NAME, errno.EEXIST, errno.ENOTDIR):
+                continue  # git knows names that no folder has
+            raise
+        if size > largest:  # its size is all that is looked at
+            os.truncate(path, size)
 
 
 @cache

@@ -1,47 +1,52 @@
 """The class as one HTML file that needs nothing else: no script, no font, no net."""
 
 import time
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Sequence
 from html import escape
+from urllib.parse import quote
 
 from labkit.base import html
-from labkit.grade import overview
+from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.overview import Course, Diagnosis, Standing
-from labkit.grade.people import list_alike, list_people, list_refused, table
+from labkit.grade.course import Course, Graded
+from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
 
-CHARTED = 15  # diagnoses in the chart
-STATES = {  # heading, and what to say where it is nobody
+CHARTED = 15  # mistakes in the chart
+MOST = 100  # groups that are listed
+STATES = {  # heading of a list of people
     "stuck": "Who is stuck",
     "does not load": "Files that do not load",
     "ungraded": "Could not be graded",
     "not started": "Not started",
     "under way": "Under way, without a mistake so far",
 }
+_ALIKE = (
+    "A hint of where to look, not a "
+    "verdict: friends who learn together and a good book also write alike. The "
+    "starter's text and what much of the class writes are left out; names do not "
+    "count. The number is that of the two most similar; beside the kit's solution, "
+    "the share of one's own code that stands in it."
+)
+_REFUSED = "A task needs nothing but its arguments. Most of these are accidents: ask."
 
 
 def render(course: Course) -> str:
     """Return the whole page."""
-    day, class_ = course.day, course.class_
-    by_state = {
-        state: [g for g in class_ if overview.state(g) == state]
-        for state in (*STATES, "done")
-    }
-    return printable(
-        html.page(
-            f"Day {day.number}: {escape(day.title)}",
-            _about(course),
-            _tiles(course, {state: len(some) for state, some in by_state.items()}),
-            _mistakes(overview.diagnoses(day, class_), len(class_)),
-            _standings(course),
-            *(list_people(STATES[s], by_state[s], course) for s in STATES),
-            list_alike(course),
-            list_refused(course),
-            table(course),
-            style=STYLE,
-        )
+    page = html.page(
+        f"Day {course.day.number}: {escape(course.day.title)}",
+        _about(course),
+        _tiles(course),
+        _mistakes(course),
+        _standings(course),
+        *(_people(course, state) for state in STATES),
+        _alike(course),
+        _refused(course),
+        _everyone(course),
+        style=STYLE,
     )
+    return printable(page)
 
 
 def _about(course: Course) -> str:
@@ -49,89 +54,218 @@ def _about(course: Course) -> str:
     what = "deadline" if course.deadline else "first graded"
     kits = sorted({g.result.kit for g in course.class_} - {""})
     return (
-        f"{_students(len(course.class_))}; {what} {moment}; "
+        f"{count(len(course.class_), 'student')}; {what} {moment}; "
         f"robo47 {escape(', '.join(kits) or 'has graded nobody')}, seed {course.seed}. "
         "Commit times are the students' own: whoever commits sets the clock."
     )
 
 
-def _tiles(course: Course, count: dict[str, int]) -> str:
+def _tiles(course: Course) -> str:
+    number = course.counts
     tiles = [
-        ("pass", count["done"], "all tasks passed"),
-        ("", count["under way"], "under way"),
-        ("fail" if count["stuck"] else "none", count["stuck"], "stuck"),
-        ("broken", count["does not load"], "do not load"),
-        ("none", count["not started"], "not started"),
-        ("limit" if count["ungraded"] else "none", count["ungraded"], "not graded"),
+        ("pass", number["done"], "all tasks passed"),
+        ("", number["under way"], "under way"),
+        ("fail" if number["stuck"] else "none", number["stuck"], "stuck"),
+        ("broken", number["does not load"], "do not load"),
+        ("none", number["not started"], "not started"),
+        ("limit" if number["ungraded"] else "none", number["ungraded"], "not graded"),
         ("", len(course.alike), "groups alike"),
     ]
     return html.tiles((role, f"{number:,}", label) for role, number, label in tiles)
 
 
-def _mistakes(found: list[Diagnosis], size: int) -> str:
+def _mistakes(course: Course) -> str:
+    """Return what to explain again: a chart, and the words that the students saw."""
+    found = course.mistakes()
     if not found:
         return ""
-    shown = found[:CHARTED]
+    most = len(found[0][1])
     rows = [
         Row(
-            f"{one.task}  {one.mistake}",
-            _students(len(one.who)),
-            [("line", len(one.who))],
-            len(shown[0].who),
+            f"{mark.id}  {mark.mistake}",
+            count(len(who), "student"),
+            [("line", len(who))],
+            most,
         )
-        for one in shown
+        for mark, who in found[:CHARTED]
     ]
-    bars = chart(rows, "students by mistake, the most common first")
-    words = "".join(map(_diagnosis, shown))
-    if more := "".join(map(_diagnosis, found[CHARTED:])):
-        words += html.folded("the others", more)
+    words = [
+        html.folded(
+            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, "
+            f"{count(len(who), 'student')}",
+            f'<p class="says">{escape(mark.message)}</p>'
+            f'<p class="muted">{", ".join(map(escape, who))}</p>',
+        )
+        for mark, who in found
+    ]
+    if others := words[CHARTED:]:
+        words[CHARTED:] = [html.folded("the others", *others)]
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
-    rest = f", the {CHARTED} most common" if len(found) > CHARTED else ""
+    rest = f", the {CHARTED} most common" if others else ""
     counted = '<p class="muted">Counted where they were made, once per student</p>'
+    bars = chart(rows, "students by mistake, the most common first")
     return html.section(
         "What to explain again tomorrow",
         '<div class="two">',
         html.card(f"{kinds}{rest}", counted, bars),
-        html.card("In the words the students saw", words),
+        html.card("In the words the students saw", *words),
         "</div>",
     )
 
 
-def _diagnosis(one: Diagnosis) -> str:
-    who = ", ".join(map(escape, one.who))
-    return html.folded(
-        f"{escape(one.task)} <b>{escape(one.mistake)}</b>, {_students(len(one.who))}",
-        f'<p class="says">{escape(one.example)}</p><p class="muted">{who}</p>',
-    )
-
-
 def _standings(course: Course) -> str:
-    functions = {t.id: ", ".join(t.functions) for t in course.day.tasks}
-    tasks = overview.standings(course.class_, lambda result: result.tasks)
-    items = overview.standings(course.class_, lambda result: result.items)
+    """Return how many pass each task and each deliverable, and how many stopped there.
+
+    Only who has begun, with a file that loads, has stopped somewhere.
+    """
+    results = [graded.result for graded in course.class_]
+    stops = Counter(
+        mark.id
+        for graded in course.class_
+        if graded.state in ("stuck", "under way")
+        if (mark := graded.result.stopped_at)
+    )
+    labels = {t.id: f"{t.id}  {', '.join(t.functions)}" for t in course.day.tasks}
     marks = legend((role, word) for role, _, word in STATUS.values())
 
-    def card(
-        heading: str, some: list[Standing], label: Callable[[Standing], str]
-    ) -> str:
-        rows = [_standing(one, label(one), len(course.class_)) for one in some]
+    def row(column: Sequence[Mark]) -> Row:
+        id, number = column[0].id, Counter(mark.shown for mark in column)
+        words = f"{number['passed']} pass"
+        words += f", {stops[id]} stopped here" if stops[id] else ""
+        parts = [(role, number[status]) for status, (role, *_) in STATUS.items()]
+        return Row(labels.get(id, id), words, parts, len(column))
+
+    def card(heading: str, groups: Sequence[Sequence[Mark]]) -> str:
+        rows = [row(column) for column in zip(*groups, strict=True)]
         return html.card(heading, marks, chart(rows, heading))
 
     return html.section(
         "Which tasks stop people",
         '<div class="two">',
-        card("Tasks", tasks, lambda one: f"{one.id}  {functions[one.id]}"),
-        card("Deliverables", items, lambda one: one.id),
+        card("Tasks", [result.tasks for result in results]),
+        card("Deliverables", [result.items for result in results]),
         "</div>",
     )
 
 
-def _standing(one: Standing, label: str, size: int) -> Row:
-    words = f"{one.counts['passed']} pass"
-    words += f", {one.stopped} stopped here" if one.stopped else ""
-    parts = [(role, one.counts[status]) for status, (role, *_) in STATUS.items()]
-    return Row(label, words, parts, size)
+def _people(course: Course, state: str) -> str:
+    """Return who is in one state, by mistake, those who have waited longest first."""
+
+    def place(graded: Graded) -> tuple[str, str, int]:
+        first = graded.result.first_mistake
+        what = (first.id, first.mistake) if first else ("", "")
+        return (*what, -(10**9 if graded.minutes is None else graded.minutes))
+
+    some = sorted((g for g in course.class_ if g.state == state), key=place)
+    rows = [_person(graded, course.deadline) for graded in some]
+    return _listed(STATES[state], len(some), rows)
 
 
-def _students(number: int) -> str:
-    return "1 student" if number == 1 else f"{number:,} students"
+def _person(graded: Graded, deadline: bool) -> str:
+    mistake = graded.result.first_mistake
+    badge, says = "", graded.error
+    if mistake:
+        role = "limit" if mistake.status == "close" else "fail"
+        name = escape(f"{mistake.id} {mistake.mistake}")
+        badge = f'<span class="badge {role}">{name}</span>'
+        says = mistake.message
+    elif stop := graded.result.stopped_at:
+        badge = f'<span class="badge none">{escape(stop.id)}</span>'
+    commit = f'<span class="muted">{_ago(graded.minutes, deadline)}</span>'
+    return _entry(f"<b>{_name(graded)}</b>{badge}{commit}", says)
+
+
+def _listed(
+    heading: str, size: int, rows: Sequence[str], about: str = "", rest: str = ""
+) -> str:
+    """Return a section with a list; "" of nobody."""
+    if not rows:
+        return ""
+    says = f'<p class="muted">{about}</p>' if about else ""
+    return html.section(
+        f"{heading} <small>{size:,}</small>",
+        f'<div class="card">{says}<ul>{"".join(rows)}</ul>{rest}</div>',
+    )
+
+
+def _entry(head: str, says: str = "") -> str:
+    words = f'<p class="says">{escape(says)}</p>' if says else ""
+    return f'<li><div class="head">{head}</div>{words}</li>'
+
+
+def _name(graded: Graded) -> str:
+    """Return a student's name, which leads to their feedback."""
+    student = graded.student
+    name = escape(student.name)
+    if student.file:
+        address = quote(f"feedback/{student.file}.txt".encode())
+        name = f'<a href="{address}">{name}</a>'
+    folder = visible(printable(student.folder), 120)
+    if student.name == folder:
+        return name
+    return f'{name} <span class="muted">{escape(folder)}</span>'
+
+
+def _ago(minutes: int | None, deadline: bool) -> str:
+    if minutes is None:
+        return "no commit"
+    size = abs(minutes)
+    for unit, length in (("d", 1440), ("h", 60), ("min", 1)):
+        if size >= 2 * length or length == 1:
+            when = f"{size // length} {unit}"
+            break
+    side = "after" if minutes < 0 else "before"
+    moment = "the deadline" if deadline else "grading"
+    return f"last commit {when} {side} {moment}, they say"
+
+
+def _alike(course: Course) -> str:
+    """Return the similar submissions, as a hint."""
+    by_folder = {g.student.folder: g for g in course.class_}
+    rows = []
+    for group in course.alike[:MOST]:
+        names = ", ".join(f"<b>{_name(by_folder[key])}</b>" for key in group.keys)
+        kits = "the kit's solution, " if group.with_kit else ""
+        share = f'<span class="muted">{group.share:.0%} alike</span>'
+        rows.append(_entry(f"<span>{kits}{names}</span>{share}"))
+    more = len(course.alike) - MOST
+    rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
+    return _listed("Similar submissions", len(course.alike), rows, _ALIKE, rest)
+
+
+def _refused(course: Course) -> str:
+    """Return what the code of some wanted and was refused, whatever its marks are."""
+    some = [graded for graded in course.class_ if graded.result.refused]
+    rows = [
+        _entry(f"<b>{_name(graded)}</b>", "; ".join(graded.result.refused))
+        for graded in some[:MOST]
+    ]
+    return _listed("What the sandbox refused", len(some), rows, _REFUSED)
+
+
+def _everyone(course: Course) -> str:
+    """Return everyone's tasks and deliverables, a mark each."""
+    first = course.class_[0].result
+    names = ["tasks", *(mark.id for mark in (*first.tasks, *first.items)), "commit is"]
+    head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)
+    body = (_line(graded, course.deadline) for graded in course.class_)
+    return html.section(
+        "Everyone",
+        '<p class="muted wider">The table is wider than the '
+        "screen: move it sideways.</p>",
+        html.table(f"<th>name</th>{head}", body, "card scroll all"),
+    )
+
+
+def _line(graded: Graded, deadline: bool) -> str:
+    result = graded.result
+    cells = [f'<td class="mark">{result.score[0]}/{len(result.tasks)}</td>']
+    for mark in (*result.tasks, *result.items):
+        role, sign, word = STATUS[mark.shown]
+        tip = escape(f"{mark.id}: {mark.mistake or word}")
+        cells.append(f'<td class="mark {role}" title="{tip}">{sign}</td>')
+    when = "–" if graded.minutes is None or not deadline else "in time"
+    if deadline and graded.minutes is not None and graded.minutes < 0:
+        when = '<span class="fail">late</span>'
+    cells.append(f'<td class="mark">{when}</td>')
+    return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"

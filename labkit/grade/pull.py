@@ -12,7 +12,7 @@ import json
 import os
 import shutil
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
@@ -46,7 +46,7 @@ _NOT_OURS = (
 )
 
 
-def pull_all(students: list[Student]) -> Iterator[tuple[Student, str]]:
+def pull_all(students: Sequence[Student]) -> Iterator[tuple[Student, str]]:
     """Clone or update each student's folder, several at a time.
 
     Yields:

@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from labkit.handin.deliverables import item_names
@@ -17,24 +17,22 @@ NO_MISTAKES = ("", "unwritten", "waits", "inherited", "borrowed", "not-started")
 
 @dataclass(frozen=True)
 class Mark:
-    """How a task or a deliverable stands.
+    """How a task or a deliverable stands."""
 
-    Attributes:
-        id: "1.4", or "figure".
-        status: one of STATUSES.
-        mistake: its name, "chain-reversed"; "" where nothing has one.
-        message: in the student's words.
-    """
-
-    id: str
-    status: str
-    mistake: str = ""
-    message: str = ""
+    id: str  # "1.4", or "figure"
+    status: str  # one of STATUSES
+    mistake: str = ""  # its name, "chain-reversed"; "" where nothing has one
+    message: str = ""  # in the student's words
 
     @property
     def passed(self) -> bool:
         """Whether nothing is left to do."""
         return self.status == "passed"
+
+    @property
+    def shown(self) -> str:
+        """The status; a task of a file that does not load has one of its own."""
+        return "does not load" if self.mistake == "does-not-load" else self.status
 
     @property
     def is_mistake(self) -> bool:
@@ -44,25 +42,16 @@ class Mark:
 
 @dataclass(frozen=True)
 class Result:
-    """One student's grade for one day.
+    """One student's grade for one day."""
 
-    Attributes:
-        tasks: those that count, in the manifest's order.
-        items: the deliverables.
-        text: what `make check` would have told the student.
-        error: why something could not be graded; "" where all was.
-        refused: what the code wanted and was refused, though its answers may be right.
-        kit: version of the kit that gave it; "" where nothing was graded.
-        seed: of its fresh inputs.
-    """
-
-    tasks: tuple[Mark, ...]
-    items: tuple[Mark, ...]
-    text: str = ""
-    error: str = ""
+    tasks: tuple[Mark, ...]  # those that count, in the manifest's order
+    items: tuple[Mark, ...]  # the deliverables
+    text: str = ""  # what `make check` would have told the student
+    error: str = ""  # why something could not be graded; "" where all was
+    # What the code wanted and was refused, though its answers may be right.
     refused: tuple[str, ...] = ()
-    kit: str = ""
-    seed: int = 0
+    kit: str = ""  # version of the kit that gave it; "" where nothing was graded
+    seed: int = 0  # of its fresh inputs
 
     @property
     def stopped_at(self) -> Mark | None:
@@ -84,17 +73,8 @@ class Result:
         """Whether there is a file that Python, or we, cannot read."""
         return any(task.mistake == "does-not-load" for task in self.tasks)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return it as plain data."""
-        return asdict(self)
 
-    def lean(self) -> "Result":
-        """Return it with marks that others have too: a class has few different ones."""
-        marks, items = (tuple(map(_one, group)) for group in (self.tasks, self.items))
-        return replace(self, tasks=marks, items=items)
-
-
-@functools.lru_cache(4096)
+@functools.lru_cache(4096)  # a class has few different marks, and holds each once
 def _one(mark: Mark) -> Mark:
     """Return the mark that was there first of all that are equal."""
     return mark
@@ -128,7 +108,8 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    return result.lean()
+    tasks, items = (tuple(map(_one, some)) for some in (result.tasks, result.items))
+    return replace(result, tasks=tasks, items=items)
 
 
 def counted(day: Day) -> Sequence[str]:

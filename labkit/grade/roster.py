@@ -10,7 +10,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from labkit.base.text import visible
@@ -26,25 +26,17 @@ _ASKED = "expected columns: name, folder and, for --pull, git"
 
 @dataclass(frozen=True)
 class Student:
-    """One row of the results.
+    """One row of the results."""
 
-    Attributes:
-        name: to show, on one line.
-        folder: its name in ROOT; no two students have the same.
-        path: the folder.
-        url: where to clone it from; "" where the roster does not say.
-        problem: why the folder cannot be used; "" where it can.
-        id: what a learning platform knows the student by; "" where the roster has none.
-        cells: all that the roster says, by column, in small letters.
-    """
-
-    name: str
-    folder: str
-    path: Path
-    url: str = ""
-    problem: str = ""
-    id: str = ""
+    name: str  # to show, on one line
+    folder: str  # its name in ROOT; no two students have the same
+    path: Path  # the folder
+    url: str = ""  # where to clone it from; "" where the roster does not say
+    problem: str = ""  # why the folder cannot be used; "" where it can
+    id: str = ""  # what a learning platform knows the student by; "" where none is said
+    # All that the roster says, by column, in small letters.
     cells: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
+    file: str = ""  # a name for files about them, without its ending
 
 
 def find_students(root: Path, roster: Path | None = None) -> list[Student]:
@@ -77,7 +69,8 @@ def find_students(root: Path, roster: Path | None = None) -> list[Student]:
             f"{shown(root)} has no folders; expected one clone per student, or a "
             "roster.csv and --pull"
         )
-    return students
+    files = file_names(student.folder for student in students)
+    return [replace(student, file=files[student.folder]) for student in students]
 
 
 def file_names(folders: Iterable[str]) -> dict[str, str]:

@@ -1,79 +1,34 @@
-"""The grades as files: a table, one row per student, and a file for each of them."""
+"""The grades as tables, one row per student; those that learning platforms import, too.
+
+Sources: Canvas' importer (github.com/instructure/canvas-lms, lib/gradebook_importer.rb)
+and its users' guides (teaching.resources.osu.edu, "Import a CSV File to Carmen
+Grades"); docs.moodle.org/405/en/Grade_import.
+"""
 
 import csv
 import hashlib
 import io
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.text import visible
-from labkit.grade.result import UNGRADED, Result
+from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.result import Mark
 from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
+Cell = str | int | None
 _SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets split
 
 
-@dataclass(frozen=True)
-class Graded:
-    """One student with all that the table and the page show.
-
-    Attributes:
-        student: from the roster.
-        result: the grade.
-        commit: the hash of the last commit, or "".
-        minutes: from there to the deadline, by the student's own clock, negative past
-            it; None without a commit.
-        note: what this run has to add to the result's error, such as a failed pull.
-        fault: whether this machine failed; the next run grades them.
-        feedback: the file's name in feedback/.
-        late: how many commits came after the deadline; None without one.
-    """
-
-    student: Student
-    result: Result
-    commit: str = ""
-    minutes: int | None = None
-    note: str = ""
-    fault: bool = False
-    feedback: str = ""
-    late: int | None = None
-
-    @property
-    def error(self) -> str:
-        """Why something could not be graded or updated; "" where all was."""
-        return "; ".join(filter(None, (self.result.error, self.note)))
-
-    @property
-    def tasks_passed(self) -> int:
-        """How many tasks are passed."""
-        return self.result.score[0]
-
-    @property
-    def percent(self) -> float | None:
-        """The share of tasks that pass; None where nobody could look at them."""
-        tasks = self.result.tasks
-        if any(task.status == UNGRADED for task in tasks):
-            return None
-        return 100 * self.tasks_passed / max(1, len(tasks))
-
-    @property
-    def late_by(self) -> tuple[int, int] | tuple[str, str]:
-        """Minutes and begun days from the deadline to the commit that counts."""
-        if self.late is None or self.minutes is None:
-            return "", ""
-        minutes = max(0, -self.minutes)
-        return minutes, -(-minutes // (24 * 60))
-
-
 def as_csv(class_: Sequence[Graded]) -> bytes:
-    """Return the table.
+    """Return the table of a day.
 
     Args:
         class_: everybody, in the order to show them.
@@ -81,26 +36,22 @@ def as_csv(class_: Sequence[Graded]) -> bytes:
     Returns:
         CSV in UTF-8 with a byte order mark, by which spreadsheets know it.
     """
-    return table(list(map(_row, class_)))
+    rows = list(map(_row, class_))
+    return _csv([rows[0], *(row.values() for row in rows)])
 
 
-def table(rows: Sequence[Mapping[str, str | int]]) -> bytes:
-    """Return a table as every grades.csv is written: rows by column as CSV."""
-    return csv_of(list(rows[0]), (row.values() for row in rows))
+def of_days(courses: Sequence[Course]) -> bytes:
+    """Return the table of several days: a row per student, in per cent of the tasks."""
+    numbers = [course.day.number for course in courses]
+    rows = [_row_of_days(numbers, days) for days in by_student(courses)]
+    return _csv([rows[0], *(row.values() for row in rows)])
 
 
-def csv_of(head: Iterable[str], rows: Iterable[Iterable[str | int]]) -> bytes:
-    """Return columns and rows as CSV."""
+def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
+    """Return rows of cells as CSV, a cell that is None as an empty one."""
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue().encode("utf-8-sig")
-
-
-def percent_of(share: float | None) -> str:
-    """Return a share as a table has it; "" where there is none."""
-    return "" if share is None else f"{share:.1f}"
 
 
 def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
@@ -122,45 +73,126 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
     return sorted(found, key=lambda graded: graded.student.name)
 
 
-def _row(graded: Graded) -> dict[str, str | int]:
-    result, mistake = graded.result, graded.result.first_mistake
+def _row(graded: Graded) -> dict[str, Cell]:
+    result, mistake = graded.result, graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
     return {
-        **who(graded.student),
-        "percent": percent_of(graded.percent),
-        "tasks_passed": graded.tasks_passed,
-        **{task.id: _cell(graded, task.status) for task in result.tasks},
+        **_who(graded.student),
+        "percent": percent(graded),
+        "tasks_passed": result.score[0],
+        **{task.id: task.shown for task in result.tasks},
         "deliverables_passed": result.score[1],
         **{item.id: item.status for item in result.items},
-        "first_mistake": plain(f"{mistake.id} {mistake.mistake}" if mistake else ""),
-        "what_it_says": plain(mistake.message if mistake else ""),
-        "minutes_since_commit_own_clock": _or_nothing(graded.minutes),
+        "first_mistake": plain(f"{mistake.id} {mistake.mistake}"),
+        "what_it_says": plain(mistake.message),
+        "minutes_since_commit_own_clock": graded.minutes,
         "late_minutes": minutes,
         "late_days": days,
-        "commits_after_deadline": _or_nothing(graded.late),
+        "commits_after_deadline": graded.late,
         "commit_hash": graded.commit[:10],
         "kit": result.kit,
-        "seed": result.seed if result.kit else "",
+        "seed": result.seed if result.kit else None,
         "refused": plain("; ".join(result.refused)),
         "error": plain(graded.error),
     }
 
 
-def who(student: Student) -> dict[str, str | int]:
+def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, Cell]:
+    days = dict(zip(numbers, class_, strict=True))
+    results = [one.result for one in class_]
+    errors = [f"day {n}: {one.error}" for n, one in days.items() if one.error]
+    return {
+        **_who(class_[0].student),
+        "percent": percent(*class_),
+        **{f"day{n}_percent": percent(one) for n, one in days.items()},
+        **{f"day{n}_deliverables": one.result.score[1] for n, one in days.items()},
+        **{
+            f"day{n}_late_{unit}": late
+            for n, one in days.items()
+            for unit, late in zip(("minutes", "days"), one.late_by, strict=True)
+        },
+        "kit": plain(", ".join(sorted({one.kit for one in results} - {""}))),
+        "seed": plain(", ".join(sorted({str(one.seed) for one in results if one.kit}))),
+        "error": plain("; ".join(errors)),
+    }
+
+
+def _who(student: Student) -> dict[str, Cell]:
     """Return the first cells of a student's row: who it is."""
     folder = plain(printable(student.folder))
     return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
 
 
-def _or_nothing(number: int | None) -> int | str:
-    return "" if number is None else number
+@dataclass(frozen=True)
+class Platform:
+    """What a platform's import asks for."""
+
+    name: str  # as its makers write it
+    # Of the file, before the grades, in order; the roster's are called the same, in
+    # letters of any size, or by the other names here.
+    columns: dict[str, tuple[str, ...]]
+    known_by: tuple[str, ...]  # by one of these columns it finds a student
+    points: str = ""  # how a row begins that says what a grade is out of, if one does
 
 
-def _cell(graded: Graded, status: str) -> str:
-    """Return a task's status; a file that does not load is more than a task to do."""
-    if status == "todo" and graded.result.does_not_load:
-        return "does not load"
-    return status
+PLATFORMS = {
+    "canvas": Platform(
+        "Canvas",
+        {"Student": (), "ID": (), "SIS Login ID": ("login",), "Section": ()},
+        ("ID", "SIS Login ID"),
+        "    Points Possible",
+    ),
+    "moodle": Platform(
+        "Moodle",
+        {"ID number": ("id", "number"), "Email address": ("email",)},
+        ("ID number", "Email address"),
+    ),
+}
+
+
+def known(platform: Platform, students: Sequence[Student]) -> None:
+    """Check that a platform can find everybody, before anybody is graded.
+
+    Raises:
+        Robo47Error: somebody's row of the roster does not say as whom.
+    """
+    for student in students:
+        if not any(_as_known(platform, student, name) for name in platform.known_by):
+            asked = " or ".join(platform.known_by)
+            raise Robo47Error(
+                f"{platform.name} cannot know {student.name}: give roster.csv a column "
+                f"{asked}, with what the platform's own export has there"
+            )
+
+
+def for_platform(platform: Platform, courses: Sequence[Course], title: str) -> bytes:
+    """Return the table for a platform, grades in per cent of the tasks.
+
+    Whoever could not be graded has no row: an empty grade would wipe one out.
+
+    Args:
+        platform: of PLATFORMS.
+        courses: the graded days of a class.
+        title: of a day's column, as the assignment is called there: "Lab {day}".
+    """
+    titles = [title.replace("{day}", str(course.day.number)) for course in courses]
+    rows = [[*platform.columns, *map(plain, titles)]]
+    if platform.points:
+        blank = [""] * (len(platform.columns) - 1)
+        rows.append([platform.points, *blank, *(["100"] * len(titles))])
+    for days in by_student(courses):
+        if percent(*days):
+            student = days[0].student
+            about = [_as_known(platform, student, name) for name in platform.columns]
+            rows.append([*about, *map(percent, days)])
+    return _csv(rows)
+
+
+def _as_known(platform: Platform, student: Student, column: str) -> str:
+    """Return what the roster has in a platform's column, "" for nothing."""
+    names = (column.lower(), *platform.columns[column])
+    found = next((student.cells[n] for n in names if student.cells.get(n)), "")
+    return plain(found or (student.name if column == "Student" else ""))
 
 
 def plain(text: str) -> str:
@@ -172,16 +204,6 @@ def plain(text: str) -> str:
 def printable(text: str) -> str:
     """Return a text that UTF-8 can hold: a folder's name may be any bytes."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
-def write_feedback(folder: Path, graded: Graded) -> None:
-    """Write a student's file.
-
-    Raises:
-        Robo47Error: it cannot be written.
-    """
-    text = f"{graded.student.name}\n\n{graded.result.text}"
-    write(folder / f"{graded.feedback}.txt", printable(text).encode("utf-8"))
 
 
 def write(path: Path, content: bytes) -> None:

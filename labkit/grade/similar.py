@@ -21,9 +21,7 @@ FEWEST = 24  # runs of one's own: less is too little to compare
 COMMON = 0.1  # of the class: a run that more of them have is nobody's
 FEW = 4  # but one that so few have is kept, in a class of any size
 ALIKE = 0.6  # share of the smaller submission's runs
-KITS = (
-    0.8  # share of one's own runs that stand in the kit's; right answers have a third
-)
+KITS = 0.8  # share of one's own runs that are in the kit's; right answers have a third
 
 _TOKEN = re.compile(
     r"(?P<comment>#[^\n]*)"
@@ -37,18 +35,12 @@ _KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
 
 @dataclass(frozen=True)
 class Group:
-    """Submissions to look at side by side; each is like at least one of the others.
+    """Submissions to look at side by side; each is like at least one of the others."""
 
-    Attributes:
-        keys: whose they are, sorted.
-        share: of the smaller one's runs that the other has too, 0 to 1, in the most
-            similar two of them.
-        with_kit: whether one of them is the kit's own solution, which has no key.
-    """
-
-    keys: tuple[str, ...]
+    keys: tuple[str, ...]  # whose they are, sorted
+    # Of the smaller one's runs that the other has too, 0 to 1, in the most similar two.
     share: float
-    with_kit: bool = False
+    with_kit: bool = False  # one of them is the kit's own solution, which has no key
 
 
 def runs_of(source: bytes, starter: str) -> "array[int]":

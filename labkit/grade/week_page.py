@@ -1,40 +1,49 @@
 """A class over several days as one HTML page, with links to the pages of the days."""
 
+from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
-from labkit.grade.overview import state
-from labkit.grade.roster import Student
-from labkit.grade.sheet import Graded, percent_of, printable
-from labkit.grade.week import STATES, Week
-from labkit.lesson.day import Day
+from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.sheet import printable
 
-ROLES = dict(
-    zip(STATES, ("pass", "line", "fail", "broken", "none", "dark"), strict=True)
-)
+ROLES = {  # colours of the states, in the order to list them
+    "done": "pass",
+    "under way": "line",
+    "stuck": "fail",
+    "does not load": "broken",
+    "not started": "none",
+    "ungraded": "dark",
+}
+MISTAKES = 3  # of each day, the most common
 STYLE = PAGE_STYLE + "td.n, th.n { text-align: right; }\n"
 
 
-def render(week: Week) -> str:
+def render(courses: Sequence[Course]) -> str:
     """Return the whole page."""
-    title = f"Days {week.days[0].number} to {week.days[-1].number}"
-    about, days, everybody = _about(week), _days(week), _table(week)
-    return printable(html.page(title, about, days, everybody, style=STYLE))
+    title = f"Days {courses[0].day.number} to {courses[-1].day.number}"
+    class_ = by_student(courses)
+    done = sum(all(one.state == "done" for one in days) for days in class_)
+    about = f"{count(len(class_), 'student')}; {done:,} passed every task"
+    everybody = html.section(
+        "Everybody <small>tasks that pass, by day</small>",
+        html.table(
+            "<th>name</th><th class=n>per cent</th>"
+            + "".join(f"<th class=n>{_link(course)}</th>" for course in courses),
+            map(_row, class_),
+            "card scroll all",
+        ),
+    )
+    return printable(html.page(title, about, _days(courses), everybody, style=STYLE))
 
 
-def _about(week: Week) -> str:
-    done = [s for s in week.students if all(state(one) == "done" for one in week.of(s))]
-    return f"{count(len(week.students), 'student')}; {len(done):,} passed every task"
-
-
-def _days(week: Week) -> str:
-    rows = [_bar(week, day) for day in week.days]
+def _days(courses: Sequence[Course]) -> str:
     marks = legend((role, escape(where)) for where, role in ROLES.items())
-    bars = chart(rows, "students by how they stand, day by day")
-    mistakes = "".join(_mistakes(week, day) for day in week.days)
+    bars = chart(list(map(_bar, courses)), "students by how they stand, day by day")
+    mistakes = "".join(map(_mistakes, courses))
     return html.section(
         "The days",
         '<div class="two">',
@@ -44,48 +53,35 @@ def _days(week: Week) -> str:
     )
 
 
-def _bar(week: Week, day: Day) -> Row:
-    counts = week.counts(day)
+def _bar(course: Course) -> Row:
+    counts, size = course.counts, len(course.class_)
     parts = [(role, counts[where]) for where, role in ROLES.items()]
-    words = f"{counts['done']:,} of {len(week.students):,} done"
-    return Row(f"{day.number}  {day.title}", words, parts, len(week.students))
+    words = f"{counts['done']:,} of {size:,} done"
+    return Row(f"{course.day.number}  {course.day.title}", words, parts, size)
 
 
-def _mistakes(week: Week, day: Day) -> str:
+def _mistakes(course: Course) -> str:
     words = ", ".join(
-        f"{escape(task)} <b>{escape(name)}</b> ({number})"
-        for task, name, number in week.mistakes[day.number]
+        f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
+        for mark, who in course.mistakes()[:MISTAKES]
     )
-    return (
-        f'<li><div class="head"><a href="day{day.number}/class.html">'
-        f"Day {day.number}</a></div><p>{words or 'none'}</p></li>"
-    )
+    head = f'<div class="head">{_link(course, "Day ")}</div>'
+    return f"<li>{head}<p>{words or 'none'}</p></li>"
 
 
-def _table(week: Week) -> str:
-    head = "".join(
-        f'<th class=n><a href="day{day.number}/class.html">{day.number}</a></th>'
-        for day in week.days
-    )
-    return html.section(
-        "Everybody <small>tasks that pass, by day</small>",
-        html.table(
-            f"<th>name</th><th class=n>per cent</th>{head}",
-            (_row(week, student) for student in week.students),
-            "card scroll all",
-        ),
-    )
+def _link(course: Course, what: str = "") -> str:
+    number = course.day.number
+    return f'<a href="day{number}/class.html">{what}{number}</a>'
 
 
-def _row(week: Week, student: Student) -> str:
-    cells = "".join(map(_cell, week.of(student)))
-    share = percent_of(week.percent(student)) or "?"
-    return f"<tr><td>{escape(student.name)}</td><td class=n>{share}</td>{cells}</tr>"
+def _row(days: Sequence[Graded]) -> str:
+    cells = "".join(map(_cell, days))
+    name, share = escape(days[0].student.name), percent(*days) or "?"
+    return f"<tr><td>{name}</td><td class=n>{share}</td>{cells}</tr>"
 
 
 def _cell(one: Graded) -> str:
-    words, where = "?", state(one)
-    if one.percent is not None:
-        words = f"{one.tasks_passed} of {len(one.result.tasks)}"
-    role = ROLES[where] if where != "under way" else ""
-    return f'<td class="n {role}" title="{escape(where)}">{words}</td>'
+    passed, all_ = one.result.score[0], len(one.result.tasks)
+    words = f"{passed} of {all_}" if percent(one) else "?"
+    role = ROLES[one.state] if one.state != "under way" else ""
+    return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

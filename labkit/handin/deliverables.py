@@ -2,25 +2,29 @@
 
 from pathlib import Path
 
-from labkit.base.git import GitError, read_history
-from labkit.handin.commit import check_commit, wanted_names
-from labkit.handin.handin import Handin, read_handin
-from labkit.handin.item import Item
+from labkit.base.git import GitError, History, read_history
+from labkit.base.text import visible
+from labkit.handin.handin import Handin, Item, read_handin
 from labkit.handin.rows import check_rows
 from labkit.handin.worksheet import check_worksheet
 from labkit.lesson.day import Day
 from robo47.errors import FaultError
 from robo47.paths import ROOT, shown
 
+_ITEMS = {  # in the order of the checks, by what is handed in
+    "figure": ["figure"],
+    "worksheet": ["definitions", "drawings", "checklist"],
+    "log": ["metrics"],
+}
+
 
 def item_names(day: Day) -> list[str]:
     """Return the names of a day's deliverables, in the order of the checks."""
-    names = ["figure"] if day.figure else []
-    if day.worksheet:
-        names += ["definitions"] if day.terms or day.questions else []
-        names += ["drawings"] if day.drawings else []
-        names += ["checklist"]
-    return [*names, *(["metrics"] if day.metrics else []), "commit"]
+    asked = {"definitions": day.terms or day.questions, "drawings": day.drawings}
+    there = [names for what, names in _ITEMS.items() if what in day.files]
+    return [name for names in there for name in names if asked.get(name, True)] + [
+        "commit"
+    ]
 
 
 def check_deliverables(
@@ -64,19 +68,51 @@ def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[It
     from labkit.handin.figure import check_figure  # it brings MuJoCo
 
     checks = {
-        "figure": (["figure"], lambda: [check_figure(day, handin)]),
-        "worksheet": (
-            ["definitions", "drawings", "checklist"],
-            lambda: check_worksheet(day, handin),
-        ),
-        "log": (["metrics"], lambda: [check_rows(day, handin, tasks_pass=tasks_pass)]),
+        "figure": lambda: [check_figure(day, handin)],
+        "worksheet": lambda: check_worksheet(day, handin),
+        "log": lambda: [check_rows(day, handin, tasks_pass=tasks_pass)],
     }
-    found: dict[str, Item] = {}
-    for what, (names, check) in checks.items():
+    found: list[Item] = []
+    for what, names in _ITEMS.items():
         file = day.files.get(what, "")
         if file in handin.unread:
             says = f"{file} {handin.unread[file]}."
-            found |= {name: Item(name, "wrong", says) for name in names}
+            found += [Item(name, "wrong", says) for name in names]
         elif file:
-            found |= {item.name: item for item in check()}
-    return [found[name] for name in item_names(day) if name in found]
+            found += checks[what]()
+    asked = item_names(day)
+    return [item for item in found if item.name in asked]
+
+
+def wanted_names(day: Day, handin: Handin) -> list[str]:
+    """Return the files to commit: what the day asks for, helpers and drawings."""
+    own = [name for name, is_kits in handin.pictures.items() if not is_kits]
+    return list(dict.fromkeys([*day.files.values(), *handin.files, *own]))
+
+
+def check_commit(day: Day, handin: Handin, history: History) -> Item:
+    """Check that a fresh clone of the last commit holds what the folder holds.
+
+    Args:
+        day: from the kit's manifest.
+        handin: what is in the folder.
+        history: the last commit, with the hashes of `wanted_names`.
+    """
+    if not history.readable:
+        return Item("commit", "todo", "This folder is no git repository: git init")
+    there = {*handin.files, *handin.unread, *handin.pictures}
+    wanted = wanted_names(day, handin)
+    left = [
+        name
+        for name in wanted
+        if name in there and not history.holds(name, handin.files.get(name))
+    ]
+    says = []
+    if left:
+        says.append(f"Not committed as they are now: {visible(', '.join(left), 600)}.")
+    if absent := [name for name in wanted if name not in there]:
+        says.append(f"Not there yet: {', '.join(absent)}.")
+    if not says:
+        return Item("commit")
+    command = f'git add -A && git commit -m "Day {day.number}"'
+    return Item("commit", "todo", "\n".join([*says, command]))

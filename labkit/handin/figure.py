@@ -9,8 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from labkit.handin.handin import Handin
-from labkit.handin.item import Item
+from labkit.handin.handin import Handin, Item
 from labkit.lesson.day import Day, all_days
 
 SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all

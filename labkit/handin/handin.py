@@ -1,28 +1,21 @@
 """A student's hand-in for a day: a few files as bytes, and names of pictures.
 
-A folder may be a stranger's. Links are not followed, only regular files are read, and
-none beyond its limit. What is handed in is the same for `make check` and for a grade.
+What is handed in is the same for `make check` and for a grade.
 """
 
-import errno
-import itertools
-import os
 import posixpath
 import re
-import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
-from labkit.base.exchange import SCRIPT
 from labkit.lesson.day import Day
+from labkit.lesson.own_files import MB, SCRIPT, UnreadError, helpers_of, read, size_of
 
-MB = 1_000_000
 # In bytes.
 LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
-HELPERS, PICTURES = 50, 40  # modules beside the script; pictures of the worksheet
-LISTED = 10_000  # entries of work/ that are looked at
+PICTURES = 40  # of the worksheet
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
 
 # Each search ends within a few hundred characters of where it began.
@@ -32,11 +25,18 @@ _IMAGE = re.compile(
 )
 
 
-NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
+@dataclass(frozen=True)
+class Item:
+    """How one deliverable stands."""
 
+    name: str  # "figure", "definitions", ...
+    status: str = "passed"  # or "todo" (not there yet), "wrong" (there, but)
+    message: str = ""  # what to do; "" when passed
 
-class UnreadError(Exception):
-    """A file is there but not for reading; its text completes "FILE ..."."""
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is left to do."""
+        return self.status == "passed"
 
 
 @dataclass(frozen=True)
@@ -69,35 +69,10 @@ def read_handin(day: Day, root: Path) -> Handin:
             unread[name] = str(error)
         else:
             files |= {} if data is None else {name: data}
-    files |= helpers_of(root, wanted["script"], files)
+    files |= helpers_of(root, wanted["script"], files.get(wanted["script"], b""))
     sheet = wanted.get("worksheet", "")
     text = files.get(sheet, b"").decode("utf-8", "replace")
     return Handin(files, unread, _pictures(day, root, sheet, text))
-
-
-def read(root: Path, name: str, limit: int) -> bytes | None:
-    """Return a file's content, or None where there is no such file.
-
-    Args:
-        root: the student's folder.
-        name: path from there, with "/" as separator.
-        limit: bytes.
-
-    Raises:
-        UnreadError: it is a link, no regular file, too large, or not for us.
-        OSError: the machine's own trouble.
-    """
-    size = _size(root, name)
-    if size is None:
-        return None
-    if size > limit:
-        most = f"{limit // MB} MB" if limit >= MB else f"{limit // 1000} kB"
-        raise UnreadError(f"has {size / MB:,.1f} MB; at most {most} is looked at")
-    try:
-        with root.joinpath(name).open("rb") as file:
-            return file.read(limit)
-    except PermissionError as error:
-        raise UnreadError(f"cannot be read: {error.strerror}") from None
 
 
 def image_names(text: str) -> list[str]:
@@ -121,72 +96,6 @@ def picture_path(address: str, worksheet: str) -> str:
     return path if inside else ""
 
 
-def _size(root: Path, name: str) -> int | None:
-    """Return a regular file's bytes, or None where there is no such file."""
-    path = root
-    try:
-        for part in name.split("/"):
-            path /= part
-            status = path.lstat()
-            if stat.S_ISLNK(status.st_mode):
-                raise UnreadError("is behind a link; hand in the file itself")
-    except PermissionError as error:
-        raise UnreadError(f"cannot be read: {error.strerror}") from None
-    except (FileNotFoundError, NotADirectoryError, ValueError):  # ValueError: a NUL
-        return None
-    except OSError as error:
-        if error.errno in NO_NAME:
-            return None
-        raise
-    if not stat.S_ISREG(status.st_mode):
-        raise UnreadError("is no file")
-    return status.st_size
-
-
-def helpers_of(root: Path, script: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the student's own modules that a script needs, however indirectly.
-
-    Args:
-        root: the student's folder.
-        script: its path from there.
-        files: its content, by that path.
-    """
-    work = posixpath.dirname(script)
-    try:
-        if (root / work).is_symlink() or (root / work).parent.is_symlink():
-            return {}
-        with os.scandir(root / work) as entries:
-            names = [entry.name for entry in itertools.islice(entries, LISTED)]
-    except (FileNotFoundError, NotADirectoryError, PermissionError):
-        return {}
-    modules = sorted(n[:-3] for n in names if n.endswith(".py"))
-    there = {name for name in modules if name.isidentifier()}
-    found: dict[str, bytes] = {}
-    waiting = [files.get(script, b"")]
-    while waiting:
-        for name in sorted(_imported(waiting.pop()) & there):
-            path = f"{work}/{name}.py"
-            if path in found or path == script or len(found) == HELPERS:
-                continue
-            try:
-                data = read(root, path, LIMITS["script"]) or b""
-            except UnreadError:
-                continue
-            if sum(map(len, found.values())) + len(data) <= 2 * LIMITS["script"]:
-                found[path] = data
-                waiting.append(data)
-    return found
-
-
-def _imported(source: bytes) -> set[str]:
-    """Return every word of a file that may name a module it imports."""
-    text = source.decode("utf-8", "replace")
-    lines = [
-        ln for ln in text.splitlines() if re.match(r"[^#\n]*\b(import|from)\b", ln)
-    ]
-    return set(re.findall(r"\w+", "\n".join(lines)))
-
-
 def _pictures(day: Day, root: Path, sheet: str, text: str) -> dict[str, bool]:
     """Return the worksheet's pictures that are there: whether each is the kit's."""
     kits = [day.folder / name for name in day.kit_figures]
@@ -196,7 +105,7 @@ def _pictures(day: Day, root: Path, sheet: str, text: str) -> dict[str, bool]:
     for address in image_names(text)[:PICTURES]:
         path = picture_path(address, sheet)
         try:
-            size = _size(root, path) if path else None
+            size = size_of(root, path) if path else None
             kit = path in own
             if size in sizes and not kit:
                 kit = read(root, path, LIMITS["figure"]) == sizes[size].read_bytes()

@@ -3,11 +3,10 @@
 import io
 
 from labkit.base.text import visible
-from labkit.handin.handin import Handin
-from labkit.handin.item import Item
+from labkit.handin.handin import Handin, Item
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import mark_of, marks_of
-from labkit.lesson.starter import borrowed_tasks
+from labkit.lesson.script import borrowed_tasks
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file
 from robo47.errors import Robo47Error

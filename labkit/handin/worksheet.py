@@ -2,10 +2,8 @@
 
 import re
 
-from labkit.base.text import visible
-from labkit.base.words import count
-from labkit.handin.handin import Handin, image_names, picture_path
-from labkit.handin.item import Item
+from labkit.base.text import count, visible
+from labkit.handin.handin import Handin, Item, image_names, picture_path
 from labkit.lesson.day import Day
 
 FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # of a definition

@@ -60,12 +60,11 @@ The modules, from the numbers to the page:
 
     arm, ghost                  MuJoCo's poses and the library's; the student's
     student, own                the student's files in the checker's sandbox
-    checks                      the verdicts of `make check`, in the background
     words, typed                numbers as HTML; as people type them, in the URL
     shapes, meshes, draw, scene what is in the picture
     page, instruments, animate  what a tab gets
     tab, common_tabs            what a tab is; the tabs that every day has
-    app, panel                  the page as a whole
+    app                         the page as a whole
     guard                       who may talk to it; our part of viser's page
     serve, recording            listens until Ctrl-C; a film without a server
 

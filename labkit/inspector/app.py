@@ -5,9 +5,9 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 `update` does the work, at most once in a sixtieth of a second.
 """
 
-import contextlib
+import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
@@ -17,21 +17,22 @@ import viser
 from numpy.typing import ArrayLike
 
 from labkit.inspector import typed, words
+from labkit.inspector.animate import Jobs
 from labkit.inspector.arm import END, Arm
-from labkit.inspector.checks import Standing
-from labkit.inspector.common_tabs import Chain, Joints, Tasks
+from labkit.inspector.common_tabs import Chain, Joints, Standing, Tasks
 from labkit.inspector.draw import Sketch
-from labkit.inspector.ghost import Difference, Seen, compare
+from labkit.inspector.ghost import Seen
+from labkit.inspector.guard import TITLE
 from labkit.inspector.page import Page
-from labkit.inspector.panel import Panel
 from labkit.inspector.scene import GHOST_COLOUR, ArmScene, Pointed
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Tab
 from robo47.checks import Array, array
 
-PERIOD = 1 / 60
+PERIOD, LOOKS = 1 / 60, 0.05  # seconds; between looks at the student's file
 DRAG, STEPS = 0.7, 100  # seconds between moves that are one; how many can be undone
+LAST = 1e15  # below whatever a tab adds
 COLOURS = {
     "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
     "YOURS, where not": GHOST_COLOUR,
@@ -61,9 +62,10 @@ class Inspector:
         self.past: list[Array] = []
         self.scheduled = False
         self.student: Student | None = None
+        self.version, self.unchecked = 0, False  # of the file that is asked
         self.seen: Seen | None = None
-        self.apart: Difference | None = None
-        self.panel = Panel(server.gui, arm, about)
+        self.asks, self.checks = Jobs(lambda _: None), Jobs(lambda _: None)
+        self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
         self.kinds = {kind.title: kind for kind in tabs}
@@ -71,9 +73,26 @@ class Inspector:
         self.tab: Tab | None = None  # the open one; None where it failed to open
         self.page: Page | None = None  # what it made its widgets with
         self.open_tab(Joints.title)
-        self.listen(self.panel.frame, lambda _: self.light_frame())
-        self.listen(self.panel.solid, lambda solid: self.scene.look(opaque=solid))
+        self.listen(self.frame, lambda _: self.light_frame())
+        self.listen(self.solid, lambda solid: self.scene.look(opaque=solid))
         self.update()
+
+    def lay_out(self, gui: viser.GuiApi, about: str) -> None:
+        """Make what stands above the open tab, and below all."""
+        gui.set_panel_label(TITLE)
+        self.state, self.yours = gui.add_html(""), gui.add_html("")
+        self.tasks, self.row = gui.add_html(""), gui.add_html("")
+        self.frame = gui.add_dropdown("Frame", tuple(self.arm.names))
+        self.proof, self.limits = gui.add_html(""), gui.add_html("")
+        self.legend = gui.add_html("", order=LAST)
+        self.solid = gui.add_checkbox("solid arm", False, order=LAST + 1e9)
+        gui.add_html(words.line(about, "about", "quiet"), order=LAST + 2e9)
+        self.fixed = set(self.widgets())
+
+    def widgets(self) -> dict[str, viser.GuiHtmlHandle]:
+        """Return what stands in the panel by its uuid, whoever put it there."""
+        gui: Any = self.server.gui
+        return gui._container_handle_from_uuid["root"]._children
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm to q, (nq,), in every browser; `arm` follows in `update`.
@@ -114,11 +133,6 @@ class Inspector:
                 self.pointed.show()
             self.show()
 
-    def ask(self) -> None:
-        """Ask the student's file where it puts the arm."""
-        if self.student is not None:
-            self.student.want(self.arm.q)
-
     def dress(self, model: mujoco.MjModel, meshes: list[Shape], ghosts: bool) -> None:
         """Put the meshes of the arm's model on it, and on the ghosts, too."""
         with self.server.atomic():
@@ -131,25 +145,30 @@ class Inspector:
 
     def show(self) -> None:
         """Show the numbers, and where the page is."""
-        self.panel.show(self.seen, self.apart, self.standing)
-        self.panel.state.content = words.state(self.address, self.heard_words)
+        seen, task = self.seen, self.standing
+        if seen is not None:
+            self.yours.content = words.judged(seen.sentence, "yours", seen.kind)
+        self.tasks.content = words.line(task.headline, "standing", task.kind)
+        proof = "" if self.kind.wide else words.proof(self.arm, self.frame.value, seen)
+        self.proof.content = proof
+        self.limits.content = words.limits(self.arm)
+        self.state.content = words.state(self.address, self.heard_words)
+
+    def first(self) -> str:
+        """Return what to show before viser does, as HTML."""
+        some = (self.yours, self.tasks, self.proof, self.limits)
+        return "".join(part.content for part in some)
+
+    def explain(self, colours: Mapping[str, tuple[int, int, int]]) -> None:
+        """Say what the colours in the scene mean: {what is drawn: its colour}."""
+        self.legend.content = words.legend(colours)
 
     @property
     def address(self) -> str:
         """The query that leads here: the configuration, the frame, the tab."""
-        return typed.write_address(self.q, self.panel.frame.value, self.kind.title)
+        return typed.write_address(self.q, self.frame.value, self.kind.title)
 
-    def on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
-        """Return a function for other threads that has the event loop call this one."""
-        loop = self.server.get_event_loop()
-
-        def soon(*values: Any) -> None:
-            with contextlib.suppress(RuntimeError):  # the page is closed already
-                loop.call_soon_threadsafe(call, *values)
-
-        return soon
-
-    # What the browsers and the student's file say
+    # What the browsers say
 
     def receive(self, query: str) -> int:
         """Go where "?q=...&frame=...&tab=..." says, as far as that is somewhere.
@@ -161,7 +180,7 @@ class Inspector:
         q, frame, title = typed.read_address(query, self.arm.model.nq)
         self.open_tab(title)
         if frame in self.arm.names:
-            self.panel.frame.value = frame  # type: ignore[misc]
+            self.frame.value = frame  # type: ignore[misc]
             self.light_frame()
         if q is not None:
             self.move(q)
@@ -183,7 +202,9 @@ class Inspector:
     def light_frame(self) -> None:
         """Have the frame that is chosen stand out."""
         if self.kind is Joints:
-            self.scene.light(self.panel.frame.value, None)
+            self.scene.light(self.frame.value, None)
+
+    # The open tab
 
     def open_tab(self, title: str) -> None:
         """Leave the open tab with all that it made, and open another one."""
@@ -192,23 +213,18 @@ class Inspector:
             return
         with self.server.atomic():
             self.leave()
-            self.panel.open(list(self.kinds), title, kind.wide)
-            self.panel.explain(COLOURS if self.day.ghost else {})
+            self.frame.visible, self.solid.visible = not kind.wide, True
+            self.row.content = words.tab_row(self.kinds, title)
+            self.explain(COLOURS if self.day.ghost else {})
             self.scene.hide(False)
-            self.scene.light(self.panel.frame.value, None)
+            self.scene.light(self.frame.value, None)
             self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
-            self.page = Page(self, Sketch(self.server, self.scene.coarse))
-            self.guarded(self.enter)
+            self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
+            self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
-            self.page.end()
         self.schedule()
-
-    def enter(self) -> None:
-        """Build the tab that was chosen."""
-        assert self.page is not None
-        self.tab = self.kind(self.page)
 
     def leave(self) -> None:
         """Close the open tab, and remove all that it made."""
@@ -217,6 +233,9 @@ class Inspector:
         if self.page is not None:
             self.page.close()
         self.tab = self.page = None
+        for uuid, widget in list(self.widgets().items()):
+            if uuid not in self.fixed:
+                widget.remove()
 
     def tell(self, q: Array) -> None:
         """Tell the open tab where the arm is."""
@@ -233,28 +252,48 @@ class Inspector:
             what = f"{type(error).__name__}: {error}"
             self.page.say(f"the tab {self.kind.title} stopped with {what}", "bad")
 
-    def hear(self, seen: Seen | None) -> None:
-        """Show what the student's function said; None where there is no file."""
+    # The student's file
+
+    async def watch(self, student: Student, check: Callable[[], Standing]) -> None:
+        """Ask a file for the arm at every move, and the checker at every save."""
+        self.student, self.check = student, check
+        while True:
+            await asyncio.to_thread(student.look)
+            if self.version != student.version:
+                self.version, self.unchecked = student.version, True
+                self.ask()  # the checks, which are slower, come after that
+            await asyncio.sleep(LOOKS)
+
+    def ask(self) -> None:
+        """Ask the file, once it is open, where it puts the arm."""
+        if self.student is not None and self.version:
+            self.asks.want(partial(self.student.see, self.arm.q.copy()), self.hear)
+
+    def hear(self, seen: Seen) -> None:
+        """Show what the student's function said."""
         self.seen = seen
-        ghost, apart = self.day.ghost, None
-        if seen is not None and ghost is not None:
-            apart = compare(ghost, seen, self.arm.poses_at(seen.q))
-        self.apart = apart
+        end = self.day.ghost.frames[-1] if self.day.ghost else END
         with self.server.atomic():
-            self.scene.show_ghost(
-                apart.drawn if apart else {}, ghost.frames[-1] if ghost else END
-            )
-            self.scene.look(agrees=apart is not None and apart.good)
+            self.scene.show_ghost(seen.drawn, end)
+            self.scene.look(agrees=seen.kind == "good")
             self.show()
+        if self.unchecked and self.student is not None:
+            self.unchecked = False
+            self.tell(self.arm.q)  # whatever the open tab asks is asked again
+            self.schedule()
+            if self.student.there:
+                self.checks.want(self.check, self.judge)
 
-    def reload(self) -> None:
-        """Ask the student's file again whatever the open tab asks."""
-        self.tell(self.arm.q)
-        self.schedule()
+    def judge(self, found: Standing) -> None:
+        """Show how the tasks stand, unless the file was saved again meanwhile."""
+        if self.checks.next is None:
+            self.standing = found
+            if isinstance(self.tab, Tasks):
+                self.tab.show(found)
+            self.schedule()
 
-    def judge(self, standing: Standing) -> None:
-        """Show how the tasks stand."""
-        self.standing = standing
-        if isinstance(self.tab, Tasks):
-            self.tab.show(standing)
-        self.schedule()
+    def close(self) -> None:
+        """End whatever runs."""
+        self.leave()
+        self.asks.stop()
+        self.checks.stop()

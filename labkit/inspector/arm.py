@@ -72,8 +72,6 @@ class Arm:
 
     def poses_at(self, q: Array) -> dict[str, Array]:
         """Return MuJoCo's poses at a configuration, (nq,), as {short name: (4, 4)}."""
-        if np.array_equal(q, self.q):
-            return {name: self.pose(name) for name in self.names}
         poses = mujoco_poses(self.model, np.asarray(q)[None])
         return {name: poses[full][0] for name, full in self.names.items()}
 
@@ -113,8 +111,8 @@ class Arm:
         so_far, steps = np.eye(4), []
         for link, joint, name, q, T, elsewhere in self._factors():
             after = so_far @ T
-            moves = elsewhere != T
-            steps.append(Step(link, joint, name, q, so_far, T, after, moves))
+            step = Step(link, joint, name, q, so_far, T, after, elsewhere != T)
+            steps.append(step)
             so_far = after
         return steps
 

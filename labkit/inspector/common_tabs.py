@@ -2,16 +2,19 @@
 
 import math
 import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
 import viser
 
+from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
-from labkit.inspector.checks import Standing
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
+from labkit.judge.mistake import Verdict
 from robo47.checks import Array
 
 RANDOM, UNDO = "random", "undo"
@@ -173,6 +176,35 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
         + words.matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves")
         + words.matrix(f"= {product}", this.after, "product")
     )
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How the day's tasks stand."""
+
+    headline: str  # about all of them
+    kind: str = "quiet"  # or "good" or "bad"
+    tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
+
+
+def standing(results: Sequence[TaskResult]) -> Standing:
+    """Return the tasks, in the day's order, with one line about all of them."""
+    first = results[0].verdict if results else Verdict("passed")
+    if first.mistake == "does-not-load":  # one reason, for all of them
+        todo = Verdict(first.status)
+        bare = tuple(replace(result, verdict=todo) for result in results)
+        return Standing(f"make check: {first.message}", "bad", bare)
+    passed = sum(result.passed for result in results)
+    says = f"make check: {passed} of {len(results)} tasks pass"
+    if passed == len(results):
+        return Standing(f"✓ {says}", "good", tuple(results))
+    wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
+    if not wrong:
+        after = next(r.task for r in results if not r.passed)
+        says = f"{says}; next is {after.id} {after.title}"
+        return Standing(says, "quiet", tuple(results))
+    why = f"{wrong[0].task.id}: {wrong[0].verdict.message}"
+    return Standing(f"✗ {says}. {why}", "bad", tuple(results))
 
 
 class Tasks(Tab):

@@ -6,7 +6,6 @@ the scene follows.
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from itertools import count
 from typing import Any, Literal
 
@@ -50,8 +49,8 @@ class Sketch:
         self, server: viser.ViserServer, coarse: Sequence[Shape] = (), root: str = ROOT
     ) -> None:
         """Begin with the arm's simple meshes, for ghosts."""
-        self.server, self.coarse = server, list(coarse)
-        self._bare: list[Callable[[list[Shape]], None]] = []  # ghosts without meshes
+        self.server, self.coarse = server, coarse
+        self.ghosts: list[Skin] = []
         # All that is drawn hangs from it.
         self.root = server.scene.add_frame(root, show_axes=False)
 
@@ -124,17 +123,16 @@ class Sketch:
 
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
         """Draw another arm; `pose({body: T_world_body})` puts its links somewhere."""
-        skin = Skin(self.server, self.path())
-        skin.put_on(self.coarse, rgb(colour), opacity)
-        if not self.coarse:
-            self._bare.append(partial(skin.put_on, colour=rgb(colour), opacity=opacity))
+        skin = Skin(self.server, self.path(), rgb(colour), opacity)
+        skin.put_on(self.coarse)
+        self.ghosts.append(skin)
         return skin
 
     def dress(self, coarse: Sequence[Shape]) -> None:
         """Put the arm's simple meshes on the ghosts that were drawn before them."""
-        self.coarse = list(coarse)
-        while self._bare:
-            self._bare.pop()(self.coarse)
+        self.coarse = coarse
+        for skin in self.ghosts:
+            skin.put_on(coarse)
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
         """Draw a handle at T, (4, 4), that the mouse drags; `on_drag` is given it."""

@@ -42,51 +42,55 @@ class Seen:
     """What the student's function said of a configuration q, (nq,)."""
 
     q: Array
+    sentence: str  # in the student's name: how it compares, or why there is nothing
+    kind: str  # "good", "bad", or "quiet" where nothing is written yet
     poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
-    problem: str = ""  # why there are none, or fewer than asked for
+    truth: Mapping[str, Array] = field(default_factory=dict)  # MuJoCo's of all frames
+    drawn: Mapping[str, Array] = field(default_factory=dict)  # rigid, where they differ
 
 
-@dataclass(frozen=True)
-class Difference:
-    """How the student's poses differ from MuJoCo's."""
-
-    sentence: str  # in the student's name
-    good: bool  # whether they agree everywhere
-    drawn: Mapping[str, Array]  # {short name: a rigid pose, (4, 4)} where they differ
-
-    @property
-    def kind(self) -> str:
-        """ "good", "bad", or "quiet" where nothing is written yet."""
-        unwritten = not self.drawn and "Not written yet" in self.sentence
-        return "good" if self.good else "quiet" if unwritten else "bad"
+def nothing(q: Array, why: str) -> Seen:
+    """Return that there is no pose at q, (nq,), and why."""
+    return Seen(q, why, "quiet" if "Not written yet" in why else "bad")
 
 
-def compare(ghost: Ghost, seen: Seen, truth: Mapping[str, Array]) -> Difference:
+def compare(
+    ghost: Ghost,
+    q: Array,
+    poses: Mapping[str, Array],
+    problem: str,
+    truth: Mapping[str, Array],
+) -> Seen:
     """Return how what a ghost's function said differs from MuJoCo.
 
-    The truth is {short name: MuJoCo's pose (4, 4)}, of the same configuration.
+    Args:
+        ghost: whose function it is.
+        q: the configuration, (nq,).
+        poses: what it said, {short name: (4, 4)}.
+        problem: why there are none, or fewer than asked for; else "".
+        truth: MuJoCo's poses, {short name: (4, 4)}, at q.
     """
     whose = f"YOUR {ghost.function}"
     apart = {
-        name: float(np.abs(seen.poses[name] - truth[name]).max())
+        name: float(np.abs(poses[name] - truth[name]).max())
         for name in ghost.frames
-        if name in seen.poses
+        if name in poses
     }
     wrong = [name for name, difference in apart.items() if not difference < AGREES]
-    drawn = {name: nearest_pose(seen.poses[name]) for name in wrong}
     if wrong:
         end = ghost.frames[-1] if ghost.frames[-1] in wrong else wrong[-1]
-        how = _how_far(seen.poses[end], truth[end])
+        how = _how_far(poses[end], truth[end])
         says = f"{whose} is off by {how} at {end}; first frame that differs: {wrong[0]}"
-        if bent := [name for name in wrong if not se3.is_pose(seen.poses[name])]:
+        if bent := [name for name in wrong if not se3.is_pose(poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
-        return Difference(f"{says}. {seen.problem}".strip(), False, drawn)
+        drawn = {name: nearest_pose(poses[name]) for name in wrong}
+        return Seen(q, f"{says}. {problem}".strip(), "bad", poses, truth, drawn)
     if ghost.frames[-1] not in apart:
-        return Difference(seen.problem or f"{whose} gave no pose", False, {})
+        return nothing(q, problem or f"{whose} gave no pose")
     worst = max(apart.values())
     where = "at every frame" if len(apart) == len(ghost.frames) else "here"
     says = f"{whose} agrees with MuJoCo {where}: largest difference {worst:.1e}"
-    return Difference(f"{says}. {seen.problem}".rstrip(". "), True, {})
+    return Seen(q, f"{says}. {problem}".rstrip(". "), "good", poses, truth)
 
 
 def _how_far(T: Array, truth: Array) -> str:

@@ -27,7 +27,7 @@ import secrets
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cache, wraps
+from functools import cache, partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,7 @@ LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
+Answers = Callable[[ServerConnection, Request], Response | None]
 HERE, TITLE = Path(__file__).parent, "robo47 inspector"
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
@@ -69,8 +70,10 @@ class LocalServer(viser.ViserServer):
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL + 1)
         # Nor is what was still to be drawn when a page, or this server, was closed.
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection")
-        self.door = Door()
-        with _watched_doors(self.door) as watched:
+        self.secret = secrets.token_urlsafe(12)
+        self.receive: Receive = lambda query: 0
+        self.first: Callable[[], str] = str  # what a page shows before viser does
+        with _watched_doors(self) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)
         if not watched:
             self.stop()
@@ -86,37 +89,32 @@ class LocalServer(viser.ViserServer):
     @property
     def url(self) -> str:
         """The page's address, secret included."""
-        return f"http://{LOOPBACK}:{self.get_port()}/{self.door.secret}/"
+        return f"http://{LOOPBACK}:{self.get_port()}/{self.secret}/"
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Refuse, whoever asks: the arm is not put on the internet."""
         return None
 
-
-class Door:
-    """What every request passes: refuses it, answers it, or hands it to viser."""
-
-    def __init__(self) -> None:
-        self.secret = secrets.token_urlsafe(12)
-        self.receive: Receive = lambda query: 0
-        self.first: Callable[[], str] = str  # what a page shows before viser does
-
     def refusal(self, request: Request) -> str | None:
         """Return why a request is refused, or None for one that may pass."""
-        if why := foreign(request.headers):
-            return why
-        given = request.path.partition("?")[0].strip("/").partition("/")[0]
+        headers = request.headers
+        hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+        if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
+            return "this address is not the inspector's; open http://127.0.0.1:PORT"
+        # Every browser sends Origin with a WebSocket; same port as well, since another
+        # program's page on this machine is another origin.
+        wanted = [f"http://{hosts[0]}"]
+        if origins != wanted and (origins or headers.get_all("Upgrade")):
+            return "only the inspector's own page may connect to it"
         if len(request.path) > LONGEST:
             return "that address is too long"
+        given = request.path.partition("?")[0].strip("/").partition("/")[0]
         if not hmac.compare_digest(given.encode(), self.secret.encode()):
             return "open the whole address that `make view` printed"
         return None
 
     def answer(
-        self,
-        connection: ServerConnection,
-        request: Request,
-        viser_answers: Callable[[ServerConnection, Request], Response | None],
+        self, viser_answers: Answers, connection: ServerConnection, request: Request
     ) -> Response | None:
         """Return the answer, viser's own where all is well; None opens a WebSocket."""
         if why := self.refusal(request):
@@ -128,41 +126,31 @@ class Door:
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
-        response = viser_answers(
-            connection, replace(request, path=path or "/", headers=plain)
-        )
+        asked = replace(request, path=path or "/", headers=plain)
+        response = viser_answers(connection, asked)
         return response and _protected(response, None if path else self.first())
 
 
-def foreign(headers: Headers) -> str | None:
-    """Return why headers cannot be those of the inspector's own page, or None."""
-    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
-    if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
-        return "this address is not the inspector's; open http://127.0.0.1:PORT"
-    # Every browser sends Origin with a WebSocket; same port as well, since another
-    # program's page on this machine is another origin.
-    wanted = [f"http://{hosts[0]}"]
-    if origins != wanted and (origins or headers.get_all("Upgrade")):
-        return "only the inspector's own page may connect to it"
-    return None
+def _protected(response: Response, first: str | None) -> Response:
+    """Return viser's response with our headers.
 
-
-def with_client(page: bytes, first: str) -> bytes:
-    """Return viser's `index.html` with our style and script at its head.
-
-    The first HTML stands there until viser has drawn something: seconds later.
-
-    Raises:
-        Robo47Error: it has no head or body where it is expected.
+    Where there is something to see first it is viser's page: its head gets our style
+    and script, and the first HTML stands there until viser draws, seconds later.
     """
-    if page.count(b"<head>") != 1 or page.count(b"<body>") != 1:
-        raise Robo47Error(
-            "viser's page is not as expected. Install the pinned one: "
-            "python3 scripts/setup_env.py view"
-        )
-    there = f'<body><div id="r47-first">{first}</div>'.encode()
-    titled = page.replace(b"<title>Viser</title>", f"<title>{TITLE}</title>".encode())
-    return titled.replace(b"<head>", _head()).replace(b"<body>", there)
+    body = bytes(response.body)
+    if first is not None:
+        if body.count(b"<head>") != 1 or body.count(b"<body>") != 1:
+            raise Robo47Error(
+                "viser's page is not as expected. Install the pinned one: "
+                "python3 scripts/setup_env.py view"
+            )
+        there = f'<body><div id="r47-first">{first}</div>'.encode()
+        title = f"<title>{TITLE}</title>".encode()
+        body = body.replace(b"<title>Viser</title>", title)
+        body = body.replace(b"<head>", _head()).replace(b"<body>", there)
+    length = {"Content-Length": str(len(body))}
+    headers = {**dict(response.headers.raw_items()), **PROTECTION, **length}
+    return replace(response, headers=Headers(headers), body=body)
 
 
 @cache
@@ -171,31 +159,15 @@ def _head() -> bytes:
     return b"<head><style>%s</style><script>%s</script>" % (style, script)
 
 
-def _protected(response: Response, first: str | None) -> Response:
-    """Return viser's response with our headers, and its page with our client."""
-    body = bytes(response.body)
-    if first is not None:
-        body = with_client(body, first)
-    headers = Headers(response.headers)
-    for name, value in {**PROTECTION, "Content-Length": str(len(body))}.items():
-        with contextlib.suppress(KeyError):
-            del headers[name]
-        headers[name] = value
-    return replace(response, headers=headers, body=body)
-
-
 @contextlib.contextmanager
-def _watched_doors(door: Door) -> Iterator[list[bool]]:
-    """Make any web server that is started meanwhile ask the door first."""
+def _watched_doors(server: LocalServer) -> Iterator[list[bool]]:
+    """Have any web server that is started meanwhile ask this one first."""
     serve, watched = websockets.asyncio.server.serve, []
 
     @wraps(serve)
-    def guarded(*args: Any, process_request: Any, **options: Any) -> Any:
+    def guarded(*args: Any, process_request: Answers, **options: Any) -> Any:
         watched.append(True)
-
-        def asked(connection: ServerConnection, request: Request) -> Response | None:
-            return door.answer(connection, request, process_request)
-
+        asked = partial(server.answer, process_request)
         return serve(*args, process_request=asked, **options)
 
     websockets.asyncio.server.serve = guarded  # type: ignore[assignment, misc]

@@ -27,19 +27,22 @@ def place(node: viser.SceneNodeHandle, T: Array) -> None:
 class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
-    def __init__(self, server: viser.ViserServer, path: str) -> None:
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        path: str,
+        colour: tuple[int, int, int] | None = None,
+        opacity: float | None = None,
+    ) -> None:
+        """Begin bare; without a colour the meshes have their own, or are solid."""
         self.server, self.path = server, path
+        self.colour, self.opacity = colour, opacity
         self.bodies: dict[str, viser.FrameHandle] = {}
         self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
         self.posed: Mapping[str, Array | None] = {}
 
-    def put_on(
-        self,
-        made: Sequence[Shape],
-        colour: tuple[int, int, int] | None = None,
-        opacity: float | None = None,
-    ) -> None:
-        """Replace its meshes; without a colour they have their own, or are solid."""
+    def put_on(self, made: Sequence[Shape]) -> None:
+        """Replace its meshes."""
         scene, old, self.meshes = self.server.scene, self.meshes, []
         for i, shape in enumerate(made):
             path = f"{self.path}/{shape.body}"
@@ -47,7 +50,7 @@ class Skin:
                 self.bodies[shape.body] = scene.add_frame(path, show_axes=False)
             mesh = scene.add_mesh_simple(
                 f"{path}/{len(made)}_{i}", shape.vertices.astype(np.float32),
-                shape.faces, color=colour or _rgb(shape), opacity=opacity,
+                shape.faces, color=self.colour or _rgb(shape), opacity=self.opacity,
             )  # fmt: skip
             self.meshes.append((mesh, shape))
         self.pose(self.posed)

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import LoadError, Question
+from labkit.check.memory import passing
 from labkit.check.own_functions import statuses
-from labkit.inspector.student import Student
+from labkit.inspector.student import Student, describe
 from labkit.lesson.day import all_days
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
@@ -80,7 +81,7 @@ class Own:
         if reply.kind in UNWRITTEN:
             self._lent[name] = "yours is not written yet"
             return right
-        if problem := student.source.describe(name, reply):
+        if problem := describe(student.day, name, reply):
             raise NoAnswerError(f"YOUR {problem}")
         ours, theirs = _parts(right), _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
@@ -131,19 +132,11 @@ def week(library: Mapping[str, Callable[..., Any]]) -> Iterator[SimpleNamespace]
     fns.yours, fns.total = 0, len(library)
     with Sandbox() as sandbox:
         for day in all_days():
-            why = statuses(day)
-            passed = [
-                name
-                for task in day.tasks
-                for name in task.functions
-                if why[task.id] == "passed" and name in library
-            ]
-            if not passed:
+            if not (own := set(library).intersection(passing(day, statuses(day)))):
                 continue
             with contextlib.suppress(LoadError):
                 session = sandbox.session(day.work, [], library_of(day))
-                own = {name: partial(_ask_of, session, name) for name in passed}
-                vars(fns).update(own)
+                vars(fns).update({f: partial(_ask_of, session, f) for f in own})
                 fns.yours += len(own)
         yield fns
 

@@ -16,7 +16,6 @@ from labkit.inspector.animate import Animation, Jobs, Step
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
-from robo47 import kinematics
 from robo47.checks import Array
 
 if TYPE_CHECKING:
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 SLOW = 1.5  # times slower than real time, which is said
 NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
+END = 1e14  # of a tab, in the order of widgets
 
 
 class Page:
@@ -34,7 +34,9 @@ class Page:
         self.host, self.gui, self.draw = host, host.server.gui, sketch
         self.scene, self.arm = host.server.scene, host.arm
         self.model: mujoco.MjModel = host.arm.model
-        self.said: viser.GuiHtmlHandle | None = None
+        # At the end whatever comes later. One that came with the first word would have
+        # viser draw all others anew: a slider in hand would be lost to the mouse.
+        self.said = self.gui.add_html("", order=END)
         self.running: list[Animation | Jobs] = []  # what ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
@@ -58,12 +60,8 @@ class Page:
         """Return where every link is at q, (7,), for a ghost's `pose`."""
         whole = self.q
         whole[: len(np.asarray(q))] = q  # fingers stay as they are
-        poses = kinematics.fk_all(self.model, whole)
-        return {
-            name.removeprefix("body:"): T
-            for name, T in poses.items()
-            if name.startswith("body:link")
-        }
+        poses = self.arm.poses_at(whole)
+        return {name: T for name, T in poses.items() if name.startswith("link")}
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser; q in radians and metres, (nq,)."""
@@ -81,11 +79,11 @@ class Page:
     def hide_arm(self) -> None:
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
-        self.host.panel.solid.visible = False
+        self.host.solid.visible = False
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
-        self.host.panel.explain({what: rgb(colour) for what, colour in colours.items()})
+        self.host.explain({what: rgb(colour) for what, colour in colours.items()})
 
     # The student's functions, and what takes time
 
@@ -158,16 +156,7 @@ class Page:
 
     def say(self, text: str, kind: str = "") -> None:
         """Show a line at the tab's end, instead of the one before; see `words.line`."""
-        self.end().content = words.line(text, "tab", kind) if text else ""
-
-    def end(self) -> viser.GuiHtmlHandle:
-        """Return the line of `say`, made once.
-
-        A widget that comes later has viser draw all the others anew: a slider that is
-        being dragged is then lost to the mouse.
-        """
-        self.said = self.said or self.html()
-        return self.said
+        self.said.content = words.line(text, "tab", kind)
 
     def matrix(self, handle: viser.GuiHtmlHandle, name: str, T: Array) -> None:
         """Show a pose, (4, 4), under its name in a handle of `html`."""

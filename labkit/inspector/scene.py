@@ -32,7 +32,8 @@ SEE_THROUGH = 0.5  # opacity
 # backdrop; it turns green where the student's own code puts every link.
 GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
 HIGHLIGHT = (255, 176, 0)
-GHOST_COLOUR, GHOST_OPACITY = (214, 40, 40), 0.6
+GHOST_COLOUR = (214, 40, 40)
+GHOST = "/yours", GHOST_COLOUR, 0.6
 AXIS = 0.3  # metres of a joint's axis, to both sides
 SHORT, FAR = 1e-6, 1e6  # metres of a ray
 
@@ -56,7 +57,7 @@ class ArmScene:
             for i, name in enumerate(arm.names)
         }
         self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
-        self.skin, self.ghost = Skin(server, "/arm"), Skin(server, "/yours")
+        self.skin, self.ghost = Skin(server, "/arm"), Skin(server, *GHOST)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
         draw, nowhere = Sketch(server, root="/lines"), np.zeros((1, 2, 3))
@@ -70,10 +71,10 @@ class ArmScene:
     def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
         """Put meshes on the arm, and on the ghosts, too."""
         self.skin.put_on(shapes)
-        self.paint()
+        self.look()
         if ghosts:
             self.coarse = shapes
-            self.ghost.put_on(shapes, GHOST_COLOUR, GHOST_OPACITY)
+            self.ghost.put_on(shapes)
         self.update()
 
     def update(self) -> None:
@@ -129,14 +130,8 @@ class ArmScene:
 
     def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
         """Make the arm solid or see-through, and green or not; None leaves it so."""
-        before = self.opaque, self.agrees
         self.opaque = self.opaque if opaque is None else opaque
         self.agrees = self.agrees if agrees is None else agrees
-        if before != (self.opaque, self.agrees):
-            self.paint()
-
-    def paint(self) -> None:
-        """Give the meshes their colours."""
         if self.opaque:
             self.skin.look(None)
         else:

@@ -10,51 +10,53 @@ import getpass
 import os
 import signal
 import socket
-import threading
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import partial
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 import mujoco
 import viser
 
 from labkit.base import cli, store
-from labkit.check.tasks import TaskResult, check_tasks
+from labkit.check.tasks import check_tasks
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.checks import Checks
+from labkit.inspector.common_tabs import Standing, standing
 from labkit.inspector.guard import LOOPBACK, LocalServer
 from labkit.inspector.shapes import shapes, simple_links
-from labkit.inspector.student import Student, source_of
+from labkit.inspector.student import Student
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
-from robo47.paths import shown
 
 MEMORY = "view.json"  # where each day's page was
 PORTS_TRIED = 100
 T = TypeVar("T")
-PATIENCE = 30.0  # seconds
 WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
 
 
-@dataclass(frozen=True)
-class Show:
-    """What to show."""
-
-    day: Day  # whose tabs and whose file
-    arm: Arm  # without its looks; the numbers need none
-    about: str  # what to say of the robot on the page; "" for nothing
-    dressed: Callable[[], mujoco.MjModel]  # the same with its meshes; takes seconds
-    simple: bool = False  # without the fine meshes, for a computer without a GPU
-    back: bool = True  # begin in the tab and the pose where the day's last page ended
-
-
-def serve(show: Show, port: int) -> int:
+def serve(
+    day: Day,
+    arm: Arm,
+    about: str,
+    dressed: Callable[[], mujoco.MjModel],
+    port: int,
+    *,
+    simple: bool,
+    back: bool,
+) -> NoReturn:
     """Serve the page until Ctrl-C, at this port or the next free one.
+
+    Args:
+        day: whose tabs and whose file.
+        arm: what to show, without its looks; the numbers need none.
+        about: what to say of the robot on the page; "" for nothing.
+        dressed: loads the arm's model with its meshes; takes seconds.
+        port: where to listen.
+        simple: without the fine meshes, for a computer without a GPU.
+        back: begin in the tab and the pose where the day's last page ended.
 
     Raises:
         Robo47Error: no port is free, or the day's tabs do not load.
@@ -62,33 +64,41 @@ def serve(show: Show, port: int) -> int:
     # A shell that starts a job with & has it ignore Ctrl-C; `kill` ends as well.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
-    tabs = day_tabs(show.day)
+    tabs = day_tabs(day)
     server = LocalServer(free_port(port))
     with contextlib.ExitStack() as ends:
         ends.callback(server.stop)
         try:
             server._websock_server.get_message_buffer().max_window_size = WINDOW
-            page = on_loop(
-                server,
-                lambda: Inspector(server, show.arm, show.about, tabs, show.simple),
-            )
-            server.door.receive, server.door.first = page.receive, page.panel.first
-            before = store.read(MEMORY).get(str(show.day.number), "")
-            if show.back and isinstance(before, str):
+            page = on_loop(server, lambda: Inspector(server, arm, about, tabs, simple))
+            ends.callback(on_loop, server, page.close)
+            server.receive, server.first = page.receive, page.first
+            before = store.read(MEMORY).get(str(day.number), "")
+            if back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
-            ends.callback(on_loop, server, page.leave)
             print("\n".join(where_to_look(port, server)), flush=True)
-            ends.callback(watch(page, show, ends).close)
-            dresser = threading.Thread(target=dress, args=(page, show), daemon=True)
-            dresser.start()
-            # Python must not end while MuJoCo is at work in another thread: it crashes.
-            ends.callback(dresser.join, PATIENCE)
+            sandbox = ends.enter_context(Sandbox())
+            student = Student(day, arm, tabs.ghost, sandbox)
+            watching = page.watch(student, partial(check, day))
+            for work in (watching, dress(page, dressed)):
+                loop = server.get_event_loop()
+                ends.callback(asyncio.run_coroutine_threadsafe(work, loop).cancel)
             while True:
                 time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
-                remember(show.day, page.address)
+                remember(day, page.address)
         except KeyboardInterrupt:
-            print("\ninspector stopped")
-            return cli.EXIT_OK
+            print("\ninspector stopped", flush=True)
+    # Python itself would wait for a check or a simulation at work on a thread.
+    os._exit(cli.EXIT_OK)
+
+
+def check(day: Day) -> Standing:
+    """Return what the checker says of the student's file of a day."""
+    try:
+        with Sandbox() as sandbox:
+            return standing(check_tasks(day, day.work, sandbox))
+    except Exception as error:  # the page goes on, whatever the file is like
+        return Standing(f"make check: {error}", "bad")
 
 
 def remember(day: Day, address: str) -> None:
@@ -107,53 +117,17 @@ def on_loop(server: viser.ViserServer, call: Callable[[], T]) -> T:
     return asyncio.run_coroutine_threadsafe(called(), server.get_event_loop()).result()
 
 
-def watch(page: Inspector, show: Show, ends: contextlib.ExitStack) -> Student:
-    """Start the thread that asks the student's file, and the checks after a save."""
-    day, model = show.day, show.arm.model
-    sandbox = ends.enter_context(Sandbox())
-
-    def verdicts() -> Sequence[TaskResult]:
-        with Sandbox() as another:
-            return check_tasks(day, day.work, another)
-
-    checks = Checks(verdicts, page.on_loop(page.judge))
-    ends.callback(checks.close)
-    reload = page.on_loop(page.reload)
-
-    def saved() -> None:
-        reload()
-        if day.work.is_file():
-            checks.again()
-
-    source = source_of(day, model, sandbox)
-    student = Student(source, page.day.ghost, model, page.on_loop(page.hear), saved)
-
-    def begin() -> None:
-        page.panel.no_file = (
-            f"No {shown(day.work)} yet: make start DAY={day.number}. "
-            "Shown is the kit's library."
-        )
-        page.student = student
-        page.ask()
-
-    on_loop(page.server, begin)
-    student.start()
-    return student
-
-
-def dress(page: Inspector, show: Show) -> None:
+async def dress(page: Inspector, dressed: Callable[[], mujoco.MjModel]) -> None:
     """Load the meshes and put them on: the simple ones, then the fine ones."""
     try:
-        model = show.dressed()
+        model = await asyncio.to_thread(dressed)
     except Robo47Error as error:
         print(f"the arm stays without its meshes: {error}", flush=True)
         return
-    put_on = page.on_loop(partial(page.dress, model))
-    coarse = simple_links(model)
-    if coarse:
-        put_on(coarse, True)
-    if not (coarse and show.simple):
-        put_on(shapes(model), not coarse)
+    if coarse := await asyncio.to_thread(simple_links, model):
+        page.dress(model, coarse, True)
+    if not (coarse and page.simple):
+        page.dress(model, await asyncio.to_thread(shapes, model), not coarse)
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:

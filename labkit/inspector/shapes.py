@@ -4,8 +4,8 @@ Geoms of the groups that MuJoCo's own viewer shows at start (0 to 2; collision s
 are in group 3), meshes as well as primitives. Metres.
 """
 
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -17,7 +17,6 @@ from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
-Faces = NDArray[np.int32]
 Rgba = tuple[float, float, float, float]
 
 
@@ -27,7 +26,7 @@ class Shape(NamedTuple):
     body: str  # its name
     rgba: Rgba  # colour and opacity, 0 to 1
     vertices: Array  # in the body's frame, metres, (n, 3)
-    faces: Faces  # indices into vertices, (m, 3)
+    faces: NDArray[np.int32]  # indices into vertices, (m, 3)
 
 
 def shapes(
@@ -37,16 +36,18 @@ def shapes(
 
     Planes and height fields are left out; collision shapes are some 60 times simpler.
     """
-    parts: dict[tuple[str, Rgba], list[tuple[Array, Faces]]] = {}
+    parts: dict[tuple[str, Rgba], tuple[Any, Any]] = {}
     for geom in range(model.ngeom):
-        if model.geom_group[geom] in groups:
-            for vertices, faces in _triangles(model, geom):
-                R = se3.quat_to_R(model.geom_quat[geom])
-                placed = vertices @ R.T + model.geom_pos[geom]
-                body = model.body(model.geom_bodyid[geom]).name
-                key = body, _colour(model, geom)
-                parts.setdefault(key, []).append((placed, faces))
-    return [Shape(body, rgba, *_joined(p)) for (body, rgba), p in parts.items()]
+        made = _made(model, geom) if model.geom_group[geom] in groups else None
+        if made is not None:
+            body = model.body(model.geom_bodyid[geom]).name
+            key = body, _colour(model, geom)
+            vertices, faces = parts.setdefault(key, ([], []))
+            R = se3.quat_to_R(model.geom_quat[geom])
+            vertices.append(made.vertices @ R.T + model.geom_pos[geom])
+            faces.append(made.faces)
+    append: Any = trimesh.util.append_faces
+    return [Shape(*key, *append(*part)) for key, part in parts.items()]
 
 
 def simple_links(model: mujoco.MjModel) -> list[Shape]:
@@ -93,12 +94,6 @@ def _distinct(rows: Array) -> list[NDArray[np.intp]]:
     return [*np.unique(keys, True, True, True)[1:]]
 
 
-def _joined(parts: list[tuple[Array, Faces]]) -> tuple[Array, Faces]:
-    starts = np.cumsum([0] + [len(vertices) for vertices, _ in parts])
-    faces = [f + start for (_, f), start in zip(parts, starts[:-1], strict=True)]
-    return np.concatenate([v for v, _ in parts]), np.concatenate(faces)
-
-
 def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
     material = model.geom_matid[geom]
     rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
@@ -106,17 +101,15 @@ def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
     return r, g, b, a
 
 
-def _triangles(model: mujoco.MjModel, geom: int) -> Iterator[tuple[Array, Faces]]:
-    """Yield the geom's triangles in its own frame; nothing for an endless shape."""
+def _made(model: mujoco.MjModel, geom: int) -> trimesh.Trimesh | None:
+    """Return a geom in its own frame; None for an endless shape."""
     kind = mujoco.mjtGeom(model.geom_type[geom])
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        yield _mesh(model, model.geom_dataid[geom])
-    elif kind in _PRIMITIVES:
-        made = _PRIMITIVES[kind](model.geom_size[geom])
-        yield np.asarray(made.vertices), np.asarray(made.faces, dtype=np.int32)
+        return _mesh(model, model.geom_dataid[geom])
+    return _PRIMITIVES[kind](model.geom_size[geom]) if kind in _PRIMITIVES else None
 
 
-def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
+def _mesh(model: mujoco.MjModel, mesh: int) -> trimesh.Trimesh:
     """Return a mesh whose corners are split where the file's normals differ.
 
     The browser smooths normals over shared corners; without the split every sharp
@@ -128,7 +121,7 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> tuple[Array, Faces]:
     normals = model.mesh_facenormal[first : first + count].ravel()
     at, faces, _ = _distinct(np.column_stack([corners, normals]))
     vertices = model.mesh_vert[int(item.vertadr[0]) + corners[at]]
-    return vertices.astype(np.float64), faces.reshape(-1, 3).astype(np.int32)
+    return trimesh.Trimesh(vertices, faces.reshape(-1, 3), process=False)
 
 
 def _box(size: Array) -> trimesh.Trimesh:

@@ -1,162 +1,89 @@
 """The student's file behind the page: kept warm in the checker's sandbox, reloaded.
 
-A thread of its own looks at the file twenty times a second, opens it anew when it was
-saved, and asks it for the newest configuration; what comes back is delivered on the
-server's event loop. Nothing of the student's runs in this process.
+Its methods wait for the sandbox: call them on a thread. Nothing of the student's runs
+in this process.
 """
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from labkit.base.exchange import LoadError, Question, Reply
-from labkit.inspector.ghost import Ghost, Seen, no_pose
+from labkit.inspector.arm import Arm
+from labkit.inspector.ghost import Ghost, Seen, compare, no_pose, nothing
 from labkit.judge.problems import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
-POLL_SECONDS, ASK_SECONDS = 0.05, 2.0
-Ask = Callable[[Sequence[Question]], Sequence[Reply]]
-
-
-@dataclass(frozen=True)
-class Source:
-    """The student's file, and how it is opened."""
-
-    script: Path  # it need not be there
-    open: Callable[[Path], Session]  # in the sandbox; raises LoadError
-    describe: Callable[[str, Reply], str]  # what a reply that is no answer means
+AGAIN = " Save the file to have it asked again."
 
 
-def source_of(day: Day, model: mujoco.MjModel, sandbox: Sandbox) -> Source:
-    """Return a day's file, to be opened in a sandbox with the model of questions."""
-
-    def opened(script: Path) -> Session:
-        return sandbox.session(script, [model], library_of(day), limits=day.limits)
-
-    tasks = {name: task.id for task in day.tasks for name in task.functions}
-    return Source(day.work, opened, partial(describe, tasks))
-
-
-def describe(tasks: Mapping[str, str], function: str, reply: Reply) -> str:
-    """Return in the checker's words what a function's reply that is no answer means.
-
-    "" where it is one. The tasks are {function: the task whose it is}.
-    """
-    if not reply.kind:
-        return ""
-    verdict = no_answer(reply, function, tasks.get(function, ""))
-    says = verdict.message if verdict else stops_with(reply)
-    return says if function in says else f"{function}: {says}"
-
-
-class Student(threading.Thread):
-    """Asks the student's function for every configuration, the newest first."""
+class Student:
+    """The student's file of a day, for many questions; opened anew after a save."""
 
     def __init__(
         self,
-        source: Source,
+        day: Day,
+        arm: Arm,
         ghost: Ghost | None,
-        model: mujoco.MjModel,
-        deliver: Callable[[Seen | None], None],
-        saved: Callable[[], None],
+        sandbox: Sandbox,
+        script: Path | None = None,
+        seconds: float = 2.0,
     ) -> None:
-        """Prepare; `start` runs it.
+        """Open nothing yet; `look` does.
 
         Args:
-            source: the file.
+            day: whose functions they are.
+            arm: the robot of the questions.
             ghost: what to ask for the arm's poses; None where only the day's tabs ask.
-            model: the robot.
-            deliver: is given what the function said; None where there is no file.
-            saved: called when the file was opened anew.
+            sandbox: where the file runs.
+            script: the file, there or not; the one in work/ unless given.
+            seconds: for one call. Whoever takes longer is asked again after a save.
         """
-        super().__init__(daemon=True, name="student")
-        self.source, self.ghost, self.model = source, ghost, model
-        self.deliver, self.saved = deliver, saved
-        self.news = threading.Event()
-        self.q: Array | None = None
-        self.ended = False
+        self.day, self.arm, self.ghost = day, arm, ghost
+        self.sandbox, self.script, self.seconds = sandbox, script or day.work, seconds
         self.version = 0  # of the file: another one after each save
         self.problem = ""  # why the file is not asked, in a sentence
         self._lock = threading.RLock()  # a session answers one thread at a time
         self._asker: Session | None = None
         self._stamp: tuple[int, ...] | None = ()  # never looked
 
-    def want(self, q: Array) -> None:
-        """Ask for a configuration, (nq,), instead of any that waits."""
-        self.q = q.copy()
-        self.news.set()
-
     @property
     def there(self) -> bool:
         """Whether there is a file."""
         return bool(self._stamp)
 
-    def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions, now, on the caller's thread; see `problem` afterwards."""
+    def look(self) -> None:
+        """Open the file anew where it was saved since the last look."""
         with self._lock:
-            if self._asker is None:
-                ended = Reply(kind="stopped", error="it is not asked")
-                return [ended] * len(questions)
             try:
-                replies = self._asker.ask(questions, seconds=ASK_SECONDS)
-            except Exception as error:  # ours, or the day's: the page goes on
-                says = f"{type(error).__name__}: {error}"
-                return [Reply(kind="unsendable", error=says)] * len(questions)
-            if not self._asker.alive:
-                kinds = [reply.kind for reply in replies]
-                at = kinds.index("stopped") if "stopped" in kinds else -1
-                why = self.source.describe(questions[at].function, replies[at])
-                self._shut()
-                self.problem = f"{why} Save the file to have it asked again."
-            return replies
-
-    def close(self) -> None:
-        """End the thread and the sandbox."""
-        self.ended = True
-        self.news.set()
-
-    def run(self) -> None:
-        """Look, ask, deliver, until it is closed."""
-        done: Array | None = None
-        while not self.ended:
-            with self._lock:
-                if changed := self._look():
-                    done = None
-            self.news.clear()
-            if (q := self.q) is not None and q is not done:
-                done = q
-                self.deliver(self._seen(q))
-            if changed:
-                self.saved()  # the checks need both cores; first the ghost
-            self.news.wait(POLL_SECONDS)
-        self._shut()
-
-    def _look(self) -> bool:
-        """Open the file anew where it changed; return whether it did."""
-        stamp = _stamp_of(self.source.script)
-        if stamp == self._stamp:
-            return False
-        self._stamp = stamp
-        self._shut()
-        self.problem = self._open() if stamp else ""
-        self.version += 1
-        return True
+                status = self.script.stat()
+                stamp = (status.st_mtime_ns, status.st_size)
+            except OSError:
+                stamp = None
+            if stamp == self._stamp:
+                return
+            self._stamp = stamp
+            self._shut()
+            self.problem = self._open() if stamp else ""
+            self.version += 1
 
     def _open(self) -> str:
+        """Open the file with the model of the questions; return why it does not."""
+        robots, library = [self.arm.model], library_of(self.day)
         try:
-            self._asker = self.source.open(self.source.script)
+            self._asker = self.sandbox.session(
+                self.script, robots, library, limits=self.day.limits
+            )
         except LoadError as error:
-            return not_loaded(self.source.script, error.reply)
+            return not_loaded(self.script, error.reply)
         except (Robo47Error, OSError) as error:
             return str(error)
         return ""
@@ -166,51 +93,64 @@ class Student(threading.Thread):
             self._asker.close()
             self._asker = None
 
-    def _seen(self, q: Array) -> Seen | None:
-        """Return the student's poses at a configuration."""
-        if self._stamp is None:
-            return None
-        if self._asker is None or self.ghost is None:
-            return Seen(q, problem=self.problem)
+    def ask(self, questions: Sequence[Question]) -> list[Reply]:
+        """Ask any functions; see `problem` afterwards."""
+        with self._lock:
+            if self._asker is None:
+                ended = Reply(kind="stopped", error="it is not asked")
+                return [ended] * len(questions)
+            try:
+                replies = self._asker.ask(questions, seconds=self.seconds)
+            except Exception as error:  # ours, or the day's: the page goes on
+                says = f"{type(error).__name__}: {error}"
+                return [Reply(kind="unsendable", error=says)] * len(questions)
+            if not self._asker.alive:
+                kinds = [reply.kind for reply in replies]
+                at = kinds.index("stopped") if "stopped" in kinds else -1
+                why = describe(self.day, questions[at].function, replies[at])
+                self._shut()
+                self.problem = why + AGAIN
+            return replies
+
+    def see(self, q: Array) -> Seen:
+        """Return what the ghost's function gives at q, (nq,), beside MuJoCo's."""
+        if not self.there:
+            says = f"No {shown(self.script)} yet: make start DAY={self.day.number}. "
+            return Seen(q, says + "Shown is the kit's library.", "quiet")
+        ghost = self.ghost
+        if ghost is None or self._asker is None:
+            return nothing(q, self.problem)
         try:
-            poses, why = poses_of(self.ask, self.source, self.ghost, self.model, q)
+            poses, why = self._poses(ghost.frames, ghost.questions(self.arm.model, q))
+            if not poses and ghost.whole is not None:
+                end, alone = ghost.frames[-1:], ghost.whole(self.arm.model, q)
+                several = f"Only {end[0]} is drawn: {why}"
+                poses, why = self._poses(end, [alone])
+                why = why or several
         except Exception as error:  # the day's: the page goes on
-            return Seen(q, problem=f"not asked: {type(error).__name__}: {error}")
-        return Seen(q, poses, self.problem or why)
+            return nothing(q, f"not asked: {type(error).__name__}: {error}")
+        return compare(ghost, q, poses, self.problem or why, self.arm.poses_at(q))
 
-
-def poses_of(
-    ask: Ask, source: Source, ghost: Ghost, model: mujoco.MjModel, q: Array
-) -> tuple[dict[str, Array], str]:
-    """Return the poses that the ghost's function gives at q, (nq,), and "" or why not.
-
-    The file's session, or its student, is asked; the source says what replies mean.
-    """
-
-    def asked(
-        frames: Sequence[str], some: Sequence[tuple[Any, ...]]
+    def _poses(
+        self, frames: Sequence[str], some: Sequence[tuple[Any, ...]]
     ) -> tuple[dict[str, Array], str]:
-        questions = [Question("ghost", ghost.function, tuple(args)) for args in some]
-        poses, problem = {}, ""
-        for name, reply in zip(frames, ask(questions), strict=True):
-            said = source.describe(ghost.function, reply)
-            if not said and not (said := no_pose(ghost.function, reply.value)):
-                poses[name] = np.array(reply.value, dtype=np.float64)
+        """Return the poses that the ghost's function gives, and "" or why not all."""
+        assert self.ghost is not None
+        name, poses, problem = self.ghost.function, {}, ""
+        replies = self.ask([Question("ghost", name, tuple(args)) for args in some])
+        for frame, reply in zip(frames, replies, strict=True):
+            said = describe(self.day, name, reply) or no_pose(name, reply.value)
+            if not said:
+                poses[frame] = np.array(reply.value, dtype=np.float64)
             problem = problem or said
         return poses, problem
 
-    poses, problem = asked(ghost.frames, ghost.questions(model, q))
-    if not poses and ghost.whole is not None:
-        end = ghost.frames[-1:]
-        poses, why = asked(end, [ghost.whole(model, q)])
-        problem = why or f"Only {end[0]} is drawn: {problem}"
-    return poses, problem
 
-
-def _stamp_of(script: Path) -> tuple[int, ...] | None:
-    """Return what changes when a file is saved; None where there is no file."""
-    try:
-        status = script.stat()
-    except OSError:
-        return None
-    return (status.st_mtime_ns, status.st_size) if script.is_file() else None
+def describe(day: Day, function: str, reply: Reply) -> str:
+    """Return in the checker's words what a reply that is no answer means, else ""."""
+    if not reply.kind:
+        return ""
+    tasks = (task.id for task in day.tasks if function in task.functions)
+    verdict = no_answer(reply, function, next(tasks, ""))
+    says = verdict.message if verdict else stops_with(reply)
+    return says if function in says else f"{function}: {says}"

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.inspector.ghost import Ghost
-from labkit.lesson import folder
 from labkit.lesson.day import Day
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -62,11 +61,11 @@ def day_tabs(day: Day) -> DayTabs:
     Raises:
         Robo47Error: it does not load, or TABS and GHOST are not what they should be.
     """
-    if not folder.has(day, FILE):
+    if not day.has(FILE):
         return DayTabs(None, [])
     where = f"{shown(day.own / FILE)}.py"
     try:
-        module = folder.load(day, FILE)
+        module = day.module(FILE)
     except Exception as error:
         why = f"{type(error).__name__}: {error}"
         raise Robo47Error(f"{where} does not load: {why}") from error

@@ -56,6 +56,8 @@ def _entry(value: float, column: str, mark: str) -> str:
 
 def line(text: str, key: str, kind: str = "") -> str:
     """Return one line of plain text; the kind is "", "good", "bad", or "quiet"."""
+    if not text:
+        return ""
     style = f" r47-{kind}" if kind else ""
     return f'<div class="r47{style}" data-line="{escape(key)}">{escape(text)}</div>'
 
@@ -82,15 +84,15 @@ def verdict(difference: float, whose: str = "the library") -> str:
 def proof(arm: Arm, name: str, seen: Seen | None) -> str:
     """Return a frame's pose from MuJoCo, and from what the student's function said.
 
-    Where that is None the library's stands there, by its name.
+    Where that has none the library's stands there, by its name.
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
-    if seen is None:
+    if seen is None or name not in seen.poses:
         library = arm.by_library[arm.names[name]]
         pose = matrix(f"T_world_{name}, robo47.kinematics", library, "library")
         return truth + pose + verdict(arm.difference(name))
     yours = seen.poses[name]
-    apart = np.abs(yours - arm.poses_at(seen.q)[name])
+    apart = np.abs(yours - seen.truth[name])
     pose = matrix(f"T_world_{name}, YOURS", yours, "yours", ~(apart < AGREES))
     return truth + pose + verdict(float(apart.max()), "yours")
 

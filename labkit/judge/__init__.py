@@ -3,12 +3,14 @@
     row         a day's file on one function: inputs, right answer, mistakes
     ask         a function's row: inputs, truth, kind of answer, mistakes; its questions
     kinds       what kind of thing an answer is, which decides the words
-                (matrix_kinds: Jacobians, covariances; rigid_kinds: rotations, poses;
-                other_kinds: counts, yes or no, paths, pixels, images)
+                (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
+                counts, yes or no, paths, pixels, images)
     draw        inputs for questions
-    problems    did an answer come back, of the right shape and type? If not, the words
-    mistake     a mistake that has a name, and the same mistake made on purpose
-    finished    mistakes made with a finished rotation or pose
+    problems    did an answer come back, of the right shape and type? If not, the words;
+                the call that failed
+    answers     made by a function; how far two sets of them are apart; in words
+    mistake     a mistake that has a name, and the verdict that says so
+    finished    mistakes made with a finished answer
     argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits
     judge       from questions with their replies to a verdict and its name
@@ -20,9 +22,17 @@ What is special about a day stands in the day's own folder.
 """
 
 from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
-from labkit.judge.kinds import Points, Scalar, Twist, Vector, Wrench
+from labkit.judge.kinds import Pose, Rotation, Scalar, Vector
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
-from labkit.judge.other_kinds import Count, Image, Mask, Pixels, Waypoints
-from labkit.judge.rigid_kinds import Pose, Rotation
+from labkit.judge.other_kinds import (
+    Count,
+    Image,
+    Mask,
+    Pixels,
+    Points,
+    Twist,
+    Waypoints,
+    Wrench,
+)
 from labkit.judge.row import Row

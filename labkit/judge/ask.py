@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
-from labkit.judge.compare import Parts, parts
+from labkit.judge.answers import Parts, parts
 from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
@@ -201,11 +201,6 @@ class Asked:
     held_out: list[list[Exchange]]  # per entry of `ask.held_out`
     probes: list[Exchange]  # those of `ask.probe`
 
-    @cached_property
-    def right(self) -> Parts:
-        """The right answers to the main questions."""
-        return right_answers(self.ask, self.main)
-
     @property
     def exchanges(self) -> list[Exchange]:
         """All of them, in the order in which they are asked."""
@@ -232,24 +227,17 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
         seed: of the fresh inputs; nobody should know it beforehand.
     """
 
-    def questions(calls: Iterable[Sequence[Any]]) -> list[Question]:
-        return [Question(task, function, tuple(args)) for args in calls]
-
-    def further(inputs: Inputs) -> list[Question]:
-        return questions(inputs(np.random.default_rng(SEED)))
-
     if (key := (task, function, seed)) not in ask.known:
         ask.known.clear()
-        ask.known[key] = (
-            questions(ask.main),
-            questions([*ask.edges, *ask.anew(seed)]),
-            [further(held.inputs) for held in ask.held_out],
-            further(ask.probe) if ask.probe else [],
-        )
-    main, fresh, held_out, probes = ask.known[key]
-    held = [list(map(Exchange, some)) for some in held_out]
-    plain = (list(map(Exchange, some)) for some in (main, fresh, probes))
-    return Asked(function, ask, next(plain), next(plain), held, next(plain))
+        more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
+        further = [draw(np.random.default_rng(SEED)) for draw in more]
+        ask.known[key] = [
+            [Question(task, function, tuple(args)) for args in calls]
+            for calls in (ask.main, [*ask.edges, *ask.anew(seed)], *further)
+        ]
+    rounds = ([Exchange(one) for one in some] for some in ask.known[key])
+    main, fresh, probes, *held_out = rounds
+    return Asked(function, ask, main, fresh, held_out, probes)
 
 
 def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
@@ -259,31 +247,21 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     and arrays of several sizes, are an array (n,) of them.
     """
     columns = list(zip(*(e.question.args for e in exchanges), strict=True))
-    special = [isinstance(column[0], Robot | Path) for column in columns]
-    alone = all(special)
-    shared = [
-        one and all(argument == column[0] for argument in column)
-        for one, column in zip(special, columns, strict=True)
-    ]
-    pairs = zip(columns, shared, strict=True)
-    return tuple(_column(column, one and not alone) for column, one in pairs)
+    alone = all(isinstance(column[0], Robot | Path) for column in columns)
+    return tuple(_column(column, alone) for column in columns)
 
 
 def as_plain(arg: Any) -> Any:
     """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
-    return (
-        arg.model
-        if isinstance(arg, Robot)
-        else arg.pairs
-        if isinstance(arg, Path)
-        else arg
-    )
+    if isinstance(arg, Robot):
+        return arg.model
+    return arg.pairs if isinstance(arg, Path) else arg
 
 
-def _column(column: tuple[Any, ...], shared: bool) -> Any:
+def _column(column: tuple[Any, ...], alone: bool) -> Any:
     plain = list(map(as_plain, column))
     special = isinstance(column[0], Robot | Path)
-    if special and shared:
+    if special and not alone and all(one == column[0] for one in column):
         return plain[0]
     if special or len({np.shape(one) for one in plain}) > 1:  # of several sizes
         found = np.empty(len(column), dtype=object)

@@ -1,18 +1,19 @@
-"""Mistakes made with a finished rotation or pose, whatever function it came from.
+"""Mistakes made with a finished answer, whatever function it came from.
 
-Each `redo` takes the right answer: R, (n, 3, 3), or T, (n, 4, 4).
+Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from labkit.judge.kinds import TRUNCATED
 from labkit.judge.matrices import pose, rigid_inverse, split
-from labkit.judge.mistake import Mistake
+from labkit.judge.mistake import REDONE, Mistake, told
 from robo47.checks import Array
 
-Change = Callable[[Array], Array]
+Change = Callable[[Array], Any]
 
 
 def _same(part: Array) -> Array:
@@ -28,16 +29,12 @@ def _mirrored(R: Array) -> Array:
     return R * [1.0, 1.0, -1.0]
 
 
-def _nothing(part: Array) -> Array:
-    return np.zeros_like(part)
-
-
 def _unturned(R: Array) -> Array:
     return np.broadcast_to(np.eye(3), R.shape)
 
 
 def _in_last_row(T: Array) -> Array:
-    out = _parts(t=_nothing)(T)
+    out = _parts(t=np.zeros_like)(T)
     out[..., 3, :3] = T[..., :3, 3]
     return out
 
@@ -54,22 +51,98 @@ def _ones_below(T: Array) -> Array:
     return out
 
 
+def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
+    """Return mistakes of a text with a line of each, as `told` reads it."""
+    lines = told(text)
+    return [Mistake(slug, says, redo[slug], its or REDONE) for slug, says, its in lines]
+
+
+GENERAL = _mistakes(
+    """
+    all-signs: every sign is wrong => its negative
+    whole-numbers: only whole numbers are left: an array of integers cuts off what is
+      stored in it => the right one cut to whole numbers
+    transposed: the matrix is transposed => its transpose
+    rows-swapped: the rows are (v; omega); omega's three come first => the right one
+      with its rows swapped
+    inverse: it is the inverse, which says how much is known; a covariance says how
+      little => its inverse
+    sigma-for-variance: its entries are sigma, and a covariance holds sigma squared =>
+      the root of each entry
+    halves-swapped: the two halves are swapped: {halves[0]} comes first, then
+      {halves[1]} => the right one with its halves swapped
+    inverted: True and False are swapped => the right one turned round
+    row-first: a pixel is (column, row), x before y; here the row comes first => the
+      right one with its two columns swapped
+    upside-down: the image stands on its head: row 0 is the top one => the right one
+      with its rows reversed
+    mirrored: left and right are swapped => the right one with its columns reversed
+    blue-first: the colours are (blue, green, red); here red comes first => the right
+      one with its colours reversed
+    """,
+    {
+        "all-signs": np.negative,
+        "whole-numbers": np.trunc,
+        "transposed": np.matrix_transpose,
+        "rows-swapped": lambda J: np.roll(J, 3, axis=-2),
+        "inverse": lambda P: np.linalg.inv(P),
+        "sigma-for-variance": lambda P: np.sign(P) * np.sqrt(np.abs(P)),
+        "halves-swapped": lambda answer: np.roll(answer, 3, axis=-1),
+        "inverted": lambda answer: 1.0 - answer,
+        "row-first": lambda answer: answer[..., ::-1],
+        "upside-down": lambda image: image[:, ::-1],
+        "mirrored": lambda image: image[:, :, ::-1],
+        "blue-first": lambda image: image[..., ::-1],
+    },
+)
+
+
+def general(*slugs: str, **words: Any) -> list[Mistake]:
+    """Return mistakes by their names; words are those that their sentences ask for."""
+    known = {mistake.slug: mistake for mistake in GENERAL}
+    return [replace(known[s], says=known[s].says.format(**words)) for s in slugs]
+
+
 OF_A_ROTATION = [
-    Mistake(
-        "R-transposed",
-        "the matrix is right except that it is transposed: it turns the other way",
-        np.matrix_transpose,
-        "its transpose",
+    *_mistakes(
+        """
+        R-transposed: the matrix is right except that it is transposed: it turns the
+          other way => its transpose
+        left-handed: the third axis points the wrong way: det R = -1, a left-handed
+          frame => the right one with that axis reversed
+        all-signs: every entry has the wrong sign => its negative
+        """,
+        {
+            "R-transposed": np.matrix_transpose,
+            "left-handed": _mirrored,
+            "all-signs": np.negative,
+        },
     ),
-    Mistake(
-        "left-handed",
-        "the third axis points the wrong way: det R = -1, a left-handed frame",
-        _mirrored,
-        "the right one with that axis reversed",
-    ),
-    Mistake("all-signs", "every entry has the wrong sign", np.negative, "its negative"),
-    TRUNCATED,
+    *general("whole-numbers"),
 ]
+_OF_A_POSE = """
+    R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
+      right one with R transposed
+    inverse-returned: this is the inverse of what was asked for: it {wrong_way} => its
+      inverse
+    T-transposed: the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1) =>
+      its transpose
+    t-in-last-row: the translation is in the last row, and the last column is empty =>
+      the right one with t moved there
+    corner-zero: the bottom row is (0, 0, 0, 0): points lose their 1, and so every move
+      after this one
+    ones-below: the bottom row is all ones, not (0, 0, 0, 1)
+    t-lost: the rotation is right, but the translation is missing => the right one
+      without t
+    R-lost: the translation is right, but there is no rotation: R is the identity => the
+      right one without R
+    t-negated: the rotation is right, but the translation has the wrong sign => the
+      right one with t negated
+    left-handed: the third axis points the wrong way: det R = -1, a left-handed frame =>
+      the right one with that axis reversed
+    millimetres: the rotation is right, but the translation is in millimetres => the
+      right one in millimetres
+    """
 
 
 def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
@@ -78,69 +151,18 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
     Args:
         wrong_way: what its R does when transposed: "maps the world to the hand".
     """
-    return [
-        Mistake(
-            "R-transposed",
-            f"all is right except that R is transposed: T[:3, :3] {wrong_way}",
-            _parts(R=np.matrix_transpose),
-            "the right one with R transposed",
-        ),
-        Mistake(
-            "inverse-returned",
-            f"this is the inverse of what was asked for: it {wrong_way}",
-            rigid_inverse,
-            "its inverse",
-        ),
-        Mistake(
-            "T-transposed",
-            "the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1)",
-            np.matrix_transpose,
-            "its transpose",
-        ),
-        Mistake(
-            "t-in-last-row",
-            "the translation is in the last row, and the last column is empty",
-            _in_last_row,
-            "the right one with t moved there",
-        ),
-        Mistake(
-            "corner-zero",
-            "the bottom row is (0, 0, 0, 0): points lose their 1, and so every move "
-            "after this one",
-            _corner_zero,
-        ),
-        Mistake(
-            "ones-below", "the bottom row is all ones, not (0, 0, 0, 1)", _ones_below
-        ),
-        Mistake(
-            "t-lost",
-            "the rotation is right, but the translation is missing",
-            _parts(t=_nothing),
-            "the right one without t",
-        ),
-        Mistake(
-            "R-lost",
-            "the translation is right, but there is no rotation: R is the identity",
-            _parts(R=_unturned),
-            "the right one without R",
-        ),
-        Mistake(
-            "t-negated",
-            "the rotation is right, but the translation has the wrong sign",
-            _parts(t=np.negative),
-            "the right one with t negated",
-        ),
-        Mistake(
-            "left-handed",
-            "the third axis points the wrong way: det R = -1, a left-handed frame",
-            _parts(R=_mirrored),
-            "the right one with that axis reversed",
-        ),
-        Mistake(
-            "millimetres",
-            "the rotation is right, but the translation is in millimetres",
-            _parts(t=lambda t: 1000.0 * t),
-            "the right one in millimetres",
-        ),
-        TRUNCATED,
-    ]
+    redo: dict[str, Change] = {
+        "R-transposed": _parts(R=np.matrix_transpose),
+        "inverse-returned": rigid_inverse,
+        "T-transposed": np.matrix_transpose,
+        "t-in-last-row": _in_last_row,
+        "corner-zero": _corner_zero,
+        "ones-below": _ones_below,
+        "t-lost": _parts(t=np.zeros_like),
+        "R-lost": _parts(R=_unturned),
+        "t-negated": _parts(t=np.negative),
+        "left-handed": _parts(R=_mirrored),
+        "millimetres": _parts(t=lambda t: 1000.0 * t),
+    }
+    mistakes = _mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo)
+    return [*mistakes, *general("whole-numbers")]

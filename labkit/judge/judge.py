@@ -1,6 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -8,22 +8,26 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import near_miss, problems
-from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
-from labkit.judge.compare import (
+from labkit.judge.answers import (
+    InTurn,
     Parts,
     all_match,
     as_one,
+    capitalised,
     difference,
     gaps,
+    in_words,
     largest,
     matches,
     off_by,
+    own,
     parts,
     plain,
     worst_part,
 )
-from labkit.judge.failing import failing_call, for_fresh, in_words
-from labkit.judge.mistake import Finding, InTurn, Mistake, Verdict, capitalised, own
+from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
+from labkit.judge.mistake import Finding, Mistake, Verdict
+from labkit.judge.problems import failing_call, for_fresh
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -64,7 +68,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
-    T = asked.right
+    T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
     measured = _measured(case, S, T)
     off = off_by(ask.kinds, S, T)
@@ -87,15 +91,13 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
         return found
     with np.errstate(all="ignore"):
-        T = rest.right
-        if off_by(asked.ask.kinds, S, T) <= asked.ask.near:
-            return found
-        case = _case(rest, S, T, names)
-        return _both(found, case, S, T)
+        T = right_answers(asked.ask, good)
+        return _both(found, _case(rest, S, T, names), S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    """Return why some answers cannot be judged and what is wrong with the others."""
+    if off_by(case.ask.kinds, S, T) <= case.ask.near:
+        return found
     named = diagnose(case, S, T)
     other = named or what_is_wrong(case, S, T)
     says = f"{found.message} The other answers are wrong, too. {other.message}"
@@ -103,7 +105,7 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
-    if off <= near_miss.SINGLE and problems.single_precision(replies(asked.main), S):
+    if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
         says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
@@ -165,9 +167,8 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     question, found = wrong[0]
     given = in_words(question, names)
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f" (For {often} of {len(questions)} inputs"
-    where += f", first for {given}.)" if 0 < len(given) <= 90 else ".)"
-    return Verdict("wrong", found.slug, found.message + where)
+    where = f"For {often} of {len(questions)} inputs{_first([1], [given], 'first for')}"
+    return Verdict("wrong", found.slug, f"{found.message} ({where}.)")
 
 
 def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
@@ -219,7 +220,7 @@ def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     """Return that some answers are NaN, and what is wrong with the others."""
     good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
     S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
-    if not good.any() or off_by(case.ask.kinds, S, T) <= case.ask.near:
+    if not good.any():
         return found
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
@@ -242,7 +243,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
-def named_mistake(
+def _named(
     mistakes: Sequence[Mistake],
     arguments: tuple[Any, ...],
     kinds: Sequence[Any],
@@ -250,20 +251,11 @@ def named_mistake(
     T: Parts | None,
     near: float,
 ) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers.
-
-    Args:
-        mistakes: the candidates.
-        arguments: all questions' arguments stacked.
-        kinds: of the answer's parts.
-        S: the student's answers: per part, (n, ...).
-        T: the right ones, or None where many are right.
-        near: up to here a part is nearly right.
-    """
+    """Return the first mistake that, made on purpose, gives the student's answers."""
     first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
     for mistake in mistakes:
         try:
-            again = _made_again(mistake, arguments, kinds, S, first)
+            again = _made_again(mistake.redo, arguments, kinds, S, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
         if all_match(kinds, S, again):
@@ -280,7 +272,7 @@ def named_mistake(
 
 
 def _made_again(
-    mistake: Mistake,
+    redo: Callable[..., Any],
     arguments: tuple[Any, ...],
     kinds: Sequence[Any],
     S: Parts,
@@ -291,7 +283,6 @@ def _made_again(
     Raises:
         ValueError: it has no answer to one of the questions.
     """
-    redo = mistake.redo
     if isinstance(redo, InTurn):
         again = parts(redo.nth(first, arguments))
         for s, a, kind in zip(S, again, kinds, strict=False):
@@ -306,7 +297,7 @@ def redone(
     ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts | None
 ) -> Finding | None:
     """Return a named mistake of the function, or a general one of its kind."""
-    if found := named_mistake(ask.named, arguments, ask.kinds, S, T, ask.near):
+    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
         return found
     if T is None:
         return None
@@ -316,7 +307,7 @@ def redone(
         if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
             continue
         mine, its = (S[i],), (T[i],)
-        found = named_mistake(kind.general(), its, [kind], mine, its, ask.near)
+        found = _named(kind.general(), its, [kind], mine, its, ask.near)
         if found:
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)

@@ -1,8 +1,8 @@
 """Kinds of answers: the words for what is expected, and for what is wrong with it.
 
 The kind decides the words, not the shape: (2, 3) may be two points or a Jacobian. This
-module has numbers, vectors and points; `matrix_kinds` has matrices. Arrays of answers
-are stacked, (n, *shape); S is the student's, T the right one.
+module has numbers, vectors, rotations and poses; the others have all else. Arrays of
+answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
 from collections.abc import Sequence
@@ -11,32 +11,26 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.compare import (
+from labkit.judge.answers import (
+    RIGID,
+    degrees,
+    difference,
     gap,
     matches,
     millimetres,
+    rigid,
+    say_degrees,
     say_factor,
     say_mm,
+    say_range,
     say_value,
 )
-from labkit.judge.mistake import Finding, Mistake, capitalised
+from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
+from labkit.judge.matrices import split
+from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
-
-
-def negated(answer: Array) -> Array:
-    """Return the answer with every sign turned over."""
-    return -answer
-
-
-NEGATED = Mistake("all-signs", "every sign is wrong", negated, "its negative")
-TRUNCATED = Mistake(
-    "whole-numbers",
-    "only whole numbers are left: an array of integers cuts off what is stored in it",
-    np.trunc,
-    "the right one cut to whole numbers",
-)
 
 
 @dataclass(frozen=True)
@@ -100,7 +94,7 @@ class Kind:
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
-        return (NEGATED, TRUNCATED)
+        return general("all-signs", "whole-numbers")
 
     def apart(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst, in words; "0" for rounding."""
@@ -161,101 +155,6 @@ class Vector(Kind):
         return f"{self.names[i]}'s" if self.names else f"[{i}], counted from 0"
 
 
-@dataclass(frozen=True)
-class _Halves(Kind):
-    """Six numbers in two halves: the first angular, the second linear."""
-
-    shape: tuple[int, ...] = (6,)
-    halves = ("first half", "second half")
-
-    @property
-    def expected(self) -> str:
-        return f"six numbers ({'; '.join(self.halves)})"
-
-    def general(self) -> Sequence[Mistake]:
-        first, second = self.halves
-        return (
-            Mistake(
-                "halves-swapped",
-                f"the two halves are swapped: {first} comes first, then {second}",
-                lambda answer: np.roll(answer, 3, axis=-1),
-                "the right one with its halves swapped",
-            ),
-            NEGATED,
-            TRUNCATED,
-        )
-
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
-        if found := one_factor(self, S, T):
-            return found
-        for i, slug in enumerate(("second-half-off", "first-half-off")):
-            if off[i] <= NEAR:
-                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
-                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
-        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
-        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
-
-
-@dataclass(frozen=True)
-class Twist(_Halves):
-    """A twist or a screw axis, (omega; v)."""
-
-    halves = ("omega", "v")
-
-
-@dataclass(frozen=True)
-class Wrench(_Halves):
-    """A wrench, (moment; force)."""
-
-    halves = ("moment", "force")
-
-
-@dataclass(frozen=True)
-class Points(Kind):
-    """Points in metres, (m, 3), or a tuple of vectors. `Points((2, 3))`."""
-
-    shape: tuple[int, ...] = (2, 3)
-    unit: str = "m"
-    # What each is called, "first" and so on.
-    names: tuple[str, ...] = ("first", "second")
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        return "two vectors of 3" if self.shape[0] == 2 else f"{self.shape[0]} points"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        count = self.shape[0]
-        return {
-            (count, 4): "leave the fourth entry of each point out",
-            (count, 4, 4): "only the translations are asked for",
-            (count, 3, 1): "columns of shape (3, 1) are not plain vectors",
-        }.get(got, "")
-
-    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        if not np.isfinite(S).all():
-            return Kind.apart(self, S, T)
-        return say_mm(float(millimetres(S, T).max()))
-
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        off = millimetres(S, T).max(axis=0)
-        words = [say_mm(float(mm)) for mm in off]
-        if len(off) == 2 and "0" in words:
-            right, wrong = (1, 0) if words[1] == "0" else (0, 1)
-            says = f"The {self.names[right]} is right; the {self.names[wrong]} is up to"
-            return Finding(f"{self.names[wrong]}-off", f"{says} {words[wrong]} off.")
-        each = ", ".join(
-            f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
-        )
-        every = "Both" if len(off) == 2 else "All"
-        return Finding("both-off", f"{every} are wrong: off by up to {each}.")
-
-    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        off = [say_mm(float(mm)) for mm in millimetres(S, T).max(axis=0)]
-        pairs = zip(self.names, off, strict=False)
-        return (", ".join(f"{name} off by {mm}" for name, mm in pairs),)
-
-
 def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     """Return that all entries are off by one and the same factor, if so."""
     size = float(np.sum(T * T))
@@ -270,3 +169,180 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
         f"It is {say_factor(factor)} times the right one, in every entry and every "
         "time.",
     )
+
+
+def few_entries(
+    kind: Kind, S: Array, T: Array, ignored: int | None = None
+) -> Finding | None:
+    """Return which entries are wrong if they are one or two, or one row or column.
+
+    Args:
+        kind: of the answers.
+        S: the student's, (n, m, k).
+        T: the right ones.
+        ignored: a row and column that has a name of its own, such as a pose's last.
+    """
+    apart = np.abs(S - T)
+    rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
+    if not len(rows):
+        return None
+    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
+    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
+    if last and len(rows) > 1:
+        return None
+    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
+    if len(rows) <= 2:
+        where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
+        where += ", counted from 0"
+    elif one_row:
+        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
+    elif one_column:
+        name = names[1][columns[0]] if names[1] else ""
+        where = name or f"column {columns[0]}, counted from 0"
+    else:
+        return None
+    return Finding(
+        "few-entries-off",
+        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
+        "for a wrong sign, letter or factor.",
+    )
+
+
+@dataclass(frozen=True)
+class Rotation(Kind):
+    """A rotation matrix, (3, 3)."""
+
+    shape: tuple[int, ...] = (3, 3)
+    expected = "a 3x3 matrix"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        known: dict[tuple[int, ...], str] = {
+            (2, 2): "it is a rotation in space, so z is there too",
+            (4, 4): "only the rotation is asked for",
+        }
+        return known.get(got, "")
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        return OF_A_ROTATION
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if rigid(S) and rigid(T):
+            return say_degrees(float(degrees(S, T).max()))
+        return super().apart(S, T)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return few_entries(self, S, T) or rotation_wrong(S, T)
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        det = np.linalg.det(S)
+        lines = [
+            f"R R^T - I: {_skew(S):.2g}; det R: {det.min():.4g} to {det.max():.4g}"
+        ]
+        if not _skew(S) > RIGID:
+            lines.append(f"R off by {say_range(degrees(S, T), say_degrees)}")
+        return tuple(lines)
+
+
+@dataclass(frozen=True)
+class Pose(Kind):
+    """A rigid transform, (4, 4)."""
+
+    shape: tuple[int, ...] = (4, 4)
+    # What its rotation does when it is transposed.
+    wrong_way: str = "turns the other way"
+    expected = "a 4x4 matrix"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        known: dict[tuple[int, ...], str] = {
+            (3, 4): "the bottom row (0, 0, 0, 1) is missing",
+            (3, 3): "this is the rotation alone",
+        }
+        return known.get(got, "")
+
+    def general(self) -> Sequence[Mistake]:  # noqa: D102
+        return of_a_pose(self.wrong_way)
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if not (rigid(S) and rigid(T)):
+            return super().apart(S, T)
+        (R_S, t_S), (R_T, t_T) = split(S), split(T)
+        parts = (
+            say_mm(float(millimetres(t_S, t_T).max())),
+            say_degrees(float(degrees(R_S, R_T).max())),
+        )
+        return " and ".join(p for p in parts if p != "0") or "0"
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        return few_entries(self, S, T, 3) or _pose_wrong(S, T)
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        (R, t), (R_T, t_T) = split(S), split(T)
+        moved = say_range(millimetres(t, t_T), say_mm)
+        return (
+            *Rotation().measured(R, R_T),
+            f"t off by {moved}; bottom row by {_bottom(S):.2g}",
+        )
+
+
+def rotation_wrong(S: Array, T: Array) -> Finding:
+    """Return what is wrong with rotations, (n, 3, 3)."""
+    if (off := _skew(S)) > RIGID:
+        det = np.linalg.det(S)
+        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0:.3g}"  # no -0
+        size = "" if worst == "1" else f"; det R is {worst}, not 1"
+        return Finding(
+            "not-orthonormal",
+            "R is no rotation: its columns are not unit vectors at right angles. "
+            f"(R R^T differs from I by {off:.2g}{size}.)",
+        )
+    X = np.abs(T.mT @ S)
+    if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
+        return Finding(
+            "axes-mixed-up",
+            "R's columns are the right axes, but swapped or with the wrong sign. "
+            f"(det R is {np.linalg.det(S[0]):.0f}.)",
+        )
+    if mirrored := np.sum(np.linalg.det(S) < 0.0):
+        return Finding(
+            "left-handed",
+            f"R is a left-handed frame, a mirror image, for {mirrored} of {len(S)} "
+            "inputs. (det R is -1.)",
+        )
+    off_by = degrees(S, T)
+    often = ", the same amount every time" if np.ptp(off_by) < 1e-3 else ""
+    return Finding(
+        "rotation-off",
+        "R is a rotation, but not the right one: "
+        f"{'' if often else 'up to '}{say_degrees(float(off_by.max()))} off{often}.",
+    )
+
+
+def _pose_wrong(S: Array, T: Array) -> Finding:
+    (R, t), (R_true, t_true) = split(S), split(T)
+    if _bottom(S) > NEAR:
+        row = S[np.argmax(np.abs(S[:, 3] - [0, 0, 0, 1]).max(axis=1)), 3]
+        numbers = ", ".join(f"{x:.3g}" for x in row)
+        return Finding(
+            "bottom-row",
+            f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
+        )
+    t_off = say_mm(float(millimetres(t, t_true).max()))
+    if difference(R, R_true).max() <= NEAR and t_off != "0":
+        return Finding(
+            "translation-off",
+            f"R is right everywhere; the translation is not: up to {t_off} off.",
+        )
+    slug, message = rotation_wrong(R, R_true)
+    if t_off == "0":
+        return Finding(slug, f"The translation is right. {message}")
+    slug = "pose-off" if slug == "rotation-off" else slug
+    return Finding(slug, f"{message} The translation is up to {t_off} off too.")
+
+
+def _skew(R: Array) -> float:
+    """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
+    return float(np.abs(R @ R.mT - np.eye(3)).max())
+
+
+def _bottom(S: Array) -> float:
+    return float(np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max())

@@ -5,14 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.judge.compare import difference, gap
-from labkit.judge.kinds import NEAR, NEGATED, TRUNCATED, Kind, one_factor
+from labkit.judge.answers import difference, gap
+from labkit.judge.finished import general
+from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
-
-TRANSPOSED = Mistake(
-    "transposed", "the matrix is transposed", np.matrix_transpose, "its transpose"
-)
 
 
 @dataclass(frozen=True)
@@ -30,7 +27,7 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return (TRANSPOSED, NEGATED, TRUNCATED) if square else (NEGATED, TRUNCATED)
+        return general(*["transposed"] * square, "all-signs", "whole-numbers")
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -52,13 +49,7 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        swapped = Mistake(
-            "rows-swapped",
-            "the rows are (v; omega); omega's three come first",
-            lambda J: np.roll(J, 3, axis=-2),
-            "the right one with its rows swapped",
-        )
-        return (swapped, NEGATED, TRUNCATED)
+        return general("rows-swapped", "all-signs", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
@@ -109,20 +100,6 @@ class Symmetric(Matrix):
         return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
 
 
-INVERSE = Mistake(
-    "inverse",
-    "it is the inverse, which says how much is known; a covariance says how little",
-    lambda P: np.linalg.inv(P),
-    "its inverse",
-)
-ROOTS = Mistake(
-    "sigma-for-variance",
-    "its entries are sigma, and a covariance holds sigma squared",
-    lambda P: np.sign(P) * np.sqrt(np.abs(P)),
-    "the root of each entry",
-)
-
-
 @dataclass(frozen=True)
 class Covariance(Symmetric):
     """A covariance, compared up to what rounding leaves of its symmetry."""
@@ -132,7 +109,8 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (INVERSE, ROOTS, NEGATED, TRUNCATED)
+        slugs = ("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
+        return general(*slugs)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0
@@ -143,40 +121,3 @@ class Covariance(Symmetric):
             f"It has a negative eigenvalue ({least:.3g}), so it is no covariance; off "
             f"by up to {self.apart(S, T)}.",
         )
-
-
-def few_entries(
-    kind: Kind, S: Array, T: Array, ignored: int | None = None
-) -> Finding | None:
-    """Return which entries are wrong if they are one or two, or one row or column.
-
-    Args:
-        kind: of the answers.
-        S: the student's, (n, m, k).
-        T: the right ones.
-        ignored: a row and column that has a name of its own, such as a pose's last.
-    """
-    apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
-    if not len(rows):
-        return None
-    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
-    if last and len(rows) > 1:
-        return None
-    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
-    if len(rows) <= 2:
-        where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
-        where += ", counted from 0"
-    elif one_row:
-        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
-    elif one_column:
-        name = names[1][columns[0]] if names[1] else ""
-        where = name or f"column {columns[0]}, counted from 0"
-    else:
-        return None
-    return Finding(
-        "few-entries-off",
-        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
-        "for a wrong sign, letter or factor.",
-    )

@@ -3,9 +3,12 @@
 S are the student's answers, (n, ...), T the right ones.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from labkit.judge.compare import MATCHES, difference
+from labkit.base.exchange import Reply
+from labkit.judge.answers import MATCHES, difference
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
@@ -30,6 +33,14 @@ def explain(S: Array, T: Array) -> Finding:
         "rounded-somewhere",
         f"Close, but not equal: off by {off:.1e} where 1e-15 is usual, {why}",
     )
+
+
+def single_precision(replies: Sequence[Reply], S: Sequence[Array]) -> bool:
+    """Return whether all numbers came as float32, or are ones that float32 can hold."""
+    if all(getattr(r.value, "dtype", None) == np.float32 for r in replies):
+        return True
+    with np.errstate(over="ignore"):
+        return all(np.array_equal(part.astype(np.float32), part) for part in S)
 
 
 def rounded(S: Array, T: Array) -> Finding | None:

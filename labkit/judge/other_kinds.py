@@ -1,47 +1,103 @@
-"""Kinds of answers that are counts, choices, paths, or what a camera sees."""
+"""Kinds of answers that are twists, points, counts, choices, paths or images."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.base.words import count
-from labkit.judge.compare import difference
-from labkit.judge.kinds import NEAR, TRUNCATED, Kind, Scalar, one_factor
+from labkit.base.text import count
+from labkit.judge.answers import capitalised, difference, millimetres, say_mm
+from labkit.judge.finished import general
+from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
-INVERTED = Mistake(
-    "inverted",
-    "True and False are swapped",
-    lambda answer: 1.0 - answer,
-    "the right one turned round",
-)
-ROWS_FIRST = Mistake(
-    "row-first",
-    "a pixel is (column, row), x before y; here the row comes first",
-    lambda answer: answer[..., ::-1],
-    "the right one with its two columns swapped",
-)
-UPSIDE_DOWN = Mistake(
-    "upside-down",
-    "the image stands on its head: row 0 is the top one",
-    lambda image: image[:, ::-1],
-    "the right one with its rows reversed",
-)
-MIRRORED = Mistake(
-    "mirrored",
-    "left and right are swapped",
-    lambda image: image[:, :, ::-1],
-    "the right one with its columns reversed",
-)
-BLUE_FIRST = Mistake(
-    "blue-first",
-    "the colours are (blue, green, red); here red comes first",
-    lambda image: image[..., ::-1],
-    "the right one with its colours reversed",
-)
+
+@dataclass(frozen=True)
+class _Halves(Kind):
+    """Six numbers in two halves: the first angular, the second linear."""
+
+    shape: tuple[int, ...] = (6,)
+    halves = ("first half", "second half")
+
+    @property
+    def expected(self) -> str:
+        return f"six numbers ({'; '.join(self.halves)})"
+
+    def general(self) -> Sequence[Mistake]:
+        slugs = ("halves-swapped", "all-signs", "whole-numbers")
+        return general(*slugs, halves=self.halves)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:
+        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
+        if found := one_factor(self, S, T):
+            return found
+        for i, slug in enumerate(("second-half-off", "first-half-off")):
+            if off[i] <= NEAR:
+                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
+                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
+        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
+        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
+
+
+@dataclass(frozen=True)
+class Twist(_Halves):
+    """A twist or a screw axis, (omega; v)."""
+
+    halves = ("omega", "v")
+
+
+@dataclass(frozen=True)
+class Wrench(_Halves):
+    """A wrench, (moment; force)."""
+
+    halves = ("moment", "force")
+
+
+@dataclass(frozen=True)
+class Points(Kind):
+    """Points in metres, (m, 3), or a tuple of vectors. `Points((2, 3))`."""
+
+    shape: tuple[int, ...] = (2, 3)
+    unit: str = "m"
+    # What each is called, "first" and so on.
+    names: tuple[str, ...] = ("first", "second")
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        return "two vectors of 3" if self.shape[0] == 2 else f"{self.shape[0]} points"
+
+    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
+        count = self.shape[0]
+        return {
+            (count, 4): "leave the fourth entry of each point out",
+            (count, 4, 4): "only the translations are asked for",
+            (count, 3, 1): "columns of shape (3, 1) are not plain vectors",
+        }.get(got, "")
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        if not np.isfinite(S).all():
+            return Kind.apart(self, S, T)
+        return say_mm(float(millimetres(S, T).max()))
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        off = millimetres(S, T).max(axis=0)
+        words = [say_mm(float(mm)) for mm in off]
+        if len(off) == 2 and "0" in words:
+            right, wrong = (1, 0) if words[1] == "0" else (0, 1)
+            says = f"The {self.names[right]} is right; the {self.names[wrong]} is up to"
+            return Finding(f"{self.names[wrong]}-off", f"{says} {words[wrong]} off.")
+        each = ", ".join(
+            f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
+        )
+        every = "Both" if len(off) == 2 else "All"
+        return Finding("both-off", f"{every} are wrong: off by up to {each}.")
+
+    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
+        off = [say_mm(float(mm)) for mm in millimetres(S, T).max(axis=0)]
+        pairs = zip(self.names, off, strict=False)
+        return (", ".join(f"{name} off by {mm}" for name, mm in pairs),)
 
 
 @dataclass(frozen=True)
@@ -73,7 +129,7 @@ class Mask(Kind):
         return f"True or False{where if self.shape else ''}"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (INVERTED,)
+        return general("inverted")
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         return f"{np.mean(S != T):.0%} of them"
@@ -117,7 +173,7 @@ class Pixels(Kind):
     expected = "a pixel (x, y) per point"
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return (ROWS_FIRST, TRUNCATED)
+        return general("row-first", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up
@@ -146,8 +202,8 @@ class Image(Kind):
         return super().why_shape(got)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        colours = [BLUE_FIRST] * (len(self.shape) == 3)
-        return (UPSIDE_DOWN, MIRRORED, *colours, TRUNCATED)
+        colours = ["blue-first"] * (len(self.shape) == 3)
+        return general("upside-down", "mirrored", *colours, "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):

@@ -1,18 +1,31 @@
-"""What keeps replies from being judged: no answer, a wrong shape, memory, state."""
+"""Replies read as answers, or why not (none, shape, state); the call that failed."""
 
+import linecache
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Reply
-from labkit.judge.ask import Ask, Asked, replies, stacked
-from labkit.judge.compare import Parts, as_one, parts
+from labkit.base.exchange import Exchange, Question, Reply
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    as_one,
+    as_one_size,
+    difference,
+    gaps,
+    own,
+    parts,
+    typed,
+    worst_part,
+)
+from labkit.judge.ask import Ask, Asked, HeldOut, replies, right_answers, stacked
 from labkit.judge.kinds import Kind
-from labkit.judge.mistake import Finding, InTurn, Verdict
-from labkit.lesson.starter import function_lines
+from labkit.judge.mistake import Finding, Verdict
+from labkit.lesson.script import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
@@ -89,14 +102,11 @@ def refusal(what: str, line: int | None) -> Verdict:
     where = f" (line {line})" if line else ""
     for root in (str(ROOT), ROOT.as_posix()):
         what = what.replace(root + "/", "").replace(root + "\\", "")
+    slug, why = "refused", "A task needs nothing but its arguments."
     if what.startswith("call "):
-        says = (
-            f"It wants to {what}{where}. Here the point is to work the answer out "
-            "yourself; MuJoCo is the judge."
-        )
-        return Verdict("wrong", "not-by-hand", says)
-    says = f"It wants to {what}{where}. A task needs nothing but its arguments."
-    return Verdict("wrong", "refused", says)
+        slug = "not-by-hand"
+        why = "Here the point is to work the answer out yourself; MuJoCo is the judge."
+    return Verdict("wrong", slug, f"It wants to {what}{where}. {why}")
 
 
 def not_loaded(script: Path, reply: Reply) -> str:
@@ -113,8 +123,11 @@ def not_loaded(script: Path, reply: Reply) -> str:
     why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
     if reply.kind == "ModuleNotFoundError":
         why += f".{ONLY_NUMPY} Import others in the function that uses them."
-    elif reply.kind == "SyntaxError" and _line_of(script, reply).startswith("<<<<<<<"):
-        why += ". This is the mark of a merge that git could not finish: keep one side."
+    elif reply.kind == "SyntaxError":
+        linecache.checkcache(str(script))
+        if linecache.getline(str(script), reply.line or 0).startswith("<<<<<<<"):
+            why += ". This is the mark of a merge that git could not finish: keep one "
+            why += "side."
     return why
 
 
@@ -127,7 +140,12 @@ def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
         source: the student's file, for the slips that show in it.
     """
     if broken := [reply for reply in replies if reply.kind]:
-        return _raised(broken, len(replies), ask, source)
+        text = f"{broken[0].kind}: {broken[0].error}"
+        for slip in ask.slips:
+            if re.search(slip.error, text) and re.search(slip.source, source):
+                return Finding(slip.slug, slip.says)
+        often = f", in {len(broken)} of {len(replies)} calls"
+        return Finding("raises", stops_with(broken[0], often))
     if nothing := sum(reply.value is None for reply in replies):
         says = (
             "It returns nothing (None): the result is worked out, but not handed back."
@@ -204,29 +222,6 @@ def shared_memory(replies: Sequence[Reply]) -> Finding | None:
     return None
 
 
-def single_precision(replies: Sequence[Reply], S: Sequence[Array]) -> bool:
-    """Return whether all numbers came as float32, or are ones that float32 can hold."""
-    if all(getattr(r.value, "dtype", None) == np.float32 for r in replies):
-        return True
-    with np.errstate(over="ignore"):
-        return all(np.array_equal(part.astype(np.float32), part) for part in S)
-
-
-def _line_of(script: Path, reply: Reply) -> str:
-    lines = script.read_text("utf-8", errors="replace").splitlines()
-    return lines[reply.line - 1] if reply.line and reply.line <= len(lines) else ""
-
-
-def _raised(broken: Sequence[Reply], asked: int, ask: Ask, source: str) -> Finding:
-    first = broken[0]
-    text = f"{first.kind}: {first.error}"
-    for slip in ask.slips:
-        if re.search(slip.error, text) and re.search(slip.source, source):
-            return Finding(slip.slug, slip.says)
-    often = f", in {len(broken)} of {asked} calls"
-    return Finding("raises", stops_with(first, often))
-
-
 def _differs(reply: Reply) -> bool:
     if reply.kind or reply.again_error:  # stopped once, and not the other time
         return bool(reply.again_error) or reply.again is not None
@@ -277,3 +272,128 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
     expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
     got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
     return Finding("parts", f"It returns {got}; expected are {expected}.")
+
+
+@dataclass(frozen=True)
+class Failing:
+    """One call whose answer is not right."""
+
+    # In a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
+    says: str = ""
+    whole: tuple[str, ...] = ()  # the same with every argument and entry, in lines
+
+
+def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
+    """Return the call that is furthest off, of those always asked if one of them is."""
+    with np.errstate(all="ignore"):
+        rounds = zip(asked.held_out, asked.ask.held_out, strict=True)
+        for some, held in [(asked.main, None), (asked.fresh, None), *rounds]:
+            if held and held.mistaken:
+                continue
+            if found := _broken(some, names) or _wrong(asked, some, held, names):
+                return found
+    return _refused(asked, names)
+
+
+def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
+    for one in exchanges:
+        if one.reply and (one.reply.kind or one.reply.value is None):
+            what = "stops" if one.reply.kind else "returns nothing"
+            says = f"{typed(one.question, names)} {what}."
+            return Failing(says, _given(one.question, names))
+    return None
+
+
+def _wrong(
+    asked: Asked,
+    exchanges: Sequence[Exchange],
+    held: HeldOut | None,
+    names: Sequence[str],
+) -> Failing | None:
+    ask = asked.ask
+    if not exchanges or not (ask.truth or held):
+        return None
+    S = read(replies(exchanges), ask, "")
+    if isinstance(S, Finding):
+        return None
+    T = right_answers(ask, exchanges, held)
+    gap = gaps(ask.kinds, S, T)
+    i, part = int(np.argmax(gap)), worst_part(ask.kinds, S, T, ask.near)
+    if gap[i] <= ask.tolerance:
+        return None
+    mine, its = (some[i] for some in as_one_size(S[part], T[part]))
+    question = exchanges[i].question
+    apart = np.nan_to_num(np.abs(mine - its), nan=np.inf)
+    at = np.unravel_index(int(np.argmax(apart)), mine.shape)
+    place = f"[{part}]" if len(S) > 1 else ""
+    place += str([int(x) for x in at]) if at else ""
+    says = f"{typed(question, names)}{place} is {_apart(mine[at], its[at])} is right."
+    whole = [*_given(question, names)]
+    for word, one in (("yours", S), ("right", T)):
+        whole += [f"{word}: {_matrix(values[i])}" for values in one]
+    return Failing(says, tuple(whole))
+
+
+def _refused(asked: Asked, names: Sequence[str]) -> Failing:
+    """Return the first call that a function with many right answers got wrong."""
+    ask = asked.ask
+    for one in [*asked.main, *asked.fresh] if ask.accept else []:
+        if not one.reply or isinstance(read([one.reply], ask, ""), Finding):
+            continue
+        if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
+            yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
+            says = f"{typed(one.question, names)} is such a call."
+            return Failing(says, _given(one.question, names) + yours)
+    return Failing()
+
+
+def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
+    """Return what is wrong with answers to inputs that are not always asked.
+
+    That answers were looked up is said only where all are wrong, and each is one that
+    another input has got.
+    """
+    right = "Right for the inputs that are always asked, but not for"
+    if isinstance(S, Finding):
+        return Finding("some-inputs", f"{right} fresh ones. {S.message}")
+    T = right_answers(asked.ask, asked.fresh)
+    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
+    says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
+    if wrong.all() and _only_known(main, S):
+        return Finding("looked-up", f"{says} The answers do not come from the inputs.")
+    some = "Some inputs take another way through your function."
+    return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
+
+
+def _only_known(main: Parts, S: Parts) -> bool:
+    """Return whether each answer is the same as one to another input."""
+    rows, known = (np.hstack([p.reshape(len(p), -1) for p in x]) for x in (S, main))
+    others = [np.vstack([known, np.delete(rows, i, 0)]) for i in range(len(rows))]
+    return all(
+        bool((difference(rest, np.broadcast_to(row, rest.shape)) < 1e-9).any())
+        for row, rest in zip(rows, others, strict=True)
+    )
+
+
+def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the call, and each argument that is too long for it."""
+    found = [f"call: {typed(question, names)}"]
+    for i, arg in enumerate(question.args):
+        if isinstance(arg, np.ndarray) and arg.ndim > 1:
+            name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
+            found.append(f"{name} = {_matrix(arg)}")
+    return tuple(found)
+
+
+def _matrix(values: Array) -> str:
+    """Return an array as Python reads it."""
+    return repr((np.asarray(values, dtype=float) + 0.0).tolist())
+
+
+def _apart(mine: float, its: float) -> str:
+    """Return two numbers with as many digits as tell them apart."""
+    for digits in (6, 10, 17):
+        one, other = (f"{x + 0.0:.{digits}g}" for x in (mine, its))
+        if one != other:
+            break
+    return f"{one}, and {other}"

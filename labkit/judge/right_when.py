@@ -4,15 +4,14 @@
 where no named mistake fits. It is true by construction: it was asked.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
+from labkit.judge.answers import InTurn, own, rigid, say_factor
 from labkit.judge.ask import Asked, as_plain
-from labkit.judge.compare import rigid, say_factor
-from labkit.judge.mistake import InTurn, own
 from labkit.judge.problems import flat
 from robo47.checks import Array
 
@@ -21,15 +20,9 @@ AGREE = 3
 NOTHING = 1e-12  # a right answer as small as this says nothing
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
-Call = tuple[Any, ...]
-
-
-class Experiment(NamedTuple):
-    """Calls in which one argument is neutral."""
-
-    says: str  # "ed is 0"
-    changed: float  # how many numbers of the argument were made neutral
-    calls: list[Call]  # the arguments of each
+Call = tuple[Any, ...]  # its arguments
+# From calls to the answers of a function, None where there is none, which says nothing.
+Answers = Callable[[Sequence[Call]], Iterable[Any]]
 
 
 def right_when(
@@ -46,22 +39,74 @@ def right_when(
         names: of its arguments.
         reply_to: asks it further questions.
     """
-    mains = [asked.main[i].question for i in wrong][-QUESTIONS:]
+    ask, mains = asked.ask, [asked.main[i].question for i in wrong][-QUESTIONS:]
     calls = [question.args for question in mains]
-    tried, twice = experiments(calls, names), doublings(calls, names)
+    if any(len(names) != len(call) for call in calls):
+        return ""
 
-    def answers(some: Sequence[Call]) -> list[Any]:
+    def mine(some: Sequence[Call]) -> list[Any]:
         questions = [Question(mains[0].task, asked.function, call) for call in some]
         return [None if r.kind else r.value for r in reply_to(questions)]
 
-    given, doubled = ([answers(one.calls) for one in some] for some in (tried, twice))
-    ask, near = asked.ask, asked.ask.near
     assert isinstance(ask.truth, InTurn)
-    truth = _of_one(ask.truth)
-    others = [_of_one(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
-    says = conclude(tried, given, truth, near, others)
-    more = not_doubled(twice, answers(calls), doubled, calls, truth, near)
-    return f"{says} {more}".strip()
+    truth = _answers_of(ask.truth)
+    others = [_answers_of(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
+    says = neutral(calls, names, mine, truth, ask.near, others)
+    return f"{says} {doubled(calls, names, mine, truth, ask.near)}".strip()
+
+
+def neutral(
+    calls: Sequence[Call],
+    names: Sequence[str],
+    mine: Answers,
+    truth: Answers,
+    near: float,
+    others: Sequence[Answers] = (),
+) -> str:
+    """Return which arguments, neutral, make the answers right, in a sentence, or "".
+
+    Args:
+        calls: that the function answered wrongly, their arguments of the same shapes.
+        names: of the arguments.
+        mine: the function.
+        truth: the right answers.
+        near: how far off a right answer may be, relative to its largest entry.
+        others: other wrong functions. What is true of most of them says nothing.
+    """
+    telling = []
+    for i, (words, k, changed, some) in enumerate(_experiments(calls)):
+        if _right(mine(some), truth(some), near):
+            right = [_right(o(some), truth(some), near) for o in others[:OTHERS]]
+            if (share := sum(right) / max(1, len(right))) <= COMMON:
+                telling.append((share, changed, i, k, words))
+    says: dict[int, str] = {}  # of each argument the most telling
+    for *_, k, words in sorted(telling):
+        says.setdefault(k, f"whenever {words.format(names[k])}")
+    return f"It is right {', and '.join([*says.values()][:2])}." if says else ""
+
+
+def _experiments(
+    calls: Sequence[Call],
+) -> Iterator[tuple[str, int, float, list[Call]]]:
+    """Yield calls in which one argument is neutral.
+
+    Yields:
+        "{} is 0", the argument's place, how many of its numbers that changed, and the
+        arguments of each call.
+    """
+    for k, column in enumerate(zip(*calls, strict=True)):
+        for choices in zip(*map(neutrals, column), strict=False):
+            says, values = zip(*choices, strict=True)
+            pairs = zip(column, values, strict=True)
+            count = float(np.mean([np.sum(np.not_equal(x, v)) for x, v in pairs]))
+            if len(set(says)) == 1 and count:
+                yield says[0], k, count, _with(calls, k, values)
+
+
+def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:
+    """Return calls with other values of argument k."""
+    pairs = zip(calls, values, strict=True)
+    return [(*call[:k], value, *call[k + 1 :]) for call, value in pairs]
 
 
 def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
@@ -98,44 +143,6 @@ def _of_a_matrix(x: Array) -> Iterator[tuple[str, Array]]:
         yield "only the first column of {} is not 0", x * (np.arange(x.shape[1]) == 0)
 
 
-def experiments(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
-    """Return what to ask of a function that answered these calls wrongly.
-
-    Args:
-        calls: the arguments of each, of the same shapes; three at least.
-        names: of the arguments.
-    """
-    some = _asked_again(calls, names)
-    found = []
-    for k, name in enumerate(names if some else ()):
-        for choices in zip(*(neutrals(call[k]) for call in some), strict=False):
-            says, values = zip(*choices, strict=True)
-            pairs = list(zip(some, values, strict=True))
-            count = np.mean([np.sum(np.not_equal(call[k], v)) for call, v in pairs])
-            if len(set(says)) == 1 and count:
-                changed = [(*call[:k], v, *call[k + 1 :]) for call, v in pairs]
-                found.append(Experiment(says[0].format(name), float(count), changed))
-    return found
-
-
-def _asked_again(calls: Sequence[Call], names: Sequence[str]) -> list[Call]:
-    """Return the calls to change; none where too few, or with other arguments."""
-    some = list(calls)[-QUESTIONS:]
-    fit = len(some) >= AGREE and all(len(names) == len(call) for call in some)
-    return some if fit else []
-
-
-def doublings(calls: Sequence[Call], names: Sequence[str]) -> list[Experiment]:
-    """Return calls with one argument doubled, per argument that may be; as above."""
-    some = _asked_again(calls, names)
-    found = []
-    for k, name in enumerate(names if some else ()):
-        if all(_may_be_doubled(call[k]) for call in some):
-            twice = [(*call[:k], 2.0 * call[k], *call[k + 1 :]) for call in some]
-            found.append(Experiment(name, 0.0, twice))
-    return found
-
-
 def _may_be_doubled(x: Any) -> bool:
     if isinstance(x, np.ndarray):
         turned = x.shape in ((3, 3), (4, 4)) and rigid(x[None])
@@ -143,7 +150,38 @@ def _may_be_doubled(x: Any) -> bool:
     return isinstance(x, float) and x != 0.0
 
 
-def growth(before: Sequence[Any], after: Sequence[Any], near: float) -> float | None:
+def doubled(
+    calls: Sequence[Call],
+    names: Sequence[str],
+    mine: Answers,
+    truth: Answers,
+    near: float,
+) -> str:
+    """Return that answers do not grow with an argument as the right ones do, or "".
+
+    Args:
+        calls, names, mine, truth, near: as in `neutral`.
+    """
+    before, base = list(mine(calls)), list(truth(calls))
+    for k, name in enumerate(names):
+        if not all(_may_be_doubled(call[k]) for call in calls):
+            continue
+        some = _with(calls, k, [2.0 * call[k] for call in calls])
+        given, right = mine(some), list(truth(some))
+        if any(answer is None for answer in right):
+            continue
+        grew, its = growth(before, given, near), growth(base, right, near)
+        if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
+            continue
+        if np.isclose(grew, 1.0, rtol=near):
+            return f"With {name} doubled, your answer stays the same; it must not."
+        if its is not None:
+            says = f"With {name} doubled, your answer becomes {say_factor(grew)}"
+            return f"{says} times what it was; the right one {say_factor(its)} times."
+    return ""
+
+
+def growth(before: Iterable[Any], after: Iterable[Any], near: float) -> float | None:
     """Return by which one factor all answers grew, None where there is none.
 
     Args:
@@ -161,89 +199,15 @@ def growth(before: Sequence[Any], after: Sequence[Any], near: float) -> float | 
     return factor if off <= near * max(1.0, float(np.abs(two).max())) else None
 
 
-def not_doubled(
-    asked: Sequence[Experiment],
-    before: Sequence[Any],
-    after: Sequence[Sequence[Any]],
-    calls: Sequence[Call],
-    truth: Callable[..., Any],
-    near: float,
-) -> str:
-    """Return that answers do not grow with an argument as the right ones do, or "".
-
-    Args:
-        asked: from `doublings`.
-        before: the function's answers without.
-        after: per experiment its answers.
-        calls: the arguments of each without.
-        truth, near: as in `conclude`.
-    """
-    base = [_or_none(truth, call) for call in calls]
-    for one, given in zip(asked, after, strict=True):
-        right = [_or_none(truth, call) for call in one.calls]
-        if any(answer is None for answer in right):
-            continue
-        mine, its = growth(before, given, near), growth(base, right, near)
-        if mine is None or (its is not None and np.isclose(mine, its, rtol=1e-3)):
-            continue
-        if np.isclose(mine, 1.0, rtol=near):
-            return f"With {one.says} doubled, your answer stays the same; it must not."
-        if its is not None:
-            says = f"With {one.says} doubled, your answer becomes {say_factor(mine)}"
-            return f"{says} times what it was; the right one {say_factor(its)} times."
-    return ""
-
-
-def conclude(
-    asked: Sequence[Experiment],
-    answers: Sequence[Sequence[Any]],
-    truth: Callable[..., Any],
-    near: float,
-    others: Sequence[Callable[..., Any]] = (),
-) -> str:
-    """Return the sentence that the experiments allow, or "".
-
-    Args:
-        asked: the experiments.
-        answers: per experiment the function's answers, None where there was none.
-        truth: the right answer to one call.
-        near: how far off a right answer may be, relative to its largest entry.
-        others: other wrong functions. What is true of most of them says nothing.
-    """
-    telling = []
-    for i, (one, given) in enumerate(zip(asked, answers, strict=True)):
-        if _right(one.calls, given, truth, near):
-            said = [[_or_none(o, call) for call in one.calls] for o in others[:OTHERS]]
-            right = [_right(one.calls, those, truth, near) for those in said]
-            if (share := sum(right) / max(1, len(right))) <= COMMON:
-                telling.append((share, one.changed, i))
-    says: list[str] = []
-    seen: set[str] = set()
-    for *_, i in sorted(telling):
-        argument = _argument(asked[i].says)
-        if argument not in seen and len(says) < 2:
-            seen.add(argument)
-            says.append(f"whenever {asked[i].says}")
-    return f"It is right {', and '.join(says)}." if says else ""
-
-
-def _argument(says: str) -> str:
-    """Return the argument's name in "all entries of kp are equal"."""
-    words = says.split()
-    return words[words.index("of") + 1] if "of" in words else words[0]
-
-
-def _right(
-    calls: Sequence[Call], given: Sequence[Any], truth: Callable[..., Any], near: float
-) -> bool:
+def _right(given: Iterable[Any], wanted: Iterable[Any], near: float) -> bool:
     """Return whether all answers are right and enough of them say something.
 
     Zeros say nothing, and neither do right answers that are all the same.
     """
     agree, different = 0, False
     first: Array | None = None
-    for call, answer in zip(calls, given, strict=True):
-        right = flat(_or_none(truth, call))
+    for answer, its in zip(given, wanted, strict=True):
+        right = flat(its)
         if right is None or not np.isfinite(right).all():
             continue  # the question has no answer: it says nothing
         mine = flat(answer)
@@ -258,14 +222,14 @@ def _right(
     return agree >= AGREE and different
 
 
-def _or_none(function: Callable[..., Any], call: Call) -> Any:
-    try:
-        with np.errstate(all="ignore"):
-            return function(*map(own, call))
-    except Exception:  # a singular matrix, say
-        return None
+def _answers_of(function: InTurn) -> Answers:
+    """Return the answers of a function of one question's arguments, one by one."""
 
+    def answer(call: Call) -> Any:
+        try:
+            with np.errstate(all="ignore"):
+                return function.function(*map(own, map(as_plain, call)))
+        except Exception:  # a singular matrix, say
+            return None
 
-def _of_one(function: InTurn) -> Callable[..., Any]:
-    """Return a function of one question's arguments."""
-    return lambda *args: function.function(*map(as_plain, args))
+    return lambda calls: map(answer, calls)

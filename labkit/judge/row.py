@@ -19,7 +19,6 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
-import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -30,16 +29,16 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
-from labkit.judge.mistake import AtOnce, InTurn, Mistake, entry_of, once
-from labkit.lesson import folder
+from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.lesson.day import Day
+from labkit.lesson.script import lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 Code = Callable[..., Any]
-REDONE = "the answer with this mistake"
 
 
 @dataclass(frozen=True)
@@ -143,13 +142,11 @@ class Row:
         """
         if code is None:
             return partial(self.wrongs, redone=redone, hidden=hidden)
-        text = re.sub(r"\n +", " ", inspect.getdoc(code) or "")
-        said = dict(line.split(": ", 1) for line in text.splitlines())
+        said = {slug: texts for slug, *texts in told(code.__doc__ or "")}
         table = once(code)
-        for slug, line in said.items():
+        for slug, (says, called) in said.items():
             one = entry_of(table, slug, said.keys())
             update_wrapper(one, code, (), ())  # its arguments' names
-            says, _, called = line.partition(" => ")
             name = slug.partition(" ")[0]
             self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
         return code
@@ -256,7 +253,7 @@ class Row:
     @property
     def lab(self) -> ModuleType:
         """The day's complete lab."""
-        return folder.lab(self._day)
+        return lab_of(self._day)
 
     @cached_property
     def ways(self) -> list[Way]:
@@ -328,7 +325,7 @@ def row_of(day: Day, function: str) -> Row:
     Raises:
         Robo47Error: the day has no such file, or it holds no row.
     """
-    module = folder.load(day, function)
+    module = day.module(function)
     if not isinstance(getattr(module, "row", None), Row):
         raise Robo47Error(f"day{day.number}/{function}.py has no `row = Row(...)`")
     return _bound(module, day)

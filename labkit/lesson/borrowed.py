@@ -10,9 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from labkit.lesson import folder
 from labkit.lesson.day import day_of
-from labkit.lesson.starter import BORROWED, function_lines
+from labkit.lesson.script import BORROWED, function_lines, lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -30,7 +29,7 @@ def kits(file: str, function: str) -> Callable[..., Any]:
         raise Robo47Error(
             f"{shown(day.source)} is not here, so {function} cannot be borrowed from it"
         )
-    found: Callable[..., Any] = getattr(folder.lab(day), function)
+    found: Callable[..., Any] = getattr(lab_of(day), function)
     return found
 
 

@@ -6,21 +6,35 @@ day whose manifest is broken costs that day alone. A field of `Day`, `Task` or `
 is an entry of the file, and is read by its type (`week.py`).
 """
 
+import importlib
 import math
 import re
+import sys
+import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-from labkit.base.exchange import NUMBERS, Limits
 from labkit.lesson.week import Week, entry, find_week, load, load_week, weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 # What a grader's machine gives a task at most, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a file of a day's may take."""
+
+    # For all calls of a task, where it says more than the usual.
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    memory: float = 1.0  # GB, of the process
+    numbers: int = NUMBERS  # of one answer
+    extras: tuple[str, ...] = ()  # packages that it may import, pinned: "scipy==1.17.1"
 
 
 @dataclass(frozen=True)
@@ -72,9 +86,7 @@ class Metric:
 
         Nothing else in the kit decides this.
         """
-        if row is None:
-            return "none"
-        return "fail" if self.fault(row) else "pass"
+        return "none" if row is None else "fail" if self.fault(row) else "pass"
 
     def fault(self, row: Mapping[str, Any]) -> str:
         """Return what is wrong with a row's number; "" where it is as it must be."""
@@ -168,19 +180,12 @@ class Day:
         }
         return {what: path for what, path in found.items() if path}
 
-    @cached_property
-    def _needs(self) -> dict[str, tuple[str, ...]]:
-        closed: dict[str, set[str]] = {}
-        for task in self.tasks:  # needs are earlier tasks, so they are closed already
-            closed[task.id] = set(task.needs).union(*(closed[n] for n in task.needs))
-        order = [task.id for task in self.tasks]
-        return {
-            id: tuple(n for n in order if n in found) for id, found in closed.items()
-        }
-
     def needs(self, task_id: str) -> tuple[str, ...]:
         """Return the ids of the tasks that a task builds on, however indirectly."""
-        return self._needs[task_id]
+        found = {task_id}
+        for task in reversed(self.tasks):  # needs are earlier tasks
+            found.update(task.needs if task.id in found else ())
+        return tuple(task.id for task in self.tasks if task.id in found - {task_id})
 
     def task(self, task_id: str) -> Task:
         """Return a task by its id.
@@ -188,12 +193,67 @@ class Day:
         Raises:
             Robo47Error: the day has no such task; names those it has.
         """
-        for names in (lambda t: (t.id,), lambda t: t.was):
-            for task in self.tasks:
-                if task_id in names(task):
-                    return task
+        before = [task for task in self.tasks if task_id in task.was]
+        for task in [task for task in self.tasks if task.id == task_id] or before:
+            return task
         known = ", ".join(task.id for task in self.tasks)
         raise Robo47Error(f"day {self.number} has no task {task_id}; it has {known}")
+
+    def has(self, name: str) -> bool:
+        """Return whether its folder brings "inspector", say: a file or a folder."""
+        return (self.own / f"{name}.py").is_file() or (self.own / name).is_dir()
+
+    def module(self, name: str) -> ModuleType:
+        """Return a file of its folder, imported by path: the machine names no day.
+
+        `w1-foundations/dayN/gains.py` becomes the module `lesson_dayN.gains`; files of
+        one day import each other as `from .mistakes import ...`.
+
+        Raises:
+            Robo47Error: it has no such file, or that stops while it is loaded.
+        """
+        file = self.own / f"{name}.py"
+        if not self.has(name):
+            raise Robo47Error(f"{shown(file)} is not there")
+        package = f"lesson_day{self.number}"
+        known = sys.modules.get(package)
+        if known is None or list(known.__path__) != [str(self.own)]:
+            for module in [m for m in sys.modules if m.partition(".")[0] == package]:
+                del sys.modules[module]
+            sys.modules[package] = ModuleType(package)
+            sys.modules[package].__path__ = [str(self.own)]
+        try:
+            return importlib.import_module(f"{package}.{name}")
+        except ModuleNotFoundError:  # a package that a picture or a page needs
+            raise
+        except Exception as error:
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            where = f" ({Path(last.filename).name}, line {last.lineno})"
+            where = "" if isinstance(error, SyntaxError) else where  # it says so itself
+            why = f"{type(error).__name__}: {error}{where}"
+            raise Robo47Error(f"{shown(file)} does not load: {why}") from error
+
+    def offered(self, name: str, lab: Path | None = None) -> dict[str, Any]:
+        """Return what its figures.py or films.py offers: {"dayN_name": function}.
+
+        Args:
+            name: "figures", for FIGURES; {} where it has no such file.
+            lab: the script that the file imports from; by default the kit's.
+        """
+        if not self.has(name):
+            return {}
+        if (source := str((lab or self.source).parent)) not in sys.path:
+            sys.path.insert(0, source)
+        found = getattr(self.module(name), name.upper(), None)
+        if not isinstance(found, dict):
+            file = shown(self.own / f"{name}.py")
+            raise Robo47Error(f"{file} has no {name.upper()}: {{name: function}}")
+        return {f"day{self.number}_{key}": made for key, made in found.items()}
+
+    def name_of(self, metric: Metric) -> str:
+        """Return what to call a number: its check, and its metric if it has several."""
+        alone = [m.check for m in self.metrics].count(metric.check) < 2
+        return metric.check if alone else f"{metric.check} {metric.metric}"
 
     def metric(self, check: str, metric: str = "") -> Metric:
         """Return what a recorded number must reach.
@@ -284,9 +344,7 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
         number: of the week; None where none was typed: that of the day.
         day: its number; None where none was typed: the day begun last.
     """
-    if number is not None:
-        return find_week(number)
-    return find_day(started_day() if day is None else day).week
+    return chosen_day(day).week if number is None else find_week(number)
 
 
 def day_of(script: Path) -> Day:

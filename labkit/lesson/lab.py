@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from labkit import log
 from labkit.base import cli
-from labkit.base.words import count, number_of
+from labkit.base.text import count, number_of
 from labkit.lesson.day import Metric, day_of
 from labkit.lesson.marks import file_mark
 from robo47.errors import Robo47Error

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.lesson.day import Day, Metric
-from labkit.lesson.starter import borrowed_tasks
+from labkit.lesson.script import borrowed_tasks
 from labkit.log.rows import Row
 
 _FILE = re.compile(r"\bfile ([0-9a-f]{8})$")

@@ -2,9 +2,8 @@
 
 `append_row` adds a row with one write under a lock, `append_rows` several;
 `read_rows` gives the rows back. `metrics/README.md` is the schema. Inside, one job
-each: `rows` (a row and its line, the header), `logfile` (the
-append), `scan` (reading, line by line), `upkeep` (rows that wait or came back);
-`labkit.base` has `git` (HEAD), `lock`, `words`.
+each: `rows` (a row and its line, the header), `logfile` (the append), `scan` (reading,
+line by line), `upkeep` (rows that wait or came back).
 """
 
 import os
@@ -15,8 +14,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from labkit.base.git import short_sha
-from labkit.base.words import command, count
-from labkit.log.logfile import append_or_keep
+from labkit.base.text import count
+from labkit.log.logfile import append_or_keep, command
 from labkit.log.rows import COLUMNS, Row, encode, typed
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error

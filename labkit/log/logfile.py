@@ -15,11 +15,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from labkit.base import lock
-from labkit.base.words import command, in_words
 from labkit.log.rows import BOM, HEAD, HEADER, is_open_quote, line_end, wrong_header
 from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.paths import ROOT, shown
 
+OWN_LOG = ROOT / "metrics" / "metrics.csv"
 UNSAVED = ".unsaved"  # beside the log: rows that it could not take
 CUT = ".repairs"  # beside the log: lines that had no end when the next row came
 TRIES = 5
@@ -37,6 +37,16 @@ _FLAGS = (
 
 class CannotAppendError(Exception):
     """The log cannot take the lines: which file, why, and what to do."""
+
+
+def command(option: str, log: Path) -> str:
+    """Return what to type, in the kit's folder, to look after a log: `--check`, say."""
+    start = f"python3 scripts/log_metric.py {option}"
+    path = log.absolute()
+    if path == OWN_LOG:
+        return start
+    name = str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
+    return f'{start} --file "{name}"' if " " in name else f"{start} --file {name}"
 
 
 def append_or_keep(path: Path, text: str, sync: bool) -> None:
@@ -69,7 +79,7 @@ def append(path: Path, text: str, sync: bool) -> None:
             if not text:
                 return
     except OSError as error:
-        why = in_words(error, str(path))
+        why = _in_words(error, str(path))
         raise CannotAppendError(f"{shown(path)}: {why}") from None
     raise CannotAppendError(
         f"{shown(path)} keeps being replaced by another program."
@@ -227,3 +237,25 @@ def _keep(path: Path, text: str) -> str:
     except OSError:
         pass
     return f"{rows}  kept nowhere but here: copy {them}"
+
+
+def _in_words(error: OSError, name: str) -> str:
+    """Return what an error with the log of that name means, and what to do about it."""
+    if os.path.isdir(name):
+        return "a folder is in the log's place. Move that folder away."
+    if error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)):
+        return "the disk is full. Free some space."
+    if error.errno == errno.EFBIG:
+        return "the file may not grow further (see `ulimit -f`). Raise that limit."
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return (
+            "it is read-only, or another program has it open. Make it and its"
+            " folder writable (chmod u+w), or close that program."
+        )
+    if error.errno in (errno.ENOENT, errno.ENOTDIR):
+        return "its folder does not exist. Make that folder, or correct the path."
+    if error.errno == errno.EINVAL:
+        return "it is not a regular file. Name a .csv file."
+    if isinstance(error, TimeoutError):
+        return f"{error}. End or continue that program."
+    return f"{error.strerror or error}. Fix that and try again."

@@ -3,13 +3,14 @@
 One line is one row, so a quote that is never closed costs its own line only.
 """
 
+import contextlib
 import csv
 import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.log.logfile import CUT
 from labkit.log.rows import BOM, COLUMNS, HEAD, Row, decode, line_end, wrong_header
 from robo47.errors import Robo47Error
@@ -37,7 +38,21 @@ def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
     Raises:
         Robo47Error: no file, or a first line that is not the header.
     """
-    with _opened(Path(path)) as file:
+    name = Path(path)
+    with contextlib.ExitStack() as stack:
+        try:
+            if name.exists() and not name.is_file():
+                raise OSError("it is no regular file")  # a pipe would wait for ever
+            file = stack.enter_context(name.open("rb"))
+        except FileNotFoundError:
+            raise Robo47Error(
+                f"{shown(name)} does not exist. `make day1` writes the first row, or"
+                " bring it back: git checkout metrics/metrics.csv"
+            ) from None
+        except OSError as error:
+            raise Robo47Error(
+                f"{shown(name)} cannot be read: {error.strerror or error}. Fix that."
+            ) from None
         yield from scan_file(file, path)
 
 
@@ -75,26 +90,12 @@ def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
         raise Robo47Error(wrong_header(chosen))
     file.seek(0)
     file.readline()
-    cut = _known_cuts(chosen)
+    cut: set[str] = set()  # lines that were noted as such
+    with contextlib.suppress(OSError):
+        cut.update(Path(f"{path}{CUT}").read_text("utf-8", "replace").split("\n"))
     for number, raw in enumerate(file, 2):
         if raw.strip(b"\0 \t\r\n"):
             yield _line(number, raw, cut)
-
-
-def _opened(path: Path) -> BinaryIO:
-    try:
-        if path.exists() and not path.is_file():
-            raise OSError("it is no regular file")  # a pipe would wait for ever
-        return open(path, "rb")
-    except FileNotFoundError:
-        raise Robo47Error(
-            f"{shown(path)} does not exist. `make day1` writes the first row, or bring"
-            " it back: git checkout metrics/metrics.csv"
-        ) from None
-    except OSError as error:
-        raise Robo47Error(
-            f"{shown(path)} cannot be read: {error.strerror or error}. Fix that."
-        ) from None
 
 
 def _line(number: int, raw: bytes, cut: set[str]) -> Line:
@@ -128,11 +129,3 @@ def _cells(raw: bytes) -> list[str]:
         why = few if len(cells) < WIDTH else "two rows in one, or commas without quotes"
         raise ValueError(f"{count(len(cells), 'column')} where {WIDTH} belong ({why})")
     return cells
-
-
-def _known_cuts(path: Path) -> set[str]:
-    try:
-        text = Path(str(path) + CUT).read_text("utf-8", "replace")
-    except OSError:
-        return set()
-    return set(text.split("\n"))

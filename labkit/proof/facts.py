@@ -1,6 +1,6 @@
 """Facts of a proof: a clone's tasks and numbers, found now and in the sandbox."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -9,14 +9,15 @@ from labkit.base.text import visible
 from labkit.check.lab_run import rehearse
 from labkit.check.memory import in_words
 from labkit.check.tasks import check_tasks
-from labkit.grade.package import Package, collect, unpack
+from labkit.grade.package import collect, unpack
 from labkit.grade.roster import Student
-from labkit.handin.commit import check_commit, wanted_names
+from labkit.handin.deliverables import check_commit, wanted_names
+from labkit.handin.handin import Handin
 from labkit.handin.rows import rows_of
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import mark_of, writers_with
-from labkit.log.rows import Row
-from labkit.report.series import value_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import writers_with
+from labkit.report.series import Series, series_of
+from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 
@@ -24,32 +25,14 @@ CALLS = 20_000  # of a lab's functions: all of the kit's labs need fewer
 
 
 @dataclass(frozen=True)
-class Number:
-    """One number of a day."""
+class RunDay(DayFacts):
+    """How a day of somebody's stands, as it ran here."""
 
-    metric: Metric  # what it must reach
-    logged: float | None  # the last row that is not the kit's; None without one
-    worth: str  # what that row is worth now, as `Writers.judge` says
-    # What the lab gave here with theirs; None where it did not come so far.
-    again: float | None
-
-
-@dataclass(frozen=True)
-class DayFacts:
-    """How a day stands."""
-
-    day: Day  # from the kit's manifest
-    # How each function stands: "passed", "borrowed", "wrong", "to do", ...
-    states: Mapping[str, str]
-    numbers: Sequence[Number]  # in the manifest's order
+    # The numbers that the lab gave with theirs as far as it came, by check and metric.
+    again: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fault: str = ""  # the first step of the lab that failed here, "" where none did
     # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
-
-    @property
-    def own(self) -> list[str]:
-        """The functions that are the student's and right."""
-        return [name for name, state in self.states.items() if state == "passed"]
 
 
 @dataclass(frozen=True)
@@ -83,7 +66,7 @@ def open_clone(path: Path, name: str = "", *, own: bool = False) -> Clone:
     return Clone(student, own, read_history(path, (), own=own))
 
 
-def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> DayFacts:
+def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> RunDay:
     """Return how a day stands; its files are left in an empty folder for the capstone.
 
     Raises:
@@ -93,52 +76,32 @@ def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> DayFacts
     unpack(package, folder)
     script = package.handin.files.get(day.files["script"])
     if script is None:
-        states = {f: "not begun" for task in day.tasks for f in task.functions}
-        return DayFacts(day, states, _numbers(day, package, {}))
+        states = {task.id: "not begun" for task in day.tasks}
+        return RunDay(day, states, _numbers(day, package.handin))
     results = check_tasks(day, folder / day.script, sandbox)
     done = all(r.passed for r in results if not r.task.optional)
     fault, again = "", dict[tuple[str, str], float]()
     if done:
         fault, again = rehearse(day, folder / day.script, sandbox, CALLS)
-    return DayFacts(
-        day,
-        {f: in_words(r.verdict) for r in results for f in r.task.functions},
-        _numbers(day, package, again),
-        visible(fault, 300),
-        _left(day, package, clone),
-    )
-
-
-def _left(day: Day, package: Package, clone: Clone) -> str:
-    """Return what the last commit lacks of a day's files, in a line."""
     item = package.commit_item
     if clone.own:  # git may be asked for more of one's own
         wanted = wanted_names(day, package.handin)
         history = read_history(clone.student.path, wanted, own=True)
         item = check_commit(day, package.handin, history)
-    return "" if item.passed else visible(item.message.partition("\n")[0], 300)
+    return RunDay(
+        day,
+        {result.task.id: in_words(result.verdict) for result in results},
+        _numbers(day, package.handin),
+        again,
+        visible(fault, 300),
+        "" if item.passed else visible(item.message.partition("\n")[0], 300),
+    )
 
 
-def _numbers(
-    day: Day, package: Package, again: Mapping[tuple[str, str], float]
-) -> list[Number]:
-    """Return a day's numbers: those of the log, and those that the lab gave here."""
-    handin = package.handin
+def _numbers(day: Day, handin: Handin) -> list[Series]:
+    """Return the runs of a day's numbers that are in the log."""
     writers = writers_with(day, handin.files.get(day.files["script"]))
     try:
-        rows = rows_of(day, handin)
+        return series_of(day, rows_of(day, handin), writers)
     except Robo47Error:  # no log that can be read
-        rows = []
-    latest: dict[tuple[str, str], Row] = {
-        (str(row["check"]), str(row["metric"])): row
-        for row in rows
-        if mark_of(row) not in writers.kits
-    }
-    found = []
-    for metric in day.metrics:
-        key = metric.check, metric.metric
-        row = latest.get(key)
-        value = None if row is None else value_of(row)
-        worth = writers.judge(metric, row)
-        found.append(Number(metric, value, worth, again.get(key)))
-    return found
+        return series_of(day, [], writers)

@@ -11,12 +11,12 @@ import mujoco
 
 import robo47
 from labkit.base import html
-from labkit.base.words import count, number_of
+from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
 from labkit.inspector.recording import ALLOWED
-from labkit.proof.facts import Clone, DayFacts, Number
+from labkit.proof.facts import Clone, RunDay
 from labkit.proof.pick import Picked, film
-from labkit.report.week_labs import name_of
+from labkit.report.series import Series
 
 STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
@@ -30,6 +30,7 @@ WORTH = {
     "pass": ("pass", "by the file as it is"),
     "fail": ("fail", "beyond its limit"),
     "none": ("none", "no row of their own in the log"),
+    "kit": ("none", "no row of their own in the log"),
     "stale": ("none", "the file changed since"),
     "unsigned": ("none", "by no file that is named"),
     "borrowed": ("none", "partly borrowed"),
@@ -47,12 +48,11 @@ class Proof:
     """All that the page says."""
 
     clone: Clone  # whose
-    days: Sequence[DayFacts]  # of a week, in order
+    days: Sequence[RunDay]  # of a week, in order
     picked: Picked  # the capstone
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
     # many things missing; {} where nobody asked.
     fresh: dict[str, Any] = field(default_factory=dict)
-    teacher: bool = False  # whether a teacher's kit found all this
 
 
 def render(proof: Proof) -> str:
@@ -63,11 +63,14 @@ def render(proof: Proof) -> str:
     """
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
-    title = f"{escape(proof.clone.name)}: {_week(proof.days)}"
+    week = proof.days[0].day.week.heading
+    title = escape(f"{proof.clone.name}: {week[0].lower()}{week[1:]}")
+    who = "the student's own kit" if proof.clone.own else "a teacher's kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
         title,
-        _about(proof),
+        f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
+        f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted.",
         _tiles(proof),
         _pick(proof.picked, place),
         _numbers(proof.days),
@@ -83,24 +86,11 @@ def render(proof: Proof) -> str:
     return page.replace(place, played, 1)
 
 
-def _week(days: Sequence[DayFacts]) -> str:
-    heading = days[0].day.week.heading
-    return escape(heading[0].lower() + heading[1:])
-
-
-def _about(proof: Proof) -> str:
-    who = "a teacher's kit" if proof.teacher else "the student's own kit"
-    return (
-        f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
-        f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted."
-    )
-
-
 def _tiles(proof: Proof) -> str:
-    numbers = [number for one in proof.days for number in one.numbers]
-    right = sum(map(_right, numbers))
+    numbers = [_again(one, number) for one in proof.days for number in one.numbers]
+    right = sum(role == "pass" for role, _ in numbers)
     own = sum(len(one.own) for one in proof.days)
-    total = sum(len(one.states) for one in proof.days)
+    total = sum(one.functions for one in proof.days)
     result = proof.picked.result
     placed = "–" if result is None else f"{result.place_mm:.1f} mm"
     theirs = proof.picked.yours == proof.picked.total
@@ -118,8 +108,13 @@ def _tiles(proof: Proof) -> str:
     ])  # fmt: skip
 
 
-def _right(number: Number) -> bool:
-    return number.again is not None and number.metric.passes(number.again)
+def _again(one: RunDay, number: Series) -> tuple[str, str]:
+    """Return what the lab gave here, after the class of its colour."""
+    wanted = number.wanted
+    value = one.again.get((wanted.check, wanted.metric))
+    if value is None:
+        return "none", "–"
+    return "pass" if wanted.passes(value) else "fail", number_of(value)
 
 
 def _fresh(proof: Proof) -> tuple[str, str]:
@@ -153,7 +148,7 @@ def _pick(picked: Picked, place: str) -> str:
     )
 
 
-def _numbers(days: Sequence[DayFacts]) -> str:
+def _numbers(days: Sequence[RunDay]) -> str:
     rows = [_number(one, number) for one in days for number in one.numbers]
     faults = "".join(
         f"<p class=fail>Day {one.day.number}, the lab here: {escape(one.fault)}</p>"
@@ -169,26 +164,25 @@ def _numbers(days: Sequence[DayFacts]) -> str:
     return html.section("The numbers", about, faults, html.table(head, rows))
 
 
-def _number(one: DayFacts, number: Number) -> str:
-    role, worth = WORTH[number.worth]
-    logged = "" if number.logged is None else f"log: {number_of(number.logged)}, "
-    again = "none" if number.again is None else "pass" if _right(number) else "fail"
-    value = "–" if number.again is None else number_of(number.again)
+def _number(one: RunDay, number: Series) -> str:
+    role, worth = WORTH[number.status]
+    logged = "" if number.latest is None else f"log: {number_of(number.latest)}, "
+    again, value = _again(one, number)
     return (
         f"<tr><td>{one.day.number}</td>"
-        f"<td class=wide>{escape(name_of(one.day, number.metric))}<br>"
+        f"<td class=wide>{escape(one.day.name_of(number.wanted))}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
-        f'<td class="n {again}">{value}</td><td>{escape(number.metric.limit)}</td></tr>'
+        f'<td class="n {again}">{value}</td><td>{escape(number.wanted.limit)}</td></tr>'
     )
 
 
-def _functions(days: Sequence[DayFacts]) -> str:
+def _functions(days: Sequence[RunDay]) -> str:
     rows = []
     for one in days:
         others: dict[str, list[str]] = {}
-        for name, state in one.states.items():
-            if state != "passed":
-                others.setdefault(state, []).append(name)
+        for task in one.day.tasks:
+            if (state := one.states[task.id]) != "passed":
+                others.setdefault(state, []).extend(task.functions)
         rest = "<br>".join(
             f"{escape(state)}: {_code(names)}" for state, names in others.items()
         )

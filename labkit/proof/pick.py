@@ -9,8 +9,8 @@ import numpy as np
 from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
 from labkit.inspector.recording import FRAMES, Recording
-from labkit.lesson import folder
-from labkit.proof.facts import DayFacts
+from labkit.lesson.script import lab_of
+from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
 from robo47.capstone.phases import Result
@@ -34,7 +34,7 @@ def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) ->
     for facts, place in zip(days, folders, strict=True):
         wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
         if wanted:
-            script, lab = place / facts.day.script, folder.lab(facts.day)
+            script, lab = place / facts.day.script, lab_of(facts.day)
             own = behind_wall(facts.day, script, sandbox, lab, budget)
             for name in wanted:
                 setattr(fns, name, own[name])

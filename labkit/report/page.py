@@ -1,11 +1,11 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 from itertools import groupby
 
 from labkit.base import html
-from labkit.base.words import count
+from labkit.base.text import count
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
@@ -36,7 +36,7 @@ def render(
     report: Report,
     heading: str,
     week: int | None = None,
-    checked: Mapping[int | None, str] | None = None,
+    checked: Mapping[int, str] | None = None,
 ) -> str:
     """Return the whole page.
 
@@ -48,6 +48,7 @@ def render(
     """
     link = f' · <a href="report-week{week}.html">Week {week}</a>'
     beside = "" if week is None else link
+    checked = checked or {}
     days = groupby(report.series, key=lambda series: series.day)
     return html.page(
         "robo47 metrics",
@@ -55,10 +56,7 @@ def render(
         _tiles(report),
         *([] if report.rows else [NOTHING]),
         _jumps(report),
-        *(
-            _day(day, list(series), (checked or {}).get(day, ""))
-            for day, series in days
-        ),
+        *(_day(day, series, checked.get(day or 0, "")) for day, series in days),
         _look(report.look),
     )
 
@@ -94,8 +92,8 @@ def _jumps(report: Report) -> str:
     return f'<p class="jumps">{links}</p>'
 
 
-def _day(day: int | None, series: list[Series], checked: str) -> str:
-    cards = "".join(_card(one) for one in series)
+def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
+    cards = "".join(map(_card, series))
     about = checked and f'<p class="muted">{escape(checked)}</p>'
     return (
         f'<section id="{day}"><h2>{_title(day)}</h2>{about}'
@@ -105,23 +103,24 @@ def _day(day: int | None, series: list[Series], checked: str) -> str:
 
 def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
-    best = "best" if series.threshold else "lowest"
-    latest = value_of(series.rows[-1]) if series.rows else None
+    best = "best" if series.wanted.limit else "lowest"
     facts = [
-        ("latest", plot.number(latest)),
+        ("latest", plot.number(series.latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
         ("threshold", escape(series.limits)),
     ]
     if series.kits:
-        facts.append(("the kit's", plot.number(value_of(series.kits[-1]))))
+        facts.append(("the kit's", plot.number(series.kit)))
+    judged = series.status in ("pass", "fail")
+    role = {"latest": f' class="{series.status}"'} if judged else {}
     terms = "".join(
-        f"<dt>{name}</dt><dd{_colour(name, series)}>{value}</dd>"
-        for name, value in facts
+        f"<dt>{name}</dt><dd{role.get(name, '')}>{value}</dd>" for name, value in facts
     )
+    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
-        f'<article class="card"><div class="top"><div><h3>{_text(series.check)}</h3>'
-        f'<span class="muted">{_text(series.metric)}</span></div>'
+        f'<article class="card"><div class="top"><div><h3>{check}</h3>'
+        f'<span class="muted">{metric}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
         f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
@@ -135,11 +134,6 @@ def _failures(series: Series) -> str:
         return ""
     trials = latest["n_trials"] or "?"
     return f'<p class="fail">failed in {latest["n_failures"]} of {trials} trials</p>'
-
-
-def _colour(name: str, series: Series) -> str:
-    judged = name == "latest" and series.status in ("pass", "fail")
-    return f' class="{series.status}"' if judged else ""
 
 
 def _text(cell: object) -> str:

@@ -43,7 +43,7 @@ def draw(series: Series) -> str:
     halo = 'fill="var(--line)" fill-opacity=".2"'
     parts.append(_circle(x, _y(axis, last), 8, halo, ""))
     parts.append(_dot(series, axis, x, last, 4))
-    label = escape(f"{series.check} {series.metric}, run by run")
+    label = escape(f"{series.wanted.check} {series.wanted.metric}, run by run")
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}">'
         f"{''.join(parts + _under_axis(places))}</svg>"
@@ -78,9 +78,8 @@ class _Axis:
         self.log = series.is_log
         self.has_zero = False
         shown = [_drawable(v) for v in series.values if v > 0 or not self.log]
-        if series.threshold:
-            bounds = (series.threshold.min, series.threshold.max)
-            shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
+        bounds = (series.wanted.min, series.wanted.max)
+        shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
         low, high = min(shown), max(shown)
         if self.log:
             low, high = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -128,10 +127,8 @@ def _drawable(value: float) -> float:
 
 
 def _threshold(series: Series, axis: _Axis) -> list[str]:
-    if series.threshold is None:
-        return []
     parts = []
-    for sign, bound in (("<", series.threshold.max), (">", series.threshold.min)):
+    for sign, bound in (("<", series.wanted.max), (">", series.wanted.min)):
         if bound is None or (axis.log and bound <= 0):
             continue
         y = axis.y(bound)
@@ -151,7 +148,7 @@ def _y(axis: _Axis, row: Row) -> float:
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
     """Return a run's dot; hollow where the axis cannot show its value."""
-    role = series.threshold.judge(row) if series.threshold else "line"
+    role = series.wanted.judge(row) if series.wanted.limit else "line"
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
     if row["n_failures"]:
         tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"

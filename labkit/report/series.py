@@ -2,27 +2,25 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass, field
-from pathlib import Path
 
-from labkit.lesson.day import Metric, all_days
+from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
-from robo47.paths import ROOT
 
 Key = tuple[int | None, str, str]  # day, check, metric
 
 
 class Series:
-    """The runs of one check's metric, oldest first, and what they must reach."""
+    """The runs of one number, oldest first, and what they must reach."""
 
     def __init__(
-        self, key: Key, threshold: Metric | None, writers: Writers | None = None
+        self, day: int | None, wanted: Metric, writers: Writers | None = None
     ) -> None:
-        """Begin without runs: the day, check and metric, and what they must reach."""
-        self.day, self.check, self.metric = key
-        self.threshold = threshold
+        """Begin without runs; a number that nobody asks for has no limit."""
+        self.day, self.wanted = day, wanted
         self.writers = writers or Writers()
         self.rows: list[Row] = []  # all but
         self.kits: list[Row] = []  # the kit's own
@@ -32,41 +30,63 @@ class Series:
         by_kit = mark_of(row) in self.writers.kits
         (self.kits if by_kit else self.rows).append(row)
 
+    def signed(self) -> "Series":
+        """Return the series of the runs that say which file made them."""
+        some = copy(self)
+        some.rows = [row for row in self.rows if mark_of(row)]
+        return some
+
     @property
     def values(self) -> list[float]:
         """The finite values, oldest first."""
         return [value for value in map(float_of, self.rows) if math.isfinite(value)]
 
     @property
+    def latest(self) -> float | None:
+        """The last run's value; None where there is none."""
+        return value_of(self.rows[-1]) if self.rows else None
+
+    @property
+    def kit(self) -> float | None:
+        """The value of the kit's own last run; None where there is none."""
+        return value_of(self.kits[-1]) if self.kits else None
+
+    @property
     def status(self) -> str:
         """What the latest run is worth now, as `Writers.judge` has it.
 
-        "open" without a threshold, "kit" where nobody but the kit ran it.
+        "kit" where nobody but the kit ran it, "open" where nothing is asked of it.
         """
         if not self.rows:
             return "kit" if self.kits else "none"
-        if self.threshold is None:
+        if not self.wanted.limit:
             return "open"
-        return self.writers.judge(self.threshold, self.rows[-1])
+        return self.writers.judge(self.wanted, self.rows[-1])
 
     @property
     def limits(self) -> str:
-        """The threshold in signs, "< 1e-08"; "–" where there is none."""
-        if self.threshold is None:
-            return "–"
-        low, high = self.threshold.min, self.threshold.max
-        parts = [] if low is None else [f"> {low:g}"]
-        parts += [] if high is None else [f"< {high:g}"]
-        return ", ".join(parts)
+        """The limits in signs, "< 1e-08"; "–" where there are none."""
+        bounds = ((">", self.wanted.min), ("<", self.wanted.max))
+        parts = [f"{sign} {bound:g}" for sign, bound in bounds if bound is not None]
+        return ", ".join(parts) or "–"
 
     @property
     def best(self) -> float | None:
         """The largest value where a minimum is asked for, else the smallest."""
         values = self.values
-        if not values:
-            return None
-        wants_high = self.threshold is not None and self.threshold.max is None
-        return max(values) if wants_high else min(values)
+        return (max if self._wants_high else min)(values) if values else None
+
+    @property
+    def worst(self) -> float | None:
+        """The value farthest on the other side; NaN where a run gave no number."""
+        values = [float_of(row) for row in self.rows]
+        if any(map(math.isnan, values)):
+            return math.nan
+        return (min if self._wants_high else max)(values) if values else None
+
+    @property
+    def _wants_high(self) -> bool:
+        return self.wanted.max is None and self.wanted.min is not None
 
     @property
     def is_log(self) -> bool:
@@ -75,7 +95,7 @@ class Series:
         positive = [value for value in values if value > 0]
         if not positive or min(values) < 0:
             return False
-        return "err" in self.metric or max(positive) > 100 * min(positive)
+        return "err" in self.wanted.metric or max(positive) > 100 * min(positive)
 
 
 @dataclass
@@ -91,20 +111,26 @@ class Report:
         return sum(one.status == status for one in self.series)
 
 
-def thresholds(root: Path = ROOT) -> dict[Key, Metric]:
-    """Return what the days' manifests ask for, by day, check and metric.
+def thresholds(days: Iterable[Day]) -> dict[Key, Metric]:
+    """Return what days' manifests ask for, by day, check and metric."""
+    return {(day.number, m.check, m.metric): m for day in days for m in day.metrics}
+
+
+def series_of(
+    day: Day, rows: Iterable[Row], writers: Writers | None = None
+) -> list[Series]:
+    """Return the runs of all numbers that a day asks for, in the manifest's order.
 
     Args:
-        root: the clone.
-
-    Raises:
-        Robo47Error: a manifest is not right; names the entry.
+        day: from its manifest.
+        rows: of its log, oldest first; those of other numbers are left out.
+        writers: who may have written them.
     """
-    return {
-        (day.number, metric.check, metric.metric): metric
-        for day in all_days(root)
-        for metric in day.metrics
-    }
+    found = {(m.check, m.metric): Series(day.number, m, writers) for m in day.metrics}
+    for row in rows:
+        if one := found.get((str(row["check"]), str(row["metric"]))):
+            one.add(row)
+    return list(found.values())
 
 
 def value_of(row: Row) -> float | None:
@@ -140,7 +166,7 @@ def collect(
     found: dict[Key, Series] = {}
     for key, threshold in thresholds.items():
         if day in (None, key[0]) and check in ("", key[1]):
-            found[key] = Series(key, threshold, (writers or {}).get(key[0] or 0))
+            found[key] = Series(key[0], threshold, (writers or {}).get(key[0] or 0))
     report = Report([])
     for line in lines:
         row = line.row
@@ -170,11 +196,13 @@ def _add(found: dict[Key, Series], thresholds: Mapping[Key, Metric], row: Row) -
         day = days[0] if len(days) == 1 else None
     key = (day, name, metric)
     if key not in found:
-        found[key] = Series(key, thresholds.get(key))
+        wanted = thresholds.get(key) or Metric(name, metric)
+        found[key] = Series(day, wanted)
     found[key].add(row)
 
 
 def _place(series: Series) -> tuple[float, bool, str, str]:
     """Return what orders the series: by day, and what fails first."""
     day = math.inf if series.day is None else series.day
-    return (day, series.status != "fail", series.check, series.metric)
+    wanted = series.wanted
+    return (day, series.status != "fail", wanted.check, wanted.metric)

@@ -13,75 +13,74 @@ from labkit.base import store
 from labkit.base.git import GitError, run
 from labkit.check import memory
 from labkit.check.memory import Met
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import mark_of, writers_of
-from labkit.report.series import Key, Series, float_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import writers_of
+from labkit.report.series import Series
 from robo47.paths import ROOT
 
 GIT_SECONDS = 10.0
 
 
 @dataclass(frozen=True)
-class Number:
-    """One number of a day; None where there is no row."""
+class DayFacts:
+    """How a day stands."""
 
-    metric: Metric  # what it must reach
-    latest: float | None  # the student's last run
-    status: str  # what that run is worth now, as `Writers.judge` says
-    worst: float | None  # the farthest from the limit's good side that they logged
-    kit: float | None  # the kit's own last run on this machine
+    day: Day
+    # How each task stands, "passed", "wrong" and so on; none that nobody checked as
+    # the file is now.
+    states: Mapping[str, str]
+    numbers: Sequence[Series]  # in the manifest's order
 
     @property
-    def passed(self) -> bool:
-        """Whether the student's file as it is gave a number within the limit."""
-        return self.status == "pass"
+    def own(self) -> list[str]:
+        """The functions that are the student's and right."""
+        return memory.passing(self.day, self.states)
+
+    @property
+    def functions(self) -> int:
+        """How many functions the day asks for."""
+        return sum(len(task.functions) for task in self.day.tasks)
 
 
 @dataclass(frozen=True)
-class DayFacts:
-    """How a day went."""
+class OwnDay(DayFacts):
+    """How a day of one's own went."""
 
-    day: Day
-    numbers: Sequence[Number]  # the student's beside the kit's
-    passed: int  # how many tasks pass; side quests are not counted
-    tasks: int  # of how many
-    own: int  # how many of the day's functions are in tasks that pass
-    functions: int  # of how many
-    minutes: int | None  # from the first to the last commit; None: git cannot tell
-    hints: int  # how many were asked for
-    met: Sequence[Met]  # the named mistakes, in the order they were met
-    # Whether `make check` has seen all tasks in the file as it is; else none passed.
-    checked: bool = True
+    minutes: int | None = None  # from the first to the last commit, as git knows
+    hints: int = 0  # how many were asked for
+    met: Sequence[Met] = ()  # the named mistakes, in the order they were met
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property
-    def begun(self) -> bool:
-        """Whether the student has a file of the day."""
-        return self.day.work.is_file()
+    def checked(self) -> bool:
+        """Whether `make check` has seen all tasks in the file as it is."""
+        return len(self.states) == len(self.day.tasks)
+
+    @property
+    def graded(self) -> list[bool]:
+        """Whether each task passes; side quests are not counted."""
+        tasks = [task for task in self.day.tasks if not task.optional]
+        return [self.states.get(task.id) == "passed" for task in tasks]
 
 
-def facts_of(day: Day, series: Mapping[Key, Series], root: Path = ROOT) -> DayFacts:
+def facts_of(day: Day, series: Sequence[Series], root: Path = ROOT) -> OwnDay:
     """Return how a day went.
 
     Args:
         day: from its manifest.
-        series: the log's rows, by day, check and metric.
+        series: the log's rows of all that the day asks for.
         root: the clone.
     """
     known = memory.known(day)
-    passed = [task for task in day.tasks if known.get(task.id) == "passed"]
     ids = {task.id for task in day.tasks}
-    return DayFacts(
+    by = {one.wanted: one for one in series if one.day == day.number}
+    return OwnDay(
         day,
-        numbers_of(day, series),
-        sum(not task.optional for task in passed),
-        sum(not task.optional for task in day.tasks),
-        sum(len(task.functions) for task in passed),
-        sum(len(task.functions) for task in day.tasks),
+        known,
+        [by[metric].signed() for metric in day.metrics],
         minutes_of(day, root),
         sum(n for task, n in store.hints_given(root).items() if task in ids),
         [m for m in memory.mistakes_met(memory.journal(root), known) if m.task in ids],
-        len(known) == len(ids),
         writers_of(day).borrowed,
     )
 
@@ -116,36 +115,3 @@ def _times(root: Path, paths: Sequence[str]) -> list[int]:
     except GitError:
         return []
     return [int(word) for word in done.stdout.split() if word.isdecimal()]
-
-
-def numbers_of(day: Day, series: Mapping[Key, Series]) -> list[Number]:
-    """Return a day's numbers, in the manifest's order.
-
-    Args:
-        day: from its manifest.
-        series: the log's rows, by day, check and metric.
-    """
-    found = []
-    for metric in day.metrics:
-        key = (day.number, metric.check, metric.metric)
-        found.append(_number(metric, series.get(key) or Series(key, metric)))
-    return found
-
-
-def _number(metric: Metric, series: Series) -> Number:
-    mine = [row for row in series.rows if mark_of(row)]
-    own = [float_of(row) for row in mine]
-    return Number(
-        metric,
-        own[-1] if own else None,
-        series.writers.judge(metric, mine[-1] if mine else None),
-        max(own, key=lambda value: _badness(metric, value), default=None),
-        float_of(series.kits[-1]) if series.kits else None,
-    )
-
-
-def _badness(metric: Metric, value: float) -> float:
-    """Return what grows as a value gets worse; a value that is no number is worst."""
-    if value != value:
-        return float("inf")
-    return -value if metric.max is None else value

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from labkit.base import processes
-from labkit.lesson.day import Day, Metric
+from labkit.lesson.day import Day
 from labkit.log import read_rows
-from labkit.log.rows import Row
-
-Key = tuple[str, str]  # of a number: its check and its metric
+from labkit.report.series import Series, series_of
 
 
 @dataclass(frozen=True)
@@ -23,28 +21,13 @@ class Ran:
 
     day: Day
     mine: bool  # the student's file ran, and not the kit's
-    rows: Mapping[Key, Row]  # those it recorded
+    numbers: Sequence[Series]  # that the manifest asks for, and what it recorded
     why: str  # why it did not pass, in a line; "" where it did
 
     @property
     def passed(self) -> bool:
         """Whether the lab and every number that the manifest asks for are right."""
-        return not self.why and all(map(self.passes, self.day.metrics))
-
-    def passes(self, metric: Metric) -> bool:
-        """Return whether a number was recorded and is as it must be."""
-        return metric.judge(self.rows.get((metric.check, metric.metric))) == "pass"
-
-    def value(self, metric: Metric) -> float | None:
-        """Return a number that was recorded, or None."""
-        row = self.rows.get((metric.check, metric.metric))
-        return None if row is None else float(str(row["value"]))
-
-
-def name_of(day: Day, metric: Metric) -> str:
-    """Return what to call a number: its check, with the metric where it has several."""
-    alone = [m.check for m in day.metrics].count(metric.check) < 2
-    return metric.check if alone else f"{metric.check} {metric.metric}"
+        return not self.why and all(one.status == "pass" for one in self.numbers)
 
 
 def run_labs(
@@ -82,9 +65,7 @@ def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> R
         variables = {**environment, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
         done = processes.run([python, str(script)], env=variables)
         rows = read_rows(log) if log.exists() else []
-    latest = {(str(r["check"]), str(r["metric"])): r for r in rows}
-    numbers = {k: row for k, row in latest.items() if row["value"] is not None}
-    return Ran(day, mine, numbers, _why(done))
+    return Ran(day, mine, series_of(day, rows), _why(done))
 
 
 def _why(done: subprocess.CompletedProcess[str]) -> str:

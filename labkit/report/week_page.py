@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from html import escape
 
 from labkit.base import html
-from labkit.base.words import number_of
+from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS
-from labkit.report.week_facts import DayFacts, Number
-from labkit.report.week_labs import name_of
+from labkit.report.series import Series
+from labkit.report.week_facts import OwnDay
 
 STYLE = """
 body { max-width: 980px; }
@@ -29,7 +29,7 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 """
 
 _MARKS = {status: f"{mark} {words}" for status, (mark, words) in STATUS.items()}
-_MARKS["none"] = "○ no row yet"
+_MARKS |= {"none": "○ no row yet", "kit": "○ the kit's file ran"}
 # Names of what no known mistake explains.
 _GENERAL = {
     "off": "wrong numbers, by no mistake that the kit knows",
@@ -39,7 +39,7 @@ _GENERAL = {
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
-def render(facts: Sequence[DayFacts], heading: str) -> str:
+def render(facts: Sequence[OwnDay], heading: str) -> str:
     """Return the whole page.
 
     Args:
@@ -71,13 +71,16 @@ def minutes_in_words(minutes: int | None) -> str:
     return f"{minutes / 1440:.1f} days"
 
 
-def _tiles(facts: Sequence[DayFacts]) -> str:
+def _tiles(facts: Sequence[OwnDay]) -> str:
     numbers = [number for one in facts for number in one.numbers]
+    right = sum(number.status == "pass" for number in numbers)
     met = [m for one in facts for m in one.met]
+    graded = [passed for one in facts for passed in one.graded]
+    own = sum(len(one.own) for one in facts)
     tiles = [
-        (sum(f.passed for f in facts), sum(f.tasks for f in facts), "tasks pass"),
-        (sum(n.passed for n in numbers), len(numbers), "numbers within limits"),
-        (sum(f.own for f in facts), sum(f.functions for f in facts), "functions yours"),
+        (sum(graded), len(graded), "tasks pass"),
+        (right, len(numbers), "numbers within limits"),
+        (own, sum(f.functions for f in facts), "functions yours"),
         (sum(m.now == "left behind" for m in met), len(met), "mistakes left behind"),
     ]
     cells = [
@@ -87,7 +90,7 @@ def _tiles(facts: Sequence[DayFacts]) -> str:
     return html.tiles([*cells, ("", f"{sum(f.hints for f in facts):,}", "hints asked")])
 
 
-def _numbers(facts: Sequence[DayFacts]) -> str:
+def _numbers(facts: Sequence[OwnDay]) -> str:
     kits = any(number.kit is not None for one in facts for number in one.numbers)
     rows = [
         _number(one, number, first=i == 0, kits=kits)
@@ -103,23 +106,21 @@ def _numbers(facts: Sequence[DayFacts]) -> str:
     return html.section("The numbers", html.table(head, rows))
 
 
-def _number(one: DayFacts, number: Number, *, first: bool, kits: bool) -> str:
+def _number(one: OwnDay, number: Series, *, first: bool, kits: bool) -> str:
     role = number.status if number.status in ("pass", "fail") else "none"
     mark = _MARKS[number.status]
-    if number.latest is None and number.kit is not None:
-        mark = "○ the kit's file ran"
     day = one.day.number if first else ""
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
         f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
-        f"<td>{escape(name_of(one.day, number.metric))}</td>"
+        f"<td>{escape(one.day.name_of(number.wanted))}</td>"
         f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
-        f"<td>{escape(number.metric.limit)}</td>"
+        f"<td>{escape(number.wanted.limit)}</td>"
         f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
     )
 
 
-def _days(facts: Sequence[DayFacts]) -> str:
+def _days(facts: Sequence[OwnDay]) -> str:
     rows = [
         f"<tr><td class=day>{one.day.number}</td>"
         f"<td class=wide>{escape(one.day.title)}</td>"
@@ -136,7 +137,7 @@ def _days(facts: Sequence[DayFacts]) -> str:
     return html.section("The days", html.table(head, rows))
 
 
-def _mistakes(facts: Sequence[DayFacts]) -> str:
+def _mistakes(facts: Sequence[OwnDay]) -> str:
     rows = [_mistake(one.day, met) for one in facts for met in one.met]
     nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
     head = "<th>task</th><th>what was wrong</th><th>now</th>"
@@ -158,19 +159,18 @@ def _mistake(day: Day, met: Met) -> str:
     )
 
 
-def _counts(one: DayFacts) -> str:
+def _counts(one: OwnDay) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
         return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
-    bar, borrowed = _bar(one.passed, one.tasks), ""
+    passed, of, borrowed = sum(one.graded), len(one.graded), ""
     if one.borrowed:
         borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
-    return f"<td>{bar}</td><td>{one.own} of {one.functions}{borrowed}</td>"
-
-
-def _bar(passed: int, of: int) -> str:
-    share = 100 * passed / max(1, of)
-    return f'<span class=bar><i style="width:{share:.0f}%"></i></span>{passed} of {of}'
+    share = f"{100 * passed / max(1, of):.0f}%"
+    return (
+        f'<td><span class=bar><i style="width:{share}"></i></span>{passed} of {of}</td>'
+        f"<td>{len(one.own)} of {one.functions}{borrowed}</td>"
+    )
 
 
 def _value(value: float | None) -> str:

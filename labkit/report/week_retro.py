@@ -7,23 +7,23 @@ them is written anew; every other byte is the student's and stays as it is.
 from collections.abc import Sequence
 from pathlib import Path
 
-from labkit.base import blocks, store
-from labkit.base.words import number_of
-from labkit.report.week_facts import DayFacts
-from labkit.report.week_labs import name_of
+from labkit.base import store
+from labkit.base.text import blocks, number_of, refill
+from labkit.report.week_facts import OwnDay
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 _MARKS = {  # after a number, what it is worth
     "pass": "",
     "none": "",
+    "kit": "",
     "fail": " (not yet)",
     "stale": " (my file changed since)",
     "borrowed": " (partly borrowed)",
 }
 
 
-def fill(facts: Sequence[DayFacts]) -> list[Path]:
+def fill(facts: Sequence[OwnDay]) -> list[Path]:
     """Write a week's numbers into its retrospectives; return those that have changed.
 
     Args:
@@ -32,14 +32,14 @@ def fill(facts: Sequence[DayFacts]) -> list[Path]:
     Raises:
         Robo47Error: a file cannot be written.
     """
-    if not any(one.begun for one in facts):
+    if not any(one.day.work.is_file() for one in facts):
         return []  # nobody's numbers
     text = as_markdown(facts)
     files = sorted((facts[0].day.folder / "docs").glob("RETRO_*.md"))
     return [path for path in files if _fill(path, text)]
 
 
-def as_markdown(facts: Sequence[DayFacts]) -> str:
+def as_markdown(facts: Sequence[OwnDay]) -> str:
     """Return a week's numbers as a table and three lines."""
     rows = [
         "| day | number | mine | worst on the way | limit |",
@@ -47,67 +47,48 @@ def as_markdown(facts: Sequence[DayFacts]) -> str:
     ]
     for one in facts:
         for number in one.numbers:
-            latest, worst = map(_cell, (number.latest, number.worst))
-            mark = _MARKS[number.status]
-            name = name_of(one.day, number.metric)
-            limit = number.metric.limit
-            rows.append(
-                f"| {one.day.number} | {name} | {latest}{mark} | {worst} | {limit} |"
+            name, limit = one.day.name_of(number.wanted), number.wanted.limit
+            latest, worst = (
+                "no row yet" if value is None else number_of(value)
+                for value in (number.latest, number.worst)
             )
+            mine = latest + _MARKS[number.status]
+            rows.append(f"| {one.day.number} | {name} | {mine} | {worst} | {limit} |")
     met = [m for one in facts for m in one.met]
     left = sum(m.now == "left behind" for m in met)
-    passed, tasks, own, of = (
-        sum(getattr(one, name) for one in facts)
-        for name in ("passed", "tasks", "own", "functions")
-    )
-    return "\n".join(
-        [
-            "",
-            *rows,
-            "",
-            f"Tasks passed: {passed} of {tasks}. Functions of my own: {own} of {of}.",
-            *_borrowed(facts),
-            *_not_checked(facts),
-            f"Named mistakes met: {len(met)}; left behind: {left}.",
-            "",
-            "",
-        ]
-    )
-
-
-def _borrowed(facts: Sequence[DayFacts]) -> list[str]:
-    tasks = ", ".join(task for one in facts for task in one.borrowed)
-    return [f"Borrowed from the kit, and not counted: {tasks}."] if tasks else []
-
-
-def _not_checked(facts: Sequence[DayFacts]) -> list[str]:
-    days = ", ".join(str(one.day.number) for one in facts if not one.checked)
-    says = f"Not counted, since `make check` has not seen it as it is: day {days}."
-    return [says] if days else []
+    graded = [passed for one in facts for passed in one.graded]
+    own, of = sum(len(one.own) for one in facts), sum(one.functions for one in facts)
+    says = [
+        f"Tasks passed: {sum(graded)} of {len(graded)}."
+        f" Functions of my own: {own} of {of}."
+    ]
+    if tasks := ", ".join(task for one in facts for task in one.borrowed):
+        says.append(f"Borrowed from the kit, and not counted: {tasks}.")
+    if days := ", ".join(str(one.day.number) for one in facts if not one.checked):
+        since = "Not counted, since `make check` has not seen it as it is"
+        says.append(f"{since}: day {days}.")
+    says.append(f"Named mistakes met: {len(met)}; left behind: {left}.")
+    return "\n".join(["", *rows, "", *says, "", ""])
 
 
 def no_numbers(text: str) -> bool:
     """Return whether a retrospective's numbers are still to be filled in."""
-    found = blocks.contents(text, "numbers")
+    found = blocks(text, "numbers")
     return len(found) == 1 and not found[0].strip()
 
 
 def without_numbers(text: str) -> str:
     """Return a retrospective as the student wrote it, without what is filled in."""
-    return blocks.refill(text, {"numbers": lambda *_: ""})
-
-
-def _cell(value: float | None) -> str:
-    return "no row yet" if value is None else number_of(value)
+    return refill(text, {"numbers": lambda *_: ""})
 
 
 def _fill(path: Path, text: str) -> bool:
     """Replace what is between the marks; return whether that changed the file."""
     try:
         before = path.read_bytes().decode("utf-8", "surrogateescape")
-        if len(blocks.contents(before, "numbers")) != 1:
+        if len(blocks(before, "numbers")) != 1:
             return False  # no marks, or somebody wrote about them: not ours
-        after = blocks.refill(before, {"numbers": lambda *_: text})
+        after = refill(before, {"numbers": lambda *_: text})
         if after != before:
             store.replace(path, after.encode("utf-8", "surrogateescape"))
         return after != before

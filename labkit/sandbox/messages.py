@@ -15,21 +15,22 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.base.exchange import MOST, NUMBERS, SCRIPT, Limits, Path, Question, Reply
+from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
-from labkit.lesson.day import Day, days_before
+from labkit.lesson.day import NUMBERS, Day, Limits, days_before
+from labkit.lesson.own_files import SCRIPT
+from labkit.lesson.script import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-PANDA = Robot()  # what a file that loads the robot at its top is given
+PANDA = Robot()  # what a file that may load the robot is given
 MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
-KIT = ROOT / "robo47"
 # Lines that import of the kit; to parse the whole would take a tenth of a check.
 _IMPORTS = re.compile(
     r"^ *(?:from (robo47[\w.]*) import (\([^)]*\)|.*)|import (robo47[\w.]*))", re.M
@@ -62,7 +63,7 @@ def request(
     told = {**_code_of(script, added), "library": dict(library or {}), **others}
     copies = [_copy_of(robot) for robot in robots]
     known = [copy["entry"] for copy in copies]
-    if PANDA.entry not in known and _names_panda(told):
+    if PANDA.entry not in known and _loads_panda(told):
         copies.append(_copy_of(PANDA))
     return {**told, "models": copies, "facts": _facts()}
 
@@ -78,27 +79,39 @@ def library_of(day: Day) -> dict[str, str]:
             answer of this day. (A test looks at later days.)
     """
     found = {"kit": ""}  # a lab's first import, which leads to the kit's own Python
-    waiting = [name for earlier in days_before(day) for name in earlier.library]
+    earlier = [name for one in days_before(day) for name in one.library]
+    waiting = [f"robo47.{name}" for name in earlier]
     while waiting:
         name = waiting.pop()
-        if f"robo47.{name}" in found:
+        if name in found:
             continue
-        if name in day.library:
+        if name.removeprefix("robo47.") in day.library:
             raise Robo47Error(
                 f"{shown(file_of(name))} is an answer of day {day.number}, and the "
                 "library of an earlier day imports it"
             )
-        source, inner = _source_of(name)
-        found[f"robo47.{name}"] = source
+        found[name], inner = _source_of(name)
         waiting += inner
     return found
 
 
-def _names_panda(told: dict[str, Any]) -> bool:
-    """Return whether code that is sent may load the robot."""
-    own = map(base64.b64decode, [told["code"], *told["beside"].values()])
-    kits = any("panda" in it for it in [told["added"], *told["library"].values()])
-    return kits or any(b"panda" in source for source in own)
+def _loads_panda(told: dict[str, Any]) -> bool:
+    """Return whether code that is sent may load the robot; a lab's `main` is not run.
+
+    To compile it and send it takes longer than to ask a task's questions.
+    """
+    sent = map(base64.b64decode, [told["code"], *told["beside"].values()])
+    own = [code.decode("utf-8", "replace") for code in sent if b"panda" in code]
+    texts = [*map(_without_main, own), told["added"], *told["library"].values()]
+    return any("panda" in it and re.search(r"\bload\b", it) for it in texts)
+
+
+def _without_main(text: str) -> str:
+    """Return a file without its `main`; whole, where not its last line alone has it."""
+    start, end, _ = function_lines(text, "main")
+    lines = text.splitlines()
+    rest = "\n".join(lines[:start] + lines[end:]) if start >= 0 else text
+    return rest if len(re.findall(r"\bmain\b", rest)) <= 1 else text
 
 
 def robots_of(questions: Iterable[Question]) -> Robots:
@@ -150,27 +163,19 @@ def _source_of(name: str) -> tuple[str, tuple[str, ...]]:
     try:
         source = path.read_text("utf-8")
     except OSError:
-        raise Robo47Error(
-            f"a day's library names {shown(path)}, which is not there"
-        ) from None
+        says = f"a day's library names {shown(path)}, which is not there"
+        raise Robo47Error(says) from None
     inner: list[str] = []
     for module, imported, plain in _IMPORTS.findall(source):
         names = [f"{module}.{name}" for name in re.findall(r"\w+", imported)]
-        inner += [n if file_of(_inner(n)).is_file() else module for n in names]
-        inner += [plain]
-    return source, tuple(filter(None, map(_inner, inner)))
+        inner += [n if file_of(n).is_file() else module for n in names] + [plain]
+    return source, tuple(name for name in inner if name.startswith("robo47."))
 
 
 def file_of(name: str) -> File:
-    """Return where a module is: "fast.ik" in robo47/fast/ik.py."""
-    path = KIT.joinpath(*name.split("."))
+    """Return where a module is: "robo47.fast.ik" in robo47/fast/ik.py."""
+    path = ROOT.joinpath(*name.split("."))
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-
-
-def _inner(module: str) -> str:
-    """Return "fast.ik" of robo47.fast.ik, and "" of what is not the kit's."""
-    top, _, rest = module.partition(".")
-    return rest if top == "robo47" else ""
 
 
 @lru_cache(8)  # a class is asked with the same few robots
@@ -192,14 +197,11 @@ def copy_model(model: mujoco.MjModel, entry: str = "") -> dict[str, Any]:
     values = {
         name: getattr(model, name) for name in dir(model) if not name.startswith("_")
     }
+    arrays = {n: v for n, v in values.items() if isinstance(v, np.ndarray)}
     return {
         "entry": entry,
         "sizes": {n: v for n, v in values.items() if isinstance(v, int)},
-        "arrays": {
-            n: wire.pack_array(v)
-            for n, v in values.items()
-            if isinstance(v, np.ndarray)
-        },
+        "arrays": {n: wire.pack_array(v) for n, v in arrays.items()},
         "names": {
             kind: [getattr(model, kind)(i).name for i in range(values[count])]
             for kind, (_, count, _) in KINDS.items()
@@ -215,16 +217,13 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
         raise Robo47Error(f"{shown(script)} is over {SCRIPT // 1000} kB: no script")
     found = sorted(script.parent.glob("*.py"))[:MOST_BESIDE]
     # A grade follows no link either.
-    own = [path for path in found if path.is_file() and not path.is_symlink()]
+    own = [p for p in found if p.is_file() and not p.is_symlink()]
+    own = [path for path in own if path.stat().st_size <= SCRIPT]
     return {
         "file": script.name,
         "code": _text(script.read_bytes()),
         "added": added,
-        "beside": {
-            path.stem: _text(path.read_bytes())
-            for path in own
-            if path.stat().st_size <= SCRIPT
-        },
+        "beside": {path.stem: _text(path.read_bytes()) for path in own},
     }
 
 

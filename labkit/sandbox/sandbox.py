@@ -25,12 +25,12 @@ from labkit.base.exchange import (
     MOST,
     EndedError,
     Exchange,
-    Limits,
     LoadError,
     Question,
     Reply,
     stopped,
 )
+from labkit.lesson.day import Limits
 from labkit.sandbox import messages
 from labkit.sandbox.messages import Robots
 from labkit.sandbox.process import Process
@@ -82,8 +82,9 @@ class Sandbox:
             library: modules of the kit that it may import, with all that those import:
                 source by name, {"robo47.se3": "..."}. Other modules of the kit are
                 fakes.
-            needs: the tasks that each task builds on. What builds on a task that was
-                stopped is not asked: its replies are of the kind "waits".
+            needs: the tasks that each task builds on, however indirectly. What builds
+                on one that was stopped is not asked: its replies are of the kind
+                "waits".
             added: code of the kit's, as if it stood at the end of the file.
             limits: what it may take.
 
@@ -310,7 +311,7 @@ class _Rounds:
             return
         at, why = self.ended
         culprit, at.reply = at.question.task, why
-        waiting = _dependents(culprit, needs)
+        waiting = {task for task in needs if culprit in needs[task]}
         for exchange in self.left:
             if exchange.reply is not None:
                 continue
@@ -319,14 +320,6 @@ class _Rounds:
                 exchange.reply = twice(once, once) if once else why
             elif exchange.question.task in waiting:
                 exchange.reply = Reply(error=f"task {culprit}", kind="waits")
-
-
-def _dependents(task: str, needs: Mapping[str, Iterable[str]]) -> set[str]:
-    """Return the tasks that build on a task, however indirectly."""
-    found = {task}
-    while more := {t for t in needs if found & set(needs[t])} - found:
-        found |= more
-    return found - {task}
 
 
 def twice(first: Reply, second: Reply) -> Reply:

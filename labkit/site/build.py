@@ -2,19 +2,23 @@
 
 import json
 import shutil
-import subprocess
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from sphinx.application import Sphinx
 
-from labkit.site import films, formulas, links, pages
+from labkit.base import processes
+from labkit.inspector.recording import Recording
+from labkit.lesson.day import all_days
+from labkit.site import formulas, links, pages
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
 SOURCES = ROOT / "site"
 WASM = SOURCES / "node_modules" / "@mujoco" / "mujoco" / "mujoco.wasm"
+LARGEST_FILM = 2_000_000  # bytes of a page
 SETTINGS: dict[str, Any] = {
     "project": "robo47",
     "html_title": "robo47",
@@ -51,9 +55,9 @@ def build(out: Path) -> None:
     if not WASM.exists():
         raise Robo47Error("the arm's packages are missing: npm ci --prefix site")
     shutil.rmtree(out, ignore_errors=True)
-    with tempfile.TemporaryDirectory(prefix="robo47-site-") as folder:
-        work = Path(folder).resolve()
-        pages.lay_out(work / "pages", filmed=films.films())
+    with tempfile.TemporaryDirectory(prefix="robo47-site-") as name:
+        work = Path(name).resolve()
+        pages.lay_out(work / "pages", filmed=films())
         site = Sphinx(
             work / "pages",
             None,
@@ -71,19 +75,27 @@ def build(out: Path) -> None:
         raise Robo47Error("links that lead nowhere:\n  " + "\n  ".join(wrong))
 
 
-def _static(folder: Path) -> Path:
+def films() -> dict[str, Callable[[], Recording]]:
+    """Return what records the film beside each picture, from `w*/dayN/films.py`."""
+    some = (day.offered("films") for day in all_days())
+    return {name: make for films in some for name, make in films.items()}
+
+
+def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
-    folder.mkdir(parents=True)
+    (into / pages.FILMS).mkdir(parents=True)
     for path in (SOURCES / "style.css", SOURCES / "film.js", TWIN_XML, WASM):
-        shutil.copy(path, folder)
-    films.record(folder / pages.FILMS)
-    (folder / "ghosts.json").write_text(
+        shutil.copy(path, into)
+    for name, make in films().items():
+        path = into / pages.FILMS / f"{name}.html"
+        path.write_text(make().page(name.replace("_", " ")), "utf-8")
+        if path.stat().st_size > LARGEST_FILM:
+            raise Robo47Error(f"the film {name} has {path.stat().st_size:,} bytes")
+    (into / "ghosts.json").write_text(
         json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
     )
-    command = ["npm", "run", "--silent", "build", "--", f"--outfile={folder}/arm.js"]
-    done = subprocess.run(
-        command, cwd=SOURCES, capture_output=True, text=True, check=False
-    )
+    command = ["npm", "run", "--silent", "build", "--", f"--outfile={into}/arm.js"]
+    done = processes.run(command, cwd=SOURCES)
     if done.returncode:
         raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
-    return folder
+    return into

@@ -4,6 +4,7 @@ MathML needs no script, font or network to be read.
 """
 
 import re
+from functools import partial
 from typing import Any
 
 from docutils import nodes
@@ -23,15 +24,9 @@ def mathml(formula: str, as_block: bool = False) -> str:
     return _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
 
 
-def inline(page: Any, node: Any) -> None:
-    """Write a formula that stands in a line."""
-    page.body.append(mathml(node.astext()))
-    raise nodes.SkipNode
-
-
-def block(page: Any, node: Any) -> None:
-    """Write a formula that stands alone."""
-    page.body.append(mathml(node.astext(), as_block=True))
+def write(page: Any, node: Any, as_block: bool = False) -> None:
+    """Write a formula that stands in a line, or alone."""
+    page.body.append(mathml(node.astext(), as_block))
     raise nodes.SkipNode
 
 
@@ -50,5 +45,6 @@ def setup(site: Sphinx) -> dict[str, bool]:
     """Tell Sphinx of all this."""
     site.connect("autodoc-process-docstring", plain)
     site.connect("autodoc-skip-member", fields)
-    site.add_html_math_renderer("mathml", (inline, None), (block, None))
+    alone = partial(write, as_block=True)
+    site.add_html_math_renderer("mathml", (write, None), (alone, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

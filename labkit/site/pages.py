@@ -28,6 +28,22 @@ PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
 FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = "README.md"
+REFERENCE = """\
+# robo47.{0}
+
+```{{eval-rst}}
+.. automodule:: robo47.{0}
+   :members:
+```
+"""
+CONTENTS = """
+```{{toctree}}
+:hidden:
+{}
+
+{}
+```
+"""
 MODULES = (
     ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
@@ -39,19 +55,18 @@ MODULES = (
 
 def lay_out(folder: Path, filmed: Collection[str]) -> None:
     """Write the site's source into a new folder; some pictures are filmed."""
-    documents = [path for each in DOCUMENTS for path in sorted(ROOT.glob(each))]
-    pages = {path.relative_to(ROOT) for path in documents}
+    pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
-        text = (ROOT / page).read_text("utf-8")
-        text = _with_films(text, page, filmed)
+        text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
         name = Path("index.md") if page.as_posix() == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
-        home.write("\n".join(_contents(pages)))
+        for caption, names in _contents(pages):
+            above = f":caption: {caption}" if caption else ""
+            home.write(CONTENTS.format(above, "\n".join(names)))
     shutil.copy(ROOT / "site" / "arm.md", folder / "arm.md")
-    for _, modules in _modules():
-        for module in modules:
-            _write(folder / "library" / f"{module}.md", _reference(module))
+    for module in (module for _, modules in _modules() for module in modules):
+        _write(folder / "library" / f"{module}.md", REFERENCE.format(module))
 
 
 def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
@@ -97,14 +112,6 @@ def _shown(file: Path, name: Path) -> str:
     return f"{head}{fence}{language}\n{body}{fence}\n"
 
 
-def _reference(module: str) -> str:
-    """Return the page of a module of the library, made of its docstrings."""
-    return (
-        f"# robo47.{module}\n\n```{{eval-rst}}\n.. automodule:: robo47.{module}\n"
-        "   :members:\n```\n"
-    )
-
-
 def _modules() -> Iterator[tuple[str, Sequence[str]]]:
     """Yield the library's modules by what they are about, then a later week's."""
     yield from MODULES
@@ -115,9 +122,9 @@ def _modules() -> Iterator[tuple[str, Sequence[str]]]:
             yield week.heading, new
 
 
-def _contents(pages: set[Path]) -> Iterator[str]:
-    """Yield the table of contents, which the site's margin shows."""
-    yield from _tree("", ["arm"])
+def _contents(pages: set[Path]) -> Iterator[tuple[str, Sequence[str]]]:
+    """Yield the captions of the site's margin, and what stands below each."""
+    yield "", ["arm"]
     found = {week.folder.name: week for week in weeks()}
     for name, week in found.items():
         named = [page for day in days_of(week) for page in (day.guide, day.worksheet)]
@@ -126,27 +133,15 @@ def _contents(pages: set[Path]) -> Iterator[str]:
         rest = [p for p in pages if p.parts[0] == name and _bare(p) not in own]
         readme = f"{name}/README"
         more = sorted({_bare(p) for p in rest} - {readme})
-        yield from _tree(f"Week {week.number}", [readme, *own, *more])
+        yield f"Week {week.number}", [readme, *own, *more]
     for title, modules in _modules():
-        yield from _tree(title, [f"library/{module}" for module in modules])
+        yield title, [f"library/{module}" for module in modules]
     apart = [p for p in pages if p.parts[0] not in found and p.as_posix() != HOME]
-    yield from _tree("Teaching and making", sorted(map(_bare, apart)))
+    yield "Teaching and making", sorted(map(_bare, apart))
 
 
 def _bare(page: Path) -> str:
     return page.with_suffix("").as_posix()
-
-
-def _tree(caption: str, names: list[str]) -> list[str]:
-    return [
-        "",
-        "```{toctree}",
-        ":hidden:",
-        *([f":caption: {caption}"] if caption else []),
-        "",
-        *names,
-        "```",
-    ]
 
 
 def _write(path: Path, text: str) -> None:

@@ -11,9 +11,9 @@ import tomllib
 from typing import Any
 
 from labkit.lesson.day import Day, all_days
-from labkit.lesson.renew import renewed
+from labkit.lesson.merge import renewed
+from labkit.lesson.script import read_script
 from labkit.lesson.sealed import opened
-from labkit.lesson.starter import read_script
 from labkit.update.merge import ask
 from robo47.paths import ROOT
 

@@ -167,7 +167,7 @@ def _resolve(worktree: Path, name: str, mine: set[str]) -> bool:
 
 def _text(worktree: Path, blob: str) -> str | None:
     """Return a text of the index; None for what is none."""
-    done = git.run_bytes("show", blob, folder=worktree, seconds=SECONDS)
+    done = git.run("show", blob, folder=worktree, seconds=SECONDS, text=False)
     try:
         return None if b"\0" in done.stdout else done.stdout.decode("utf-8")
     except UnicodeDecodeError:

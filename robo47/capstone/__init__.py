@@ -122,7 +122,12 @@ def pick(
         ValueError: a wrong shape or number, or a place that is not on the table.
         Robo47Error: a function is missing, or the arm cannot reach a place.
     """
-    _require(fns)
+    missing = [n for names in USES.values() for n in names if not hasattr(fns, n)]
+    if missing:
+        raise Robo47Error(
+            f"the capstone calls {', '.join(missing)}, which was not given to it."
+            " Start from robo47.capstone.library() and replace what is yours."
+        )
     goal_xy = scenes.on_table(goal_xy, "goal_xy")
     model = scenes.table_top(cube_xy, yaw) if model is None else model
     task = Task(fns, model, goal_xy, float(checks.positive(speed, "speed")), watch)
@@ -175,12 +180,3 @@ def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, float]]:
         "at the speed limits": (but(), 1.0),
         "at 1.5 of the speed limits": (but(), 1.5),
     }
-
-
-def _require(fns: Any) -> None:
-    missing = [n for names in USES.values() for n in names if not hasattr(fns, n)]
-    if missing:
-        raise Robo47Error(
-            f"the capstone calls {', '.join(missing)}, which was not given to it."
-            " Start from robo47.capstone.library() and replace what is yours."
-        )

@@ -7,8 +7,7 @@ reads the model, keeps what was measured and puts the calls in order.
 Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
 """
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import mujoco
@@ -17,8 +16,9 @@ import numpy as np
 from robo47 import panda, simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.panda import ARM_JOINTS
-from robo47.panda.reading import Inertias
+from robo47.panda.reading import joint_ids
+
+Law = Callable[[float, Array, Array], Array]  # (t, q, qd) to torques, (7,)
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 OMEGA = 20.0  # rad/s, of computed torque; 100 Hz allows no more than about 60
@@ -38,16 +38,19 @@ class State(NamedTuple):
 
 
 class Arm:
-    """The seven joints with the hand, and what it holds, as one chain of links."""
+    """The seven joints with the hand, and what it holds, as one chain of links.
+
+    `worst` is the largest error that its laws have kept.
+    """
 
     def __init__(self, fns: Any, model: mujoco.MjModel):
         """Read the model's numbers; `fns` turns them into screws and inertias."""
         self.fns = fns
-        bodies = [int(model.joint(name).bodyid[0]) for name in ARM_JOINTS]
+        bodies = model.jnt_bodyid[joint_ids(model)]
         frames = [(model.body_pos[b], model.body_quat[b]) for b in bodies]
         self.T_parent_link = [fns.link_T(p.copy(), quat.copy()) for p, quat in frames]
-        hand = model.body("hand")
-        T_link7_hand = fns.link_T(hand.pos.copy(), hand.quat.copy())
+        body = model.body("hand")
+        T_link7_hand = fns.link_T(body.pos.copy(), body.quat.copy())
         T_hand_tcp = fns.make_T(np.eye(3), model.site("tcp").pos.copy())
         self.T_link7_tcp = T_link7_hand @ T_hand_tcp
         T_zero = self.links(np.zeros(7))
@@ -56,10 +59,10 @@ class Arm:
         dofs = simulate.addresses(model)[1]
         self.armature = model.dof_armature[dofs].copy()
         self.damping = model.dof_damping[dofs].copy()
-        self.empty = panda.inertias(model)
-        self.empty = self._with(panda.hand_inertia(model, opening=0.04))
-        self.inertias = self.empty
-        self.kp, self.kd = fns.gains(OMEGA, 1.0)
+        hand = panda.hand_inertia(model, opening=0.04)
+        self.empty = panda.inertias(model).carrying(fns.carry, *hand)
+        self.inertias, self.worst = self.empty, 0.0
+        self.gains = [float(k) for k in fns.gains(OMEGA, 1.0)]
 
     def links(self, q: Array) -> Array:
         """Return T_world_link of the seven links, (7, 4, 4)."""
@@ -113,91 +116,60 @@ class Arm:
         T_link7_world = self.fns.inverse(self.links(q)[6])
         com = (T_link7_world @ T_world_cube)[:3, 3]
         I_cube = mass * (2.0 * half) ** 2 / 6.0 * np.eye(3)
-        self.inertias = self._with((mass, com, I_cube))
+        self.inertias = self.empty.carrying(self.fns.carry, mass, com, I_cube)
         return self.fns.inverse(self.end(q)) @ T_world_cube
 
     def let_go(self) -> None:
         """Count the hand as empty again."""
         self.inertias = self.empty
 
-    def _with(self, load: tuple[float, Array, Array]) -> Inertias:
-        """Return the links' inertias with a load on the empty arm's last one."""
-        masses, coms, inertias = (part.copy() for part in self.empty)
-        ten = self.fns.carry(masses[6], coms[6], inertias[6], *load)
-        xx, yy, zz, xy, xz, yz = ten[4:]
-        masses[6], coms[6] = ten[0], ten[1:4]
-        inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-        return Inertias(masses, coms, inertias)
+    def move(self, q0: Array, q1: Array, T: float) -> Law:
+        """Return computed torque along a quintic from the measured q0 to q1, T seconds.
 
+        It keeps the worst error of any joint, radians.
+        """
 
-@dataclass
-class JointMove:
-    """Computed torque along a quintic from the measured q0 to q1, in T seconds."""
+        def torque(t: float, q: Array, qd: Array) -> Array:
+            fns, now = self.fns, self.at(q, qd)
+            q_ref, qd_ref, qdd_ref = fns.joint_move(q0, q1, t, T)
+            e, ed = q_ref - q, qd_ref - qd
+            self.worst = max(self.worst, float(np.abs(e).max()))
+            known = now.M, now.bias, self.damping, qd
+            return fns.computed_torque(*known, e, ed, qdd_ref, *self.gains)
 
-    arm: Arm
-    q0: Array
-    q1: Array
-    T: float
-    worst: float = 0.0
+        return torque
 
-    def __call__(self, t: float, q: Array, qd: Array) -> Array:
-        """Return the torques, (7,); keep the worst error of any joint, radians."""
-        arm, fns, now = self.arm, self.arm.fns, self.arm.at(q, qd)
-        q_ref, qd_ref, qdd_ref = fns.joint_move(self.q0, self.q1, t, self.T)
-        e, ed = q_ref - q, qd_ref - qd
-        self.worst = max(self.worst, float(np.abs(e).max()))
-        gains = (float(arm.kp), float(arm.kd))
-        tau = fns.computed_torque(
-            now.M, now.bias, arm.damping, qd, e, ed, qdd_ref, *gains
-        )
-        return fns.saturate(tau, arm.tau_max)
+    def line(self, T0: Array, T1: Array, T: float, posture: Array) -> Law:
+        """Return a spring between the hand and a point that goes straight to T1.
 
+        It keeps the hand's worst distance from that point, metres.
 
-@dataclass
-class Line:
-    """A spring between the hand and a point that goes straight from T0 to T1."""
+        Args:
+            T0, T1: poses of the point at the start and after T seconds, (4, 4).
+            T: seconds.
+            posture: where the null space pulls the joints, (7,).
+        """
+        # The twist of the point per unit of s: the turn's axis does not change.
+        way = self.fns.pose_error(T0, T1)
 
-    arm: Arm
-    T0: Array
-    T1: Array
-    T: float
-    posture: Array  # where the null space pulls the joints
-    worst: float = 0.0
+        def torque(t: float, q: Array, qd: Array) -> Array:
+            fns, now = self.fns, self.at(q, qd)
+            s, sd, sdd = fns.quintic_scaling(t, T)
+            J = fns.site_jacobian(now.J_space, now.T[:3, 3])
+            Lambda = fns.task_inertia(J, now.M)
+            e = fns.pose_error(now.T, fns.straight_pose(T0, T1, float(s)))
+            self.worst = max(self.worst, float(np.linalg.norm(e[3:])))
+            D = fns.critical_damping(STIFFNESS, Lambda)
+            wrench = fns.spring_wrench(e, sd * way - J @ qd, np.diag(STIFFNESS), D)
+            Jdot_qd = fns.site_bias(now.J_space, qd, now.T[:3, 3])
+            # What the motion itself needs stands where the bias does.
+            forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * way)
+            back = fns.pd_torque(posture - q, -qd, *POSTURE)
+            tau_null = fns.null_torque(J, now.M, Lambda, back)
+            return fns.impedance_torque(J, wrench, forward, self.damping, qd, tau_null)
 
-    @cached_property
-    def way(self) -> Array:
-        """The twist of the point per unit of s: the turn's axis does not change."""
-        return self.arm.fns.pose_error(self.T0, self.T1)
+        return torque
 
-    def __call__(self, t: float, q: Array, qd: Array) -> Array:
-        """Return the torques, (7,); keep the hand's worst distance, metres."""
-        arm, fns, now = self.arm, self.arm.fns, self.arm.at(q, qd)
-        s, sd, sdd = fns.quintic_scaling(t, self.T)
-        J = fns.site_jacobian(now.J_space, now.T[:3, 3])
-        Lambda = fns.task_inertia(J, now.M)
-        e = fns.pose_error(now.T, fns.straight_pose(self.T0, self.T1, float(s)))
-        self.worst = max(self.worst, float(np.linalg.norm(e[3:])))
-        D = fns.critical_damping(STIFFNESS, Lambda)
-        wrench = fns.spring_wrench(e, sd * self.way - J @ qd, np.diag(STIFFNESS), D)
-        Jdot_qd = fns.site_bias(now.J_space, qd, now.T[:3, 3])
-        # What the motion itself needs stands where the bias does.
-        forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * self.way)
-        back = fns.pd_torque(self.posture - q, -qd, *POSTURE)
-        tau_null = fns.null_torque(J, now.M, Lambda, back)
-        tau = fns.impedance_torque(J, wrench, forward, arm.damping, qd, tau_null)
-        return fns.saturate(tau, arm.tau_max)
-
-
-@dataclass
-class Rest:
-    """Springs in the joints that hold the arm at q0."""
-
-    arm: Arm
-    q0: Array
-    worst: float = 0.0
-
-    def __call__(self, t: float, q: Array, qd: Array) -> Array:
-        """Return the torques, (7,)."""
-        fns, g = self.arm.fns, self.arm.gravity(q)
-        tau = fns.gravity_pd(self.q0 - q, -qd, *REST, g)
-        return fns.saturate(tau, self.arm.tau_max)
+    def rest(self, q0: Array) -> Law:
+        """Return springs in the joints that hold the arm at q0."""
+        return lambda t, q, qd: self.fns.gravity_pd(q0 - q, -qd, *REST, self.gravity(q))

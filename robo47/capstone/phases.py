@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from robo47 import scenes, simulate, trajectory
-from robo47.capstone.arm import STIFFNESS, Arm, JointMove, Line, Rest
+from robo47.capstone.arm import STIFFNESS, Arm, Law
 from robo47.checks import Array
 from robo47.panda import READY_Q
 
@@ -85,50 +85,50 @@ class Task:
         self.cube = int(model.jnt_qposadr[model.body("cube").jntadr[0]])
         self.goal = np.array([*goal_xy, scenes.TABLE_HEIGHT + scenes.CUBE_HALF])
         self.T_world_cube, self.T_tcp_cube = self._cube(), np.eye(4)
-        self.worst = {"joint": 0.0, "line": 0.0, "hold": 0.0, "rest": 0.0}
+        self.worst = dict.fromkeys(("joint", "line", "hold", "rest"), 0.0)
         self.manipulability, self.heaviest, self.now = np.inf, 0.0, 0.0
         self.phases: list[tuple[str, float]] = []
         self.runs: list[simulate.Run] = []
-        self.log: list[Array] = []
 
     def run(self, phase: Phase, rate: float) -> None:
         """Do one phase, from where the arm is measured to be."""
         q = self.data.qpos[simulate.addresses(self.model)[0]].copy()
-        move, seconds = self._move(phase, q)
+        law, seconds = self._law(phase, q)
         seconds = np.ceil(seconds * rate) / rate  # a whole number of control periods
 
         def controller(t: float, q: Array, qd: Array) -> Array:
-            return np.append(move(t, q, qd), phase.fingers)
+            tau = self.fns.saturate(law(t, q, qd), self.arm.tau_max)
+            return np.append(tau, phase.fingers)
 
         self.phases.append((phase.name, self.now))
+        world, self.arm.worst = (self.model, self.data), self.worst[phase.kind]
         self.runs.append(
-            simulate.run(
-                self.model, self.data, controller, seconds, rate=rate, watch=self._look
-            )
+            simulate.run(*world, controller, seconds, rate=rate, watch=self._look)
         )
-        self.worst[phase.kind] = max(self.worst[phase.kind], move.worst)
+        self.worst[phase.kind] = self.arm.worst
         self.now += seconds
         if phase.name == "close":
             self._grasped()
         elif phase.name == "open":
             self.arm.let_go()
 
-    def _move(self, phase: Phase, q: Array) -> tuple[JointMove | Line | Rest, float]:
-        """Return the controller of a phase and how long it takes."""
+    def _law(self, phase: Phase, q: Array) -> tuple[Law, float]:
+        """Return the control law of a phase and how long it takes."""
         T = self.arm.end(q)
         if phase.kind == "rest":
-            return Rest(self.arm, q), REST_SECONDS
+            return self.arm.rest(q), REST_SECONDS
         if phase.kind == "hold":
-            return Line(self.arm, T, T, GRIP_SECONDS, q), GRIP_SECONDS
+            return self.arm.line(T, T, GRIP_SECONDS, q), GRIP_SECONDS
         if phase.kind == "line":
-            return Line(self.arm, T, self._tool(phase), LINE_SECONDS, q), LINE_SECONDS
+            T1 = self._tool(phase)
+            return self.arm.line(T, T1, LINE_SECONDS, q), LINE_SECONDS
         q1 = READY_Q.copy()
         if phase.over:
             q1, reach = self.arm.way_point(self._tool(phase), q)
             self.manipulability = min(self.manipulability, reach)
         v, a = self.speed * simulate.SPEED_LIMITS, self.speed * simulate.ACC_LIMITS
         seconds = float(self.fns.quintic_duration(q1 - q, v, a))
-        return JointMove(self.arm, q, q1, seconds), seconds
+        return self.arm.move(q, q1, seconds), seconds
 
     def _tool(self, phase: Phase) -> Array:
         """Return where the tool has to be, T_world_tcp, (4, 4)."""
@@ -160,14 +160,14 @@ class Task:
         pose = self.data.qpos[self.cube : self.cube + 7]
         return self.fns.link_T(pose[:3].copy(), pose[3:].copy())
 
-    def _look(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self.log.append(data.qpos.copy())
+    def _look(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
         if self.watch is not None:
             self.watch(model, data)
+        return data.qpos.copy()
 
     def result(self) -> Result:
         """Return the log and its worst numbers."""
-        qpos = np.array(self.log)
+        qpos = np.array([seen for run in self.runs for seen in run.seen])
         cube = qpos[:, self.cube : self.cube + 3]
         tau = np.concatenate([run.tau for run in self.runs])
         qd = np.concatenate([run.qd for run in self.runs])

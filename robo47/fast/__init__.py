@@ -1,7 +1,7 @@
 """The fast layer of the library: the same formulas for many configurations at once.
 
     moves         elementary motions of a frame
-    chains        products of frames for many q;  one: for one q, in plain floats
+    chains        products of frames, for many q or for one in plain floats
     exponentials  products of exponentials for many q
     jacobians     Jacobian columns for many q
     ik            damped least squares for many targets at once;  ik_one: for one

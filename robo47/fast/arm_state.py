@@ -12,7 +12,7 @@ All links go through each call together. Two habits make the calls few:
 Conventions as in `robo47.dynamics`.
 """
 
-from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -77,58 +77,30 @@ SPATIAL = _spatial_map()
 
 
 class Constants:
-    """What does not depend on q.
-
-    Attributes:
-        powers: what 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
-            1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq.
-            3.85).
-        ones: n of them.
-        pairs: omega and v of each joint as two rows, (n, 2, 3).
-        pseudo: pseudo-inertias of the links at q = 0, about the origin, (n, 4, 4).
-        before: 1 on and below the diagonal, (n, n): before @ x sums x outwards.
-        twice: 2 below the diagonal, 1 on it, (n, n).
-        after: 1 on and above it: after @ x sums x inwards, from the tip.
-        lower: true on and below the diagonal, (n, n).
-        armature: on a diagonal, (n, n).
-        A_base: acceleration of a base that feels like gravity, (6,).
-        W_base: the same as a matrix, [A_base], (16,).
-        M_home, T_zero, coms: as `robo47.arm.Arm` has them.
-    """
+    """What does not depend on q, of a `robo47.arm.Arm`."""
 
     def __init__(self, arm: Any) -> None:
         n = len(arm.masses)
         S = np.zeros((n, 4, 4))
         S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
         S2, S3 = S @ S, S @ S @ S
+        # What 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
+        # 1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
-        self.powers = powers.reshape(n, 4, 16)
-        self.ones = np.ones(n)
-        self.pairs = arm.screws.reshape(n, 2, 3).copy()
+        self.powers, self.ones = powers.reshape(n, 4, 16), np.ones(n)
+        self.pairs = arm.screws.reshape(n, 2, 3).copy()  # omega and v of each joint
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
+        # Of the links at q = 0, about the world's origin, (n, 4, 4).
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
-        self.before = np.tri(n)
-        self.twice = 2 * self.before - np.eye(n)
-        self.after = self.before.T.copy()
+        self.before = np.tri(n)  # before @ x sums x outwards
+        self.after = self.before.T.copy()  # after @ x sums x inwards, from the tip
+        self.twice = 2 * self.before - np.eye(n)  # 2 below the diagonal, 1 on it
         self.lower = self.before.astype(bool)
         self.armature = np.diag(arm.armature)
+        # The acceleration of a base that feels like gravity, and it as a matrix, (16,).
         self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
         self.W_base = self.A_base @ HAT
         self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms
-
-
-class lazy:  # noqa: N801 (a decorator, as property is)
-    """What `cached_property` is, without the lock that Python 3.11 takes in it."""
-
-    def __init__(self, compute: Callable[[Any], Array]) -> None:
-        self._compute, self.__doc__ = compute, compute.__doc__
-
-    def __get__(self, state: Any, owner: type) -> Any:
-        """Compute the value; where it stands from then on, nothing calls this."""
-        if state is None:
-            return self
-        value = state.__dict__[self._compute.__name__] = self._compute(state)
-        return value
 
 
 class ArmState:
@@ -152,23 +124,23 @@ class ArmState:
             step *= 2
         self._moved = moved  # e^[S1]q1 ... e^[Si]qi of each link i
 
-    @lazy
+    @cached_property
     def T_links(self) -> Array:
         """`T_world_link` of each link, (n, 4, 4)."""
         return self._moved @ self._c.T_zero
 
-    @lazy
+    @cached_property
     def T_world_ee(self) -> Array:
         """Pose of the arm's end, (4, 4)."""
         return self._moved[-1] @ self._c.M_home
 
-    @lazy
+    @cached_property
     def coms_world(self) -> Array:
         """Centres of mass in the world, metres, (n, 3)."""
         T = self.T_links
         return (T[:, :3, :3] @ self._c.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
 
-    @lazy
+    @cached_property
     def _S(self) -> Array:
         """The joints' screws where they are now, (n, 6): the rows of J_space^T."""
         n = len(self.q)
@@ -177,37 +149,37 @@ class ArmState:
         S[:, 3:] += ((p @ SKEW).reshape(n, 3, 3) @ S[:, :3, None])[:, :, 0]
         return S
 
-    @lazy
+    @cached_property
     def J_space(self) -> Array:
         """Space Jacobian, (6, n)."""
         return self._S.T
 
-    @lazy
+    @cached_property
     def J_site(self) -> Array:
         """Jacobian of the arm's end: (omega; v of its origin) in world axes, (6, n)."""
         to_end = EYE.copy()
         to_end[:3, 3:] = (self.T_world_ee[:3, 3] @ SKEW).reshape(3, 3)
         return (self._S @ to_end).T
 
-    @lazy
+    @cached_property
     def G(self) -> Array:
         """Inertias of the links about the world's origin, (n, 6, 6)."""
         n = len(self.q)
         return (self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
 
-    @lazy
+    @cached_property
     def _P(self) -> Array:
         """Pseudo-inertias of the links about the world's origin, (n, 4, 4)."""
         return self._moved @ self._c.pseudo @ self._moved.swapaxes(1, 2)
 
-    @lazy
+    @cached_property
     def _momenta(self) -> Array:
         """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
         n = len(self.q)
         carried = (self._c.after @ self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]
 
-    @lazy
+    @cached_property
     def M(self) -> Array:
         """Mass matrix with the armature, kg m^2, (n, n)."""
         half = self._momenta @ self._S.T
@@ -215,7 +187,7 @@ class ArmState:
         M += self._c.armature
         return M
 
-    @lazy
+    @cached_property
     def gravity_torque(self) -> Array:
         """Torque that holds the arm still, N m, (n,)."""
         return self._momenta @ self._c.A_base

@@ -1,83 +1,49 @@
-"""The chain's product for many configurations at once, in pure NumPy.
+"""The chain's product for one configuration or many at once, in pure NumPy.
 
 A plain stack of 4x4 products multiplies mostly zeros and ones. Here a chain becomes a
 plan of the elementary moves of `robo47.fast.moves`, which uses what the chain knows:
 
-- Configurations are worked through in chunks that fit the processor's cache.
+- Configurations are worked through in chunks that fit the processor's cache; one alone
+  goes in plain floats, since NumPy spends its time on calls there, not on numbers.
 - Fixed rotations between joints cost nothing. The moving frame does not follow them:
   the next joint's axis is expressed in the frame as it stands (the idea behind the
-  product of exponentials, Modern Robotics section 4.1), and what is left of them is
-  multiplied on once, where a frame is asked for. Only where an axis is none of the
-  frame's own three is the frame really turned.
+  product of exponentials, Modern Robotics section 4.1). It is really turned only where
+  an axis is none of its own three, and where a frame is asked for.
 
 Units: metres and radians.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
+from copy import copy
 
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.moves import (
-    WORLD,
-    Ball,
-    Chunk,
-    Columns,
-    Free,
-    Rotate,
-    Shift,
-    Slide,
-    Step,
-    Turn,
-    combine,
-)
-from robo47.fast.one import Single, single_of
+from robo47.fast import moves
+from robo47.fast.moves import WORLD, Axes, Chunk
+from robo47.fast.vectors import Number
 
 CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
+LAST_ROW = (0.0, 0.0, 0.0, 1.0)  # of a pose
 ROUNDING = 2e-15  # what products of unit quaternions leave instead of 0 and 1
 
 
-class Frame(NamedTuple):
-    """A frame that is asked for: a fixed pose (R, t) seen from a moving frame."""
-
-    node: int
-    R: Array
-    t: Array
-
-
-@dataclass(eq=False)
 class Plan:
     """A tree of moves: step i leads from its source to node i + 1; 0 is the world."""
 
-    nq: int
-    steps: list[tuple[int, Step]] = field(default_factory=list)
-    frames: dict[str, Frame] = field(default_factory=dict)
-    ref: Array = field(init=False)
-
-    def __post_init__(self) -> None:
+    def __init__(self, nq: int) -> None:
         """Measure every q from 0 until a joint says otherwise."""
-        self.ref = np.zeros((self.nq, 1))
+        self.nq, self.ref = nq, np.zeros((nq, 1))
+        self.steps: list[tuple[int, moves.Step]] = []
+        self.joints: list[tuple[int, moves.Turn | moves.Slide]] = []  # with their nodes
+        self.frames: dict[str, int] = {}  # the node of each that is asked for
 
-    @cached_property
-    def single(self) -> Single | None:
-        """The same for one configuration at a time, where floats can do it."""
-        return single_of(self.steps, self.frames.values())
-
-    @property
-    def alone(self) -> Single:
-        """The same of an arm of hinges and slides, where floats always can."""
-        assert self.single is not None
-        return self.single
-
-    def nodes(self, chunk: Chunk) -> list[Columns]:
+    def nodes(self, chunk: Chunk) -> list[Axes]:
         """Return every node's frame, of configurations measured from `ref`."""
         nodes = [WORLD]
         for source, step in self.steps:
-            nodes.append(step(nodes[source], chunk))
+            nodes.append(step.move(nodes[source], chunk))
         return nodes
 
 
@@ -94,7 +60,9 @@ class Cursor:
 
     def mark(self, name: str) -> None:
         """Ask for the frame at this place."""
-        self.plan.frames[name] = Frame(self.node, self.R, self.t)
+        end = copy(self)
+        end._settle()
+        self.plan.frames[name] = end.node
 
     def fixed(self, T: Array) -> None:
         """Add a fixed pose, (4, 4)."""
@@ -115,28 +83,34 @@ class Cursor:
         # A shift along the axis commutes with the turn, so it can wait.
         self._flush_shift(keep=k)
         self.plan.ref[adr] = ref
-        self._step(Turn(k, float(axis[k]), adr))
+        self._step(moves.Turn(k, float(axis[k]), adr))
 
     def slide(self, axis: Array, adr: int, ref: float, pitch: float = 1.0) -> None:
         """Add a slide by pitch times q along a unit axis, (3,)."""
         self.plan.ref[adr] = ref  # and no shift before it: the two commute
-        self._step(Slide(pitch * rounded(self.R @ axis), adr))
+        self._step(moves.Slide(pitch * rounded(self.R @ axis), adr))
 
     def ball(self, name: str, adr: int) -> None:
         """Add a ball joint."""
+        self._settle()
+        self._step(moves.Ball(name, adr))
+
+    def free(self, name: str, adr: int) -> None:
+        """Add a free joint (position, quaternion), which forgets what is before it."""
+        self.node, self.R, self.t = 0, np.eye(3), np.zeros(3)
+        for axis in range(3):
+            self.slide(np.eye(3)[axis], adr + axis, 0.0)
+        self.ball(name, adr + 3)
+
+    def _settle(self) -> None:
+        """Take the moving frame to this place."""
         self._flush_shift()
         if not np.array_equal(self.R, np.eye(3)):
             self._rotate(self.R)
-        self._step(Ball(name, adr))
-
-    def free(self, name: str, adr: int) -> None:
-        """Add a free joint, which forgets everything before it."""
-        self.R, self.t = np.eye(3), np.zeros(3)
-        self._step(Free(name, adr))
 
     def _rotate(self, R: Array) -> None:
         """Really turn the moving frame by R."""
-        self._step(Rotate(R))
+        self._step(moves.Rotate(R))
         self.R, self.t = rounded(R.T @ self.R), R.T @ self.t
 
     def _flush_shift(self, keep: int | None = None) -> None:
@@ -144,12 +118,14 @@ class Cursor:
         if keep is not None:
             now[keep], later[keep] = 0.0, self.t[keep]
         if now.any():
-            self._step(Shift(now))
+            self._step(moves.Shift(now))
         self.t = later
 
-    def _step(self, step: Step) -> None:
+    def _step(self, step: moves.Step) -> None:
         self.plan.steps.append((self.node, step))
         self.node = len(self.plan.steps)
+        if isinstance(step, moves.Turn | moves.Slide):
+            self.plan.joints.append((self.node, step))
 
 
 def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
@@ -165,8 +141,13 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     Raises:
         ValueError: a non-finite number, or a quaternion of length 0.
     """
-    if qpos.size == plan.nq and (one := _one(plan, qpos)):
-        return one
+    only = (qpos.ravel() - plan.ref[:, 0]).tolist() if qpos.size == plan.nq else []
+    if only and all(map(math.isfinite, only)):
+        nodes, shape = plan.nodes(one_of(only)), (*qpos.shape[:-1], 4, 4)
+        return {
+            name: np.array([*_numbers(nodes[node]), *LAST_ROW]).reshape(shape)
+            for name, node in plan.frames.items()
+        }
     flat = qpos.reshape(math.prod(qpos.shape[:-1]), plan.nq)
     poses = {name: np.zeros((len(flat), 4, 4)) for name in plan.frames}
     for start in range(0, len(flat), CHUNK):
@@ -182,8 +163,8 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
 def _write(plan: Plan, q: Array, poses: list[Array]) -> None:
     """Write the frames' poses at q, (nq, n), into arrays that are zero, (n, 4, 4)."""
     nodes = plan.nodes(chunk_of(q))
-    for T, frame in zip(poses, plan.frames.values(), strict=True):
-        rows = rows_of(nodes[frame.node], frame, len(T)).reshape(12, -1)
+    for T, node in zip(poses, plan.frames.values(), strict=True):
+        rows = rows_of(nodes[node], len(T))
         T.reshape(-1, 16)[:, :12] = rows.T  # one pass over the output
         T[:, 3, 3] = 1.0
 
@@ -207,15 +188,9 @@ def in_chunks(
     return out.reshape(*given[0].shape[:-1], *shape)
 
 
-def _one(plan: Plan, qpos: Array) -> dict[str, Array] | None:
-    """Return the poses at one configuration, or None where the batch has to do it."""
-    q = qpos.ravel() - plan.ref[:, 0]
-    if plan.single is None or not np.isfinite(q).all():
-        return None
-    found = plan.single.poses(q.tolist())
-    if qpos.ndim > 1:
-        found = [T.reshape(*qpos.shape[:-1], 4, 4) for T in found]
-    return dict(zip(plan.frames, found, strict=True))
+def one_of(q: list[float]) -> Chunk:
+    """Return one configuration with its cosine and sine."""
+    return Chunk(q, [*map(math.cos, q)], [*map(math.sin, q)])
 
 
 def chunk_of(q: Array) -> Chunk:
@@ -230,13 +205,16 @@ def chunk_of(q: Array) -> Chunk:
     return Chunk(q, r - 1.0, t * r)
 
 
-def rows_of(at: Columns, frame: Frame, n: int) -> Array:
-    """Return the upper rows of the frame's poses, (3, 4, n)."""
-    rows = np.empty((3, 4, n))
-    for j, weights in enumerate(frame.R.T):
-        rows[:, j] = combine(at, weights)
-    rows[:, 3] = at.p + combine(at, frame.t)
+def rows_of(at: Axes, n: int) -> Array:
+    """Return the upper three rows of n poses, one after the other, (12, n)."""
+    rows = np.empty((12, n))
+    for row, number in zip(rows, _numbers(at), strict=True):
+        row[:] = number
     return rows
+
+
+def _numbers(at: Axes) -> list[Number]:
+    return [number for row in zip(*at, strict=True) for number in row]
 
 
 def rounded(R: Array) -> Array:

@@ -112,7 +112,7 @@ def reached(
 
 def _solve(problem: _Problem, start: Array) -> Array:
     """Return the best q found for every target, (joints, n)."""
-    rng = np.random.default_rng(47)
+    rng, around = np.random.default_rng(47), (problem.plan, problem.low, problem.high)
     everyone = np.arange(start.shape[1])
     if start.shape[1] <= FEW:
         best, miss = _one_by_one(problem, start)
@@ -124,7 +124,8 @@ def _solve(problem: _Problem, start: Array) -> Array:
             break
         each = int(np.clip(WIDTH // len(left), 1, MOST))
         target = np.repeat(left, each)
-        q, ee = _walk(problem, _near(problem, left, each, rng), target, AGAIN)
+        drawn = _drawn(*around, each * max(DRAWN // each, 20), rng)
+        q, ee = _walk(problem, _nearest(problem, left, each, *drawn), target, AGAIN)
         pick = ee.reshape(-1, each).argmin(axis=1) + each * np.arange(len(left))
         better = ee[pick] < miss[left]
         best[:, left[better]] = q[:, pick[better]]
@@ -138,7 +139,7 @@ def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
     limits = np.hstack([low, high])
     best, miss = start.copy(), np.empty(start.shape[1])
     for i in range(len(miss)):
-        walker = Walker(plan.alone, goals[..., i], limits)
+        walker = Walker(plan, goals[..., i], limits)
         best[:, i], miss[i] = walker.walk(start[:, i].tolist(), FIRST)
         if miss[i] <= STOP**2:
             continue
@@ -215,15 +216,6 @@ def _damped(J: Array, e: Array, damping: Array) -> Array:
     A = np.einsum("ikn,jkn->nij", J, J)
     A[:, range(6), range(6)] += damping[:, None]
     return np.einsum("ikn,ni->kn", J, np.linalg.solve(A, e.T[..., None])[..., 0])
-
-
-def _near(
-    problem: _Problem, left: np.ndarray, each: int, rng: np.random.Generator
-) -> Array:
-    """Return starts for the targets that are left, (joints, targets * each)."""
-    group = max(DRAWN // each, 20)
-    drawn = _drawn(problem.plan, problem.low, problem.high, each * group, rng)
-    return _nearest(problem, left, each, *drawn)
 
 
 @functools.lru_cache(maxsize=16)

@@ -8,12 +8,13 @@ Units: metres and radians; (omega; v) in world axes.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.one import Floats, Single
+from robo47.fast.chains import Plan, one_of
+from robo47.fast.jacobians import columns_of
 from robo47.rotation_log import log_rotation
 
 STOP = 1e-9  # the length of the error where a walker stops: a tenth of what is asked
@@ -34,9 +35,9 @@ class Patience(NamedTuple):
 class Walker:
     """A walker towards one target, within the limits."""
 
-    def __init__(self, chain: Single, goal: Array, limits: Array) -> None:
+    def __init__(self, plan: Plan, goal: Array, limits: Array) -> None:
         """Keep what is asked; the goal is (3, 4), the limits (n, 2)."""
-        self._chain, self._limits = chain, limits.tolist()
+        self._plan, self._limits = plan, limits.tolist()
         *self._axes, self._point = goal.T.tolist()
 
     def walk(self, q: list[float], patience: Patience) -> tuple[list[float], float]:
@@ -56,9 +57,9 @@ class Walker:
             q = self._step(q, np.array(J), np.array(e), patience.damping * ee + FLOOR)
         return best, miss
 
-    def _downhill(self, q: list[float]) -> tuple[list[Floats], Floats]:
+    def _downhill(self, q: list[float]) -> tuple[list[Any], list[float]]:
         """Return the site Jacobian's columns and the pose error, each (6)."""
-        columns, (*axes, here) = self._chain.jacobian(q, at_end=True)
+        columns, (*axes, here) = columns_of(self._plan, one_of(q), at_end=True)
         (a, b, c), (d, e, f), (g, h, i) = axes
         (r, s, t), (u, v, w), (x, y, z) = self._axes
         # R_goal R^T has the sum of axis times goal's axis, scalar and cross products.
@@ -74,7 +75,7 @@ class Walker:
         if cosine < NEAR_PI:
             scale, turn = 1.0, log_rotation(np.transpose(self._axes) @ axes).tolist()
         (u, v, w), (x, y, z), (a, b, c) = turn, self._point, here
-        return columns, (scale * u, scale * v, scale * w, x - a, y - b, z - c)
+        return columns, [scale * u, scale * v, scale * w, x - a, y - b, z - c]
 
     def _step(self, q: list[float], J: Array, e: Array, damping: float) -> list[float]:
         """Return q after one damped step, within the limits; J is (n, 6)."""

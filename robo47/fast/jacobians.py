@@ -1,4 +1,4 @@
-"""The Jacobians of one arm at many configurations at once, in pure NumPy.
+"""The Jacobians of one arm at one configuration or at many, in pure NumPy.
 
 The chain of `robo47.fast.exponentials` turns a frame at each joint, about one of the
 frame's own axes: where it stands, a Jacobian's column can be read off.
@@ -6,22 +6,24 @@ frame's own axes: where it stands, a Jacobian's column can be read off.
 Units: metres, radians; screws are (omega; v).
 """
 
+from typing import Any
+
 import numpy as np
 
 from robo47.checks import Array
-from robo47.fast.chains import Plan, chunk_of, in_chunks, rows_of
+from robo47.fast.chains import Plan, chunk_of, in_chunks, one_of, rows_of
 from robo47.fast.exponentials import END, plan_of
-from robo47.fast.moves import Slide, Turn, combine
+from robo47.fast.moves import ZERO, Chunk, Slide, moved
 
 
 def jacobians(screws: Array, M: Array, q: Array, at_end: bool) -> Array:
     """Return the Jacobian, (..., 6, joints), at finite q, (..., joints).
 
-    The other arguments are those of `exponentials.plan_of` and `jacobian_columns`.
+    The other arguments are those of `exponentials.plan_of` and `columns_of`.
     """
     plan, n = plan_of(screws, M), q.shape[-1]
     if q.size == n:
-        J, _ = plan.alone.jacobian(q.ravel().tolist(), at_end)
+        J, _ = columns_of(plan, one_of(q.ravel().tolist()), at_end)
         return np.array([*zip(*J, strict=True)]).reshape(*q.shape[:-1], 6, n)
     columns = lambda q: jacobian_columns(plan, q, at_end)[0]  # noqa: E731
     return in_chunks(columns, (6, n), q)
@@ -31,30 +33,43 @@ def jacobian_columns(plan: Plan, q: Array, at_end: bool) -> tuple[Array, Array]:
     """Return the Jacobian, and where the end effector is.
 
     Args:
-        plan: from `exponentials.plan_of`.
+        plan, at_end: as in `columns_of`.
         q: finite configurations, (joints, n); n of about 1000 serves the cache best.
-        at_end: False for the velocity of the point at the origin (the space Jacobian),
-            True for that of the end effector, in world axes.
 
     Returns:
         J, (6, joints, n); the end's rotation and position side by side, (3, 4, n).
     """
-    nodes = plan.nodes(chunk_of(q))
-    frame, J, signs = plan.frames[END], np.zeros((6, *q.shape)), np.ones((len(q), 1))
-    end = rows_of(nodes[frame.node], frame, q.shape[1])
-    omega, v = J[:3], J[3:]
-    moved = [*zip([step for _, step in plan.steps], nodes[1:], strict=True)]
-    for step, at in moved:
-        if isinstance(step, Turn):
-            omega[:, step.adr], v[:, step.adr] = at[step.k], at.p
-            signs[step.adr] = step.sign
-    omega *= signs
-    if at_end:
-        v -= end[:, None, 3]
-    (a, b, c), (x, y, z) = omega, v
-    # v = point x omega, written out: np.cross takes longer.
-    v[0], v[1], v[2] = y * c - z * b, z * a - x * c, x * b - y * a
-    for step, at in moved:
+    columns, end = columns_of(plan, chunk_of(q), at_end)
+    J = np.empty((6, *q.shape))
+    for adr, column in enumerate(columns):
+        for row, number in zip(J, column, strict=True):
+            row[adr] = number
+    return J, rows_of(end, q.shape[1]).reshape(3, 4, -1)
+
+
+def columns_of(plan: Plan, chunk: Chunk, at_end: bool) -> tuple[list[Any], Any]:
+    """Return the Jacobian's columns, (omega; v) in world axes, and the end effector.
+
+    Args:
+        plan: from `exponentials.plan_of`.
+        chunk: one configuration, or many.
+        at_end: False for the velocity of the point at the origin (the space Jacobian),
+            True for that of the end effector, in world axes.
+    """
+    nodes = plan.nodes(chunk)
+    end = nodes[plan.frames[END]]
+    x, y, z = end[3] if at_end else ZERO
+    J: list[Any] = [(*ZERO, *ZERO)] * plan.nq
+    for node, step in plan.joints:
+        _, _, _, (u, v, w) = at = nodes[node]
         if isinstance(step, Slide):
-            v[:, step.adr] += combine(at, step.direction)
+            a, b, c, *linear = J[step.adr]
+            J[step.adr] = (a, b, c, *moved(linear, step.along(at)))
+            continue
+        a, b, c = at[step.k]
+        if step.sign < 0:
+            a, b, c = -a, -b, -c
+        u, v, w = x - u, y - v, z - w
+        # (omega; omega x (end - point)), written out: np.cross takes longer.
+        J[step.adr] = a, b, c, b * w - c * v, c * u - a * w, a * v - b * u
     return J, end

@@ -1,152 +1,138 @@
-"""The elementary moves that every chain is made of, on many frames at once.
+"""The elementary moves that every chain is made of, on one frame or on many at once.
 
-A batch of frames is four columns: the axes x, y, z and the origin p, each a (3, n)
-array whose entry [0, i] is the world x coordinate in configuration i. A turn about
-one of the frame's own axes touches only the two other columns: about z,
+A frame is its axes x, y, z and its origin p, each three components: floats for one
+configuration, arrays (n,) for a batch. The same arithmetic serves both. A turn about
+one of the frame's own axes touches only the two other axes: about z,
 x' = c x + s y and y' = c y - s x. A slide touches only p.
 
 Units: metres and radians; quaternions (w, x, y, z).
 """
 
-from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from robo47 import se3
 from robo47.checks import Array
+from robo47.fast.vectors import Number, Numbers
 
+Triple = tuple[Number, Number, Number]
+Axes = Sequence[Triple]  # x, y, z, p
+Terms = list[tuple[int, float]]  # (which axis, its weight), without zeros
 
-class Columns(NamedTuple):
-    """A batch of frames: axes x, y, z and origin p, each (3, n), or (3, 1) for all."""
-
-    x: Array
-    y: Array
-    z: Array
-    p: Array
-
-
-_EX, _EY, _EZ = np.eye(3)[:, :, None]
-WORLD = Columns(_EX, _EY, _EZ, np.zeros((3, 1)))
+ZERO: Triple = (0.0, 0.0, 0.0)
+WORLD: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), ZERO)
 
 
 class Chunk(NamedTuple):
-    """A batch of configurations, one row per number in qpos: each (nq, n).
+    """One configuration or a batch: a float, or an array (n,), per number in qpos.
 
     `q` is measured from the joint's reference; `cos` and `sin` are of q, for hinges.
     """
 
-    q: Array
-    cos: Array
-    sin: Array
+    q: Numbers
+    cos: Numbers
+    sin: Numbers
 
 
-class Step(Protocol):
-    """An elementary move: takes the frame before it to the one after it."""
-
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns: ...
-
-
-@dataclass(frozen=True)
 class Shift:
     """Move the origin by a fixed vector, in the frame's own axes, metres."""
 
-    vector: Array
+    def __init__(self, vector: Array) -> None:
+        self.vector, self._terms = vector, terms_of(vector)
 
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        return at._replace(p=at.p + combine(at, self.vector))
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        x, y, z, p = at
+        return x, y, z, moved(p, combine(at, self._terms))
 
 
-@dataclass(frozen=True)
 class Rotate:
     """Turn the frame by a fixed rotation, (3, 3)."""
 
-    R: Array
+    def __init__(self, R: Array) -> None:
+        self.R, self._terms = R, [terms_of(column) for column in R.T]
 
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        x, y, z = (combine(at, weights) for weights in self.R.T)
-        return Columns(x, y, z, at.p)
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        x, y, z = self._terms
+        return combine(at, x), combine(at, y), combine(at, z), at[3]
 
 
-@dataclass(frozen=True)
 class Turn:
     """Hinge: turn by q about the frame's axis k, or about minus that axis."""
 
-    k: int
-    sign: float
-    adr: int
-
-    @property
-    def turned(self) -> tuple[int, int]:
-        """The axes that it turns: i towards j."""
-        one, two = (self.k + 1) % 3, (self.k + 2) % 3
+    def __init__(self, k: int, sign: float, adr: int) -> None:
+        self.k, self.sign, self.adr = k, sign, adr
+        one, two = (k + 1) % 3, (k + 2) % 3
         # A turn about -k is a turn about k with the other two axes swapped.
-        return (one, two) if self.sign > 0 else (two, one)
+        self._turned = (one, two) if sign > 0 else (two, one)  # from one to the other
 
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        c, s = chunk.cos[self.adr], chunk.sin[self.adr]
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        i, j = self._turned
+        _, cos, sin = chunk
+        c, s = cos[self.adr], sin[self.adr]
+        (x, y, z), (u, v, w) = at[i], at[j]
         axes = list(at)
-        i, j = self.turned
-        axes[i], axes[j] = c * at[i] + s * at[j], c * at[j] - s * at[i]
-        return Columns(*axes)
+        axes[i] = c * x + s * u, c * y + s * v, c * z + s * w
+        axes[j] = c * u - s * x, c * v - s * y, c * w - s * z
+        return axes
 
 
-@dataclass(frozen=True)
 class Slide:
     """Slide: move the origin by q along a fixed direction of the frame."""
 
-    direction: Array
-    adr: int
+    def __init__(self, direction: Array, adr: int) -> None:
+        self.adr, self._terms = adr, terms_of(direction)
 
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        return at._replace(p=at.p + combine(at, self.direction) * chunk.q[self.adr])
+    def along(self, at: Axes) -> Triple:
+        """Return where q = 1 would move the origin, in world axes."""
+        return combine(at, self._terms)
+
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        (x, y, z), q = self.along(at), chunk.q[self.adr]
+        return (*at[:3], moved(at[3], (x * q, y * q, z * q)))
 
 
-@dataclass(frozen=True)
 class Ball:
     """Ball: turn by the quaternion in q."""
 
-    name: str
-    adr: int
+    def __init__(self, name: str, adr: int) -> None:
+        self.name, self.adr = name, adr
 
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        R = np.moveaxis(_rotation(chunk.q, self.adr, self.name), 0, -1)
-        x, y, z = (at.x * R[0, j] + at.y * R[1, j] + at.z * R[2, j] for j in range(3))
-        return Columns(x, y, z, at.p)
-
-
-@dataclass(frozen=True)
-class Free:
-    """Free: the pose (position, quaternion) in q, whatever the frame was."""
-
-    name: str
-    adr: int
-
-    def __call__(self, at: Columns, chunk: Chunk) -> Columns:
-        x, y, z = np.moveaxis(
-            _rotation(chunk.q, self.adr + 3, self.name), (2, 1), (0, 1)
+    def move(self, at: Axes, chunk: Chunk) -> Axes:
+        try:
+            R = se3.quat_to_R(np.array(chunk.q[self.adr : self.adr + 4]).T)
+        except ValueError:
+            raise ValueError(
+                f"{self.name}: its quaternion in qpos has length 0"
+            ) from None
+        x, y, z = (
+            tuple(a * u + b * v + c * w for a, b, c in zip(*at[:3], strict=True))
+            for u, v, w in np.moveaxis(R, (-1, -2), (0, 1))
         )
-        return Columns(x, y, z, chunk.q[self.adr : self.adr + 3])
+        return x, y, z, at[3]
 
 
-def combine(at: Columns, weights: Array) -> Array:
-    """Return the sum of weight times axis, skipping zeros and plain copies.
-
-    Args:
-        at: the frame whose axes are added.
-        weights: (3,).
-    """
-    terms = [
-        axis if weight == 1.0 else axis * weight
-        for axis, weight in zip(at[:3], weights, strict=True)
-        if weight != 0.0
-    ]
-    return sum(terms[1:], start=terms[0]) if terms else np.zeros((3, 1))
+Step = Shift | Rotate | Turn | Slide | Ball  # each takes a frame to the next one
 
 
-def _rotation(q: Array, adr: int, name: str) -> Array:
-    """Return R, (n, 3, 3), of the quaternions at adr; joints named in the error."""
-    try:
-        return se3.quat_to_R(q[adr : adr + 4].T)
-    except ValueError:
-        raise ValueError(f"{name}: its quaternion in qpos has length 0") from None
+def combine(at: Axes, terms: Terms) -> Triple:
+    """Return the sum of weight times axis, without copies of what is there."""
+    total = None
+    for axis, weight in terms:
+        x, y, z = at[axis]
+        if weight != 1.0:
+            x, y, z = weight * x, weight * y, weight * z
+        total = (x, y, z) if total is None else moved(total, (x, y, z))
+    return total or ZERO
+
+
+def moved(p: Triple, by: Triple) -> Triple:
+    """Return the sum of two triples."""
+    (x, y, z), (u, v, w) = p, by
+    return x + u, y + v, z + w
+
+
+def terms_of(weights: Array) -> Terms:
+    """Return fixed weights of the axes, (3,), as terms."""
+    return [(i, w) for i, w in enumerate(weights.tolist()) if w != 0.0]

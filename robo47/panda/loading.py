@@ -114,7 +114,8 @@ def provenance() -> dict[str, Any]:
     record: dict[str, Any] = {"source": "the kit's embedded twin"}
     if folder is not None:
         record = menagerie.read_provenance()
-    content = _content(folder / "panda_nohand.xml" if folder else TWIN_XML)
+    path = folder / "panda_nohand.xml" if folder else TWIN_XML
+    content = menagerie.hash_file(path)[:8] if path.is_file() else "unknown"
     fetched = record.get("files", {}).get("panda_nohand.xml", content)
     return {
         "robot": "Franka Panda",
@@ -210,7 +211,3 @@ def _without_fingers(root: ET.Element) -> None:
     for key in root.iter("key"):
         for name in ("qpos", "ctrl"):
             key.set(name, " ".join(key.get(name, "").split()[: len(READY_Q)]))
-
-
-def _content(path: Path) -> str:
-    return menagerie.hash_file(path)[:8] if path.is_file() else "unknown"

@@ -5,7 +5,8 @@ turns), never to compute the answer. Only the seven arm joints, whatever else th
 model holds. Units: metres, radians, kilograms; screws are (omega; v).
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -32,6 +33,32 @@ class Inertias(NamedTuple):
         Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
     )
 
+    def carrying(self, carry: Callable[..., Array], *load: Any) -> "Inertias":
+        """Return the same bodies, the last one with a load that carry makes part of it.
+
+        Args:
+            carry: as `robo47.trajectory.carry`.
+            load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
+        """
+        masses, coms, inertias = (part.copy() for part in self)
+        ten = carry(masses[-1], coms[-1], inertias[-1], *load)
+        xx, yy, zz, xy, xz, yz = ten[4:]
+        masses[-1], coms[-1] = ten[0], ten[1:4]
+        inertias[-1] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+        return Inertias(masses, coms, inertias)
+
+
+def joint_ids(model: mujoco.MjModel) -> Array:
+    """Return the numbers of joint1 to joint7 in a model, (7,).
+
+    Raises:
+        Robo47Error: it has not all of them.
+    """
+    try:
+        return np.array([model.joint(name).id for name in ARM_JOINTS])
+    except KeyError:
+        raise Robo47Error("the model has no joint1 to joint7; load the Panda") from None
+
 
 def screws(model: mujoco.MjModel) -> Array:
     """Return the space screws of the seven arm joints, with the arm at q = 0.
@@ -45,14 +72,11 @@ def screws(model: mujoco.MjModel) -> Array:
     Raises:
         Robo47Error: the model has no joint1 to joint7.
     """
-    rows = []
-    poses = kinematics.fk_all(model, _drawn(model))
-    for name in ARM_JOINTS:
-        joint = _joint(model, name)
-        T = poses[f"body:{model.body(int(model.jnt_bodyid[joint.id])).name}"]
-        R, p = T[:3, :3], T[:3, 3]
-        rows.append(screw_axis(R @ joint.axis, p + R @ joint.pos))
-    return np.array(rows) + 0.0  # no -0. where people read it
+    joints = joint_ids(model)
+    T = _poses(model, model.jnt_bodyid[joints], _drawn(model))
+    R, p = T[:, :3, :3], T[:, :3, 3]
+    axes, anchors = times(R, model.jnt_axis[joints]), times(R, model.jnt_pos[joints])
+    return screw_axis(axes, p + anchors) + 0.0  # no -0. where people read it
 
 
 def home_pose(model: mujoco.MjModel) -> Array:
@@ -91,7 +115,7 @@ def inertias(model: mujoco.MjModel) -> Inertias:
     Raises:
         Robo47Error: the model has no joint1 to joint7.
     """
-    links = [_link(model, name) for name in ARM_JOINTS]
+    links = model.jnt_bodyid[joint_ids(model)]
     return Inertias(
         model.body_mass[links], model.body_ipos[links], _about_coms(model, links)
     )
@@ -111,15 +135,14 @@ def hand_inertia(
         com in link 7's axes in kg m^2).
 
     Raises:
-        Robo47Error: the model has no joint7.
+        Robo47Error: the model has no joint1 to joint7.
     """
-    link7 = _link(model, ARM_JOINTS[-1])
+    link7 = int(model.jnt_bodyid[joint_ids(model)[-1]])
     bodies = [b for b in range(model.nbody) if hangs_on(model, b, link7)]
     q = _drawn(model)
-    q[[model.jnt_qposadr[j] for b in bodies for j in _joints_of(model, b)]] = opening
-    poses = kinematics.fk_all(model, q)
-    T_link7_world = se3.inverse(poses[f"body:{model.body(link7).name}"])
-    T = T_link7_world @ [poses[f"body:{model.body(b).name}"] for b in bodies]
+    q[model.jnt_qposadr[np.isin(model.jnt_bodyid, bodies)]] = opening
+    T_world_link7, *T_world = _poses(model, [link7, *bodies], q)
+    T = se3.inverse(T_world_link7) @ np.reshape(T_world, (-1, 4, 4))
     R, p = T[:, :3, :3], T[:, :3, 3]
     turned = R @ _about_coms(model, bodies) @ np.swapaxes(R, -1, -2)
     return as_one(
@@ -140,13 +163,12 @@ def arm(model: mujoco.MjModel) -> Arm:
     Raises:
         Robo47Error: the model has no joint1 to joint7.
     """
-    poses = kinematics.fk_all(model, _drawn(model))
-    links = [_link(model, name) for name in ARM_JOINTS]
-    dofs = [int(model.joint(name).dofadr[0]) for name in ARM_JOINTS]
+    joints = joint_ids(model)
+    dofs = model.jnt_dofadr[joints]
     bare = Arm(
         screws(model),
         home_pose(model),
-        np.stack([poses[f"body:{model.body(link).name}"] for link in links]),
+        _poses(model, model.jnt_bodyid[joints], _drawn(model)),
         *inertias(model),
         armature=model.dof_armature[dofs],
         damping=model.dof_damping[dofs],
@@ -157,10 +179,8 @@ def arm(model: mujoco.MjModel) -> Arm:
 
 def _drawn(model: mujoco.MjModel) -> Array:
     """Return qpos with hinges and slides at 0; a free body where the file has it."""
-    q = model.qpos0.copy()
-    for joint in range(model.njnt):
-        if model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
-            q[model.jnt_qposadr[joint]] = 0.0
+    q, single = model.qpos0.copy(), model.jnt_type >= int(mujoco.mjtJoint.mjJNT_SLIDE)
+    q[model.jnt_qposadr[single]] = 0.0
     return q
 
 
@@ -178,17 +198,7 @@ def hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
     return parent == ancestor
 
 
-def _link(model: mujoco.MjModel, joint: str) -> int:
-    return int(model.jnt_bodyid[_joint(model, joint).id])
-
-
-def _joints_of(model: mujoco.MjModel, body: int) -> range:
-    first = int(model.body_jntadr[body])
-    return range(first, first + int(model.body_jntnum[body]))
-
-
-def _joint(model: mujoco.MjModel, name: str):
-    try:
-        return model.joint(name)
-    except KeyError:
-        raise Robo47Error(f"the model has no joint {name!r}; load the Panda") from None
+def _poses(model: mujoco.MjModel, bodies: Iterable[int], q: Array) -> Array:
+    """Return where bodies are at a configuration, (n, 4, 4)."""
+    poses = kinematics.fk_all(model, q)
+    return np.array([poses[f"body:{model.body(body).name}"] for body in bodies])

@@ -17,7 +17,6 @@ from robo47.verify.answers import (
     off_null_vector,
     off_rotation,
     off_volume,
-    random_screws,
 )
 from robo47.verify.circle import CENTRE, LAP, circle, least_miss
 from robo47.verify.ik import Ends, beyond, ends_of, miss, tries
@@ -47,5 +46,5 @@ __all__ = [
     "mujoco_rotation", "mujoco_screws", "mujoco_site_jacobian", "mujoco_step",
     "off_adjoint", "off_cross", "off_goal", "off_least_squares", "off_library",
     "off_log", "off_motion", "off_null_vector", "off_rotation", "off_volume",
-    "random_q", "random_screws", "tries", "verify_fk", "worst_difference",
+    "random_q", "tries", "verify_fk", "worst_difference",
 ]  # fmt: skip

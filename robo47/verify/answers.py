@@ -11,9 +11,13 @@ import numpy as np
 
 from robo47 import jacobian, panda, screws, se3
 from robo47.checks import Array
+from robo47.fast.arm_state import HAT
+from robo47.fast.vectors import times
 from robo47.verify.motion import mujoco_site_jacobian
 from robo47.verify.poses import mujoco_poses, mujoco_rotation, random_q
 
+Function = Callable[..., Array]  # one of the lab's own
+Check = Callable[[str, Array], None]  # is given a name and differences
 SEED = 47  # the same random numbers at every run
 SITE = "site:attachment_site"
 
@@ -31,62 +35,51 @@ def each(function: Callable[..., Any], *columns: Array) -> Array:
     return np.array([function(*row) for row in zip(*columns, strict=True)])
 
 
-def random_screws(n: int, seed: int) -> tuple[Array, Array]:
-    """Return screws (omega; v), (n, 6), and angles from -pi to pi, (n,).
+def _screws(n: int) -> tuple[Array, Array]:
+    """Return n screws (omega; v), (n, 6), and angles from -pi to pi, (n,).
 
     Every fourth is a slide, with omega = 0; the others turn, and most have a pitch.
-
-    Args:
-        n: how many.
-        seed: of these.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(SEED)
     S = rng.normal(size=(n, 6))
     S[:, :3] /= np.linalg.norm(S[:, :3], axis=1, keepdims=True)
     S[::4, :3] = 0.0
     return S, rng.uniform(-np.pi, np.pi, n)
 
 
-def off_cross(skew: Callable[..., Array], n: int, seed: int = SEED) -> Array:
+def off_cross(skew: Function, n: int) -> Array:
     """Return how far [a] b is from the cross product, (n, 3), of random a and b."""
-    a, b = np.random.default_rng(seed).normal(size=(2, n, 3))
-    return (each(skew, a) @ b[..., None])[..., 0] - np.cross(a, b)
+    a, b = np.random.default_rng(SEED).normal(size=(2, n, 3))
+    return times(each(skew, a), b) - np.cross(a, b)
 
 
-def off_rotation(exp_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Array:
+def off_rotation(exp_rotation: Function, n: int) -> Array:
     """Return how far rotations about random axes are from MuJoCo's, (n, 3, 3)."""
-    S, theta = random_screws(2 * n, seed)
+    S, theta = _screws(2 * n)
     given = S[1::2, :3], theta[1::2]  # no slides
     return each(exp_rotation, *given) - each(mujoco_rotation, *given)
 
 
-def off_motion(exp_screw: Callable[..., Array], n: int, seed: int = SEED) -> Array:
+def off_motion(exp_screw: Function, n: int) -> Array:
     """Return how far motions along random screws are from the library's, (n, 4, 4)."""
-    given = random_screws(n, seed)
+    given = _screws(n)
     return each(exp_screw, *given) - screws.exp_screw(*given)
 
 
-def off_adjoint(adjoint: Callable[..., Array], T: Array, seed: int = SEED) -> Array:
+def off_adjoint(adjoint: Function, T: Array) -> Array:
     """Return how far screws told by Ad(T) are from T [S] inv(T), (n, 4, 4).
 
     Args:
         adjoint: of a pose, (6, 6).
         T: poses, (n, 4, 4).
-        seed: of the screws S.
     """
-    S, _ = random_screws(len(T), seed)
-    told = (each(adjoint, T) @ S[..., None])[..., 0]
-    return _bracket(told) - T @ _bracket(S) @ se3.inverse(T)
+    S, _ = _screws(len(T))
+    told = times(each(adjoint, T), S)
+    seen, own = ((rows @ HAT).reshape(-1, 4, 4) for rows in (told, S))  # [S]
+    return seen - T @ own @ se3.inverse(T)
 
 
-def _bracket(S: Array) -> Array:
-    """Return [S], (n, 4, 4), of any six numbers."""
-    B = np.zeros((len(S), 4, 4))
-    B[:, :3, :3], B[:, :3, 3] = screws.skew(S[:, :3]), S[:, 3:]
-    return B
-
-
-def off_log(log_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Array:
+def off_log(log_rotation: Function, n: int) -> Array:
     """Return how far the logarithms of n known turns are off, (n, 3).
 
     Some are next to 0, or next to pi down to 1e-9 rad; one is half a turn about y.
@@ -94,9 +87,8 @@ def off_log(log_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Arr
     Args:
         log_rotation: of a rotation matrix, (3,).
         n: how many.
-        seed: of their axes and angles.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(SEED)
     axes = rng.normal(size=(n, 3))
     axes /= np.linalg.norm(axes, axis=1, keepdims=True)
     angles = np.pi * rng.uniform(size=n)
@@ -107,7 +99,7 @@ def off_log(log_rotation: Callable[..., Array], n: int, seed: int = SEED) -> Arr
     return each(log_rotation, R) - angles[:, None] * axes
 
 
-def off_goal(pose_error: Callable[..., Array], T: Array, goal: Array) -> Array:
+def off_goal(pose_error: Function, T: Array, goal: Array) -> Array:
     """Return how far from its goal a hand is that was moved by its error.
 
     Args:
@@ -127,9 +119,7 @@ def off_goal(pose_error: Callable[..., Array], T: Array, goal: Array) -> Array:
     return (moved - goal)[:, :3]
 
 
-def off_least_squares(
-    dls_step: Callable[..., Array], J: Array, seed: int = SEED
-) -> Array:
+def off_least_squares(dls_step: Function, J: Array) -> Array:
     """Return how far damped steps are from those of numpy.linalg.lstsq, (n, 7).
 
     With seven more rows, damping times the identity, |J dq - e|^2 + damping^2 |dq|^2 is
@@ -138,30 +128,23 @@ def off_least_squares(
     Args:
         dls_step: of J, e and the damping, (7,).
         J: Jacobians, (n, 6, 7); singular ones are welcome.
-        seed: of the errors e.
     """
-    e = np.random.default_rng(seed).normal(size=(len(J), 6))
+    e = np.random.default_rng(SEED).normal(size=(len(J), 6))
     damping = np.resize([0.05, 1.0], len(J))
-    rows = [np.vstack([A, d * np.eye(7)]) for A, d in zip(J, damping, strict=True)]
+    rows = np.concatenate([J, damping[:, None, None] * np.eye(7)], axis=1)
     right = np.hstack([e, np.zeros((len(J), 7))])
-    return each(dls_step, J, e, damping) - each(_solved, np.array(rows), right)
+    truth = each(lambda A, b: np.linalg.lstsq(A, b)[0], rows, right)
+    return each(dls_step, J, e, damping) - truth
 
 
-def _solved(A: Array, b: Array) -> Array:
-    return np.asarray(np.linalg.lstsq(A, b)[0], dtype=np.float64)
-
-
-def off_null_vector(
-    null_step: Callable[..., Array], J: Array, seed: int = SEED
-) -> Array:
+def off_null_vector(null_step: Function, J: Array) -> Array:
     """Return how far unfelt motions are from those along the null vector, (n, 7).
 
     Args:
         null_step: of J and a motion of the joints, (7,).
         J: Jacobians of rank 6, (n, 6, 7).
-        seed: of the motions.
     """
-    dq = np.random.default_rng(seed).normal(size=(len(J), 7))
+    dq = np.random.default_rng(SEED).normal(size=(len(J), 7))
     null = np.linalg.svd(J)[2][:, 6]
     along = np.sum(dq * null, axis=1, keepdims=True) * null
     return each(null_step, J, dq) - along
@@ -183,18 +166,17 @@ def in_the_hand(J_site: Array, T: Array) -> Array:
     return np.concatenate([back @ J_site[:, :3], back @ J_site[:, 3:]], axis=1)
 
 
-def off_library(model: mujoco.MjModel, n: int, seed: int = SEED) -> tuple[Array, Array]:
+def off_library(model: mujoco.MjModel, n: int) -> tuple[Array, Array]:
     """Return how far the library's poses and J_site are from MuJoCo's.
 
     Args:
         model: of the Panda without its hand.
         n: number of random configurations.
-        seed: of these.
 
     Returns:
         Differences, (n, 4, 4) and (n, 6, 7).
     """
-    q, S = random_q(model, n, seed), panda.screws(model)
+    q, S = random_q(model, n, SEED), panda.screws(model)
     T, J = screws.fk_space(S, panda.home_pose(model), q), jacobian.space_jacobian(S, q)
     J_site = jacobian.site_jacobian(J, T[:, :3, 3])
     return T - mujoco_poses(model, q)[SITE], J_site - mujoco_site_jacobian(model, q)

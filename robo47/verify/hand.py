@@ -5,7 +5,7 @@ row of differences a state. Twists, accelerations and wrenches have the rotation
 in world axes at the hand's site; J is the site Jacobian. SI units.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import mujoco
@@ -15,29 +15,20 @@ from robo47 import contact, jacobian, panda, simulate, task_space
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
-from robo47.verify.answers import each
+from robo47.verify.answers import Check, Function, each
 from robo47.verify.motion import mujoco_site_jacobian
 from robo47.verify.poses import random_q
 
-Function = Callable[..., Array]  # one of the lab's own
-
 
 class State(NamedTuple):
-    """A random state of the arm, and random things to ask of it.
+    """A random state of the arm, and random things to ask of it."""
 
-    Attributes:
-        now: the arm at its configuration.
-        qd: joint velocities in rad/s, (7,).
-        torque: of the joints in N m, (7,).
-        wrench, acc, e: at the hand, (6,): to push with, to ask for, to be off by.
-    """
-
-    now: ArmState
-    qd: Array
-    torque: Array
-    wrench: Array
-    acc: Array
-    e: Array
+    now: ArmState  # the arm at its configuration
+    qd: Array  # joint velocities in rad/s, (7,)
+    torque: Array  # of the joints in N m, (7,)
+    wrench: Array  # at the hand, (6,), to push with
+    acc: Array  # at the hand, (6,), to ask for
+    e: Array  # at the hand, (6,), to be off by
 
 
 def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State]:
@@ -143,9 +134,7 @@ def kinematic(J: Array, M: Array, Lambda: Array, tau: Array) -> Array:
     return jacobian.null_step(J, tau)
 
 
-def compare(
-    check: Callable[[str, Array], None], found: Sequence[State], **own: Function
-) -> None:
+def compare(check: Check, found: Sequence[State], **own: Function) -> None:
     """Check functions against those of `robo47.task_space` of the same names."""
     rng, n = np.random.default_rng(len(found)), len(found)
     J, M = np.array([s.now.J_site for s in found]), np.array([s.now.M for s in found])

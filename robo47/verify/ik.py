@@ -4,7 +4,6 @@ A solver takes screws, (7, 6), home pose, (4, 4), T_goal, (4, 4), start, (7,), a
 limits, (7, 2), and returns joint angles, (7,). `arm` is the first two.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -12,12 +11,11 @@ import numpy as np
 from robo47 import jacobian
 from robo47.checks import Array
 from robo47.screws import fk_space
-from robo47.verify.answers import each
+from robo47.verify.answers import Function, each
 
 REACHED = 1e-8  # the length of the pose error of a solution, radians and metres
 NEAR, FAR = 0.3, 2.0  # radians from the start; metres from the base, out of reach
 ENOUGH = 3  # failures, after which the rest is spared
-Solver = Callable[..., Array]
 
 
 class Ends(NamedTuple):
@@ -35,7 +33,7 @@ class Ends(NamedTuple):
 
 
 def ends_of(
-    solve: Solver, arm: tuple[Array, Array], limits: Array, q: Array, seed: int
+    solve: Function, arm: tuple[Array, Array], limits: Array, q: Array, seed: int
 ) -> Ends:
     """Return how a solver does on targets near its starts, and on some out of reach.
 
@@ -63,7 +61,7 @@ def ends_of(
 
 
 def tries(
-    solve: Solver,
+    solve: Function,
     arm: tuple[Array, Array],
     limits: Array,
     goals: Array,

@@ -3,7 +3,6 @@
 Inertias are 6x6 about the world's origin, (angular; linear), in world axes. SI units.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import mujoco
@@ -13,37 +12,25 @@ from robo47 import panda, simulate
 from robo47.checks import Array
 from robo47.fast import dynamics
 from robo47.panda import READY_Q
-from robo47.verify.answers import each
+from robo47.verify.answers import Function, each
 from robo47.verify.motion import mujoco_acceleration, mujoco_mass_matrix, mujoco_step
 from robo47.verify.poses import random_q
 
-Function = Callable[..., Array]  # one of the lab's own
-
 
 class Motions(NamedTuple):
-    """The arm, ready and then at n - 1 random configurations, each with a motion.
+    """The arm, ready and then at n - 1 random configurations, each with a motion."""
 
-    Attributes:
-        q, qd, qdd: configurations, speeds and accelerations, (n, 7).
-        J: space Jacobians, (n, 6, 7).
-        T: poses of link1 to link7, (n, 7, 4, 4).
-        coms: their centres of mass in the world, (n, 7, 3).
-        links: masses, centres and inertias in the links' own axes, each n times.
-        armature, damping, g: of the arm, each n times.
-        M: MuJoCo's mass matrices, (n, 7, 7).
-    """
-
-    q: Array
-    qd: Array
-    qdd: Array
-    J: Array
-    T: Array
-    coms: Array
-    links: list[Array]
-    armature: Array
-    damping: Array
-    g: Array
-    M: Array
+    q: Array  # configurations, (n, 7)
+    qd: Array  # their speeds
+    qdd: Array  # and accelerations
+    J: Array  # space Jacobians, (n, 6, 7)
+    T: Array  # poses of link1 to link7, (n, 7, 4, 4)
+    coms: Array  # their centres of mass in the world, (n, 7, 3)
+    links: list[Array]  # masses, centres, inertias in the links' own axes, each n times
+    armature: Array  # of the arm, n times
+    damping: Array  # likewise
+    g: Array  # likewise
+    M: Array  # MuJoCo's mass matrices, (n, 7, 7)
 
 
 def motions(
@@ -62,27 +49,22 @@ def motions(
     return Motions(q, qd, qdd, J, T, coms, links, armature, damping, g, M)
 
 
-def cloud(rng: np.random.Generator) -> tuple[Array, Array, tuple]:
-    """Return eight random points, what each weighs, and their mass, centre, inertia."""
-    points, weights = rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)
-    c = weights @ points / weights.sum()
-    d = points - c
-    inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
-    return points, weights, (weights.sum(), c, inertia)
-
-
-def momentum(points: Array, weights: Array, V: Array) -> Array:
-    """Return the momentum (angular; linear) of points that move with V, one by one."""
-    p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
-    return np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
-
-
 def momenta(spatial_inertia: Function, n: int, rng: np.random.Generator) -> Array:
-    """Return G V of n clouds of points minus their momenta, (n, 6)."""
-    points, weights, own = zip(*[cloud(rng) for _ in range(n)], strict=True)
-    V = rng.normal(size=(n, 6))
-    by_hand = each(lambda one, v: spatial_inertia(*one) @ v, own, V)
-    return by_hand - each(momentum, points, weights, V)
+    """Return G V of n random clouds of points minus their momenta, (n, 6).
+
+    A momentum (angular; linear) is added up point by point; G is given the cloud's
+    mass, centre and inertia.
+    """
+    clouds = [(rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)) for _ in range(n)]
+    off = []
+    for (points, weights), V in zip(clouds, rng.normal(size=(n, 6)), strict=True):
+        c = weights @ points / weights.sum()
+        d = points - c
+        inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
+        p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
+        momentum = np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
+        off.append(spatial_inertia(weights.sum(), c, inertia) @ V - momentum)
+    return np.array(off)
 
 
 def crosses(ad: Function, n: int, rng: np.random.Generator) -> Array:

@@ -14,12 +14,11 @@ from robo47 import control, panda, simulate
 from robo47.checks import Array
 from robo47.panda import READY_Q
 from robo47.references import Reference
-from robo47.verify.answers import each
+from robo47.verify.answers import Check, Function, each
 from robo47.verify.motion import mujoco_inverse_dynamics
 from robo47.verify.poses import random_q
 
-Law = Callable[..., Array]
-Check = Callable[[str, Array], None]
+Law = Function
 
 
 def compare(check: Check, own: Mapping[str, Any], n: int, seed: int) -> None:
@@ -66,10 +65,7 @@ def motors(
 
 
 def rest(
-    sag_step: Callable[..., Array],
-    q_goal: Array,
-    load: Callable[[Array], Array],
-    kp: Any,
+    sag_step: Function, q_goal: Array, load: Callable[[Array], Array], kp: Any
 ) -> Array:
     """Return where sag_step stays when it is asked 100 times, at its own answer."""
     q = q_goal
@@ -140,7 +136,7 @@ def compare_breaking(
         lab.check(f"{whose}, rad/s", limit - found, limit=2.0)
 
 
-def servo_torque(servo_ctrl: Callable[..., Array]) -> Array:
+def servo_torque(servo_ctrl: Function) -> Array:
     """Return the torque of MuJoCo's servos minus the one asked for, N m, (7,)."""
     model, tau = panda.load("panda_nohand"), np.array([5.0, -20, 3, 15, 1, 2, -1])
     data = simulate.start(model, READY_Q, [0.1, -0.1] * 3 + [0.1])
@@ -149,9 +145,7 @@ def servo_torque(servo_ctrl: Callable[..., Array]) -> Array:
     return data.actuator_force - tau
 
 
-def through_servos(
-    law: Law, servo_ctrl: Callable[..., Array], reference: Reference
-) -> float:
+def through_servos(law: Law, servo_ctrl: Function, reference: Reference) -> float:
     """Return how far off servos are that are commanded torques, at 500 Hz, in mrad."""
     model = panda.load("panda_nohand")
     arm, data = panda.arm(model), simulate.start(model, READY_Q)

@@ -12,8 +12,11 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
+from robo47 import simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+
+SITE = "attachment_site"  # where the arm without a hand ends
 
 
 def mujoco_mass_matrix(model: mujoco.MjModel, qpos: ArrayLike) -> Array:
@@ -57,9 +60,7 @@ def mujoco_inverse_dynamics(
     """Return the torque that MuJoCo finds for an acceleration, by mj_inverse.
 
     Args:
-        model: any compiled model.
-        qpos: configurations, (..., nq).
-        qvel: joint velocities, rad/s, (..., nv).
+        model, qpos, qvel: as in `mujoco_bias`.
         qacc: joint accelerations, rad/s^2, (..., nv).
 
     Returns:
@@ -92,10 +93,7 @@ def mujoco_step(
     """Return the joint velocities one simulation step later, by mj_step.
 
     Args:
-        model: any compiled model; with `drive="torque"` ctrl is a torque.
-        qpos: configurations, (..., nq).
-        qvel: joint velocities, rad/s, (..., nv).
-        ctrl: of the motors, (..., nu).
+        model, qpos, qvel, ctrl: as in `mujoco_acceleration`.
 
     Returns:
         qvel, rad/s, (..., nv).
@@ -104,7 +102,7 @@ def mujoco_step(
 
 
 def mujoco_site_jacobian(
-    model: mujoco.MjModel, qpos: ArrayLike, site: str = "attachment_site"
+    model: mujoco.MjModel, qpos: ArrayLike, site: str = SITE
 ) -> Array:
     """Return MuJoCo's Jacobian of a site, as twists (omega; v).
 
@@ -133,19 +131,13 @@ def mujoco_site_jacobian(
     return _ask(model, read, qpos=qpos)
 
 
-def mujoco_push(
-    model: mujoco.MjModel,
-    qpos: ArrayLike,
-    wrench: ArrayLike,
-    site: str = "attachment_site",
-) -> Array:
-    """Return the joint torques that MuJoCo puts in the place of a wrench at a site.
+def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Array:
+    """Return the joint torques that MuJoCo puts in the place of a wrench at the hand.
 
     Args:
         model: any compiled model.
         qpos: configurations, (n, nq).
-        wrench: moment about the site's point and force, world axes, (n, 6).
-        site: its MJCF name.
+        wrench: moment about `attachment_site` and force, world axes, (n, 6).
 
     Returns:
         Torques by mj_applyFT, N m, (n, nv).
@@ -153,15 +145,12 @@ def mujoco_push(
     Raises:
         Robo47Error: the model has no such site.
     """
-    number, data, answers = _site(model, site), mujoco.MjData(model), []
-    body = int(model.site_bodyid[number])
+    _site(model, SITE)
+    data, answers = mujoco.MjData(model), []
     for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
-        data.qpos[:] = q
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        at, tau = data.site_xpos[number], np.zeros(model.nv)
-        mujoco.mj_applyFT(model, data, F[3:], F[:3], at, body, tau)
-        answers.append(tau)
+        data.qpos[:], data.qfrc_applied[:] = q, 0.0
+        simulate.push_at(SITE, F)(model, data)
+        answers.append(data.qfrc_applied.copy())
     return np.array(answers)
 
 

@@ -3,7 +3,6 @@
 Radians, metres, seconds, kilograms.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -12,27 +11,20 @@ import numpy as np
 
 from robo47 import control, panda, se3, simulate, trajectory
 from robo47.checks import Array
-from robo47.verify.answers import each
+from robo47.verify.answers import Check, Function, each
 from robo47.verify.motion import mujoco_bias
 from robo47.verify.poses import random_q
 
-Function = Callable[..., Array]  # one of the lab's own
 REST = 0.1  # s, before and after a move, to see how it starts and stops
 
 
 class Moves(NamedTuple):
-    """Random moves of the seven joints, long and short.
+    """Random moves of the seven joints, long and short."""
 
-    Attributes:
-        q0, q1: from where to where, (n, 7).
-        T: how long each takes, (n,).
-        t: an instant of each, also before its start and after its end, (n,).
-    """
-
-    q0: Array
-    q1: Array
-    T: Array
-    t: Array
+    q0: Array  # from where, (n, 7)
+    q1: Array  # to where, (n, 7)
+    T: Array  # how long each takes, (n,)
+    t: Array  # an instant of each, also before its start and after its end, (n,)
 
 
 def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
@@ -44,9 +36,7 @@ def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
     return Moves(q0, q1, T, rng.uniform(-0.2, 1.2, n) * T)
 
 
-def compare(
-    check: Callable[[str, Array], None], at: Moves, seed: int, **own: Function
-) -> None:
+def compare(check: Check, at: Moves, seed: int, **own: Function) -> None:
     """Check functions against those of `robo47.trajectory` of the same names."""
     rng, n = np.random.default_rng(seed), len(at.T)
     L, v, a = _ramps(n, seed)
@@ -114,12 +104,8 @@ def carried(model: mujoco.MjModel, carry: Function, q: Array, seed: int) -> Arra
         q: configurations, (n, 7).
         seed: of the velocities.
     """
-    masses, coms, inertias = (part.copy() for part in panda.inertias(model))
-    ten = carry(masses[6], coms[6], inertias[6], *panda.hand_inertia(model))
-    xx, yy, zz, xy, xz, yz = ten[4:]
-    masses[6], coms[6] = ten[0], ten[1:4]
-    inertias[6] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-    arm = replace(panda.arm(model), masses=masses, coms=coms, inertias=inertias)
+    heavier = panda.inertias(model).carrying(carry, *panda.hand_inertia(model))
+    arm = replace(panda.arm(model), **heavier._asdict())
     qd = np.random.default_rng(seed).uniform(-2, 2, q.shape)
     closed, still = np.zeros((len(q), model.nq - 7)), np.zeros((len(q), model.nv - 7))
     truth = mujoco_bias(model, np.hstack([q, closed]), np.hstack([qd, still]))

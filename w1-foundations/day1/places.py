@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from labkit.judge import Case, Finding, HeldOut, Mistake, Pose, Slip
+from labkit.judge.answers import difference, matches, rigid
 from labkit.judge.chain import Factor, first_wrong, one_place
-from labkit.judge.compare import difference, matches, rigid
 from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import se3
 from robo47.checks import Array

@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Case, Finding
-from labkit.judge.compare import difference
+from labkit.judge.answers import difference
 from labkit.judge.matrix_kinds import few_entries
 from robo47.checks import Array
 

@@ -5,9 +5,8 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from labkit.judge import Case, Finding, Pose
+from labkit.judge.answers import InTurn, difference, matches, rigid
 from labkit.judge.chain import Factor, one_place, product
-from labkit.judge.compare import difference, matches, rigid
-from labkit.judge.mistake import InTurn
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
 from robo47.checks import Array

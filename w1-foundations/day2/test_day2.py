@@ -11,9 +11,8 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need
-from labkit.judge.compare import degrees, matches
+from labkit.judge.answers import degrees, matches
 from labkit.judge.row import row_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from labkit.log import read_rows
 from robo47 import panda, screws, se3, verify
@@ -21,7 +20,7 @@ from robo47 import panda, screws, se3, verify
 SCRIPT = "w1-foundations/src/day2_screws.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day2-lab.md").read_text("utf-8").split())
 DAY = find_day(2)
-ROULETTE = folder.load(DAY, "roulette")
+ROULETTE = DAY.module("roulette")
 
 lab = load_script(ROOT / SCRIPT)
 
@@ -44,7 +43,7 @@ def off(ours, truth):
 
 
 def test_franka_s_table_in_the_lab_is_the_one_in_the_questions():
-    assert_same(lab.FRANKA_DH, folder.load(DAY, "arms").FRANKA, 0.0)
+    assert_same(lab.FRANKA_DH, DAY.module("arms").FRANKA, 0.0)
 
 
 # --- the lab ---
@@ -247,7 +246,7 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
 def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
     need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))
-    figures, words = folder.load(DAY, "figures"), set()
+    figures, words = DAY.module("figures"), set()
     write = lambda layer, at, text, *rest: words.add(text)  # noqa: E731
     name = lambda layer, text, *rest: words.add(text)  # noqa: E731
     monkeypatch.setattr(figures.Layer, "text", write)
@@ -261,7 +260,7 @@ def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
 
 # --- where in the product it is wrong ---
 
-space = folder.load(DAY, "products").space
+space = DAY.module("products").space
 ORDER = [0, 2, 1, 3, 4, 5, 6]
 ONE_BY_ONE = {
     "wrong for negative angles of joint2 and joint4.": lambda S, M, q: space(
@@ -291,7 +290,7 @@ def test_joints_are_asked_for_one_at_a_time_both_ways(says):
 def test_the_tab_applies_one_exponential_at_a_time():
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
-    inspector = folder.load(DAY, "inspector")
+    inspector = DAY.module("inspector")
     model = panda.load("panda_nohand")
     page = MagicMock(model=model, q=panda.READY_Q.copy())
     page.arm.names = {"ee": "site:attachment_site"}

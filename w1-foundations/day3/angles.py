@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Case, Finding
-from labkit.judge.compare import difference
+from labkit.judge.answers import difference
 from robo47.checks import Array
 
 BY_PI, BY_0 = 0.02, 0.02  # radians: "near pi" and "near 0" begin here

@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Case, Finding, Row, Slip, Vector, draw
-from labkit.judge.compare import difference
+from labkit.judge.answers import difference
 from labkit.judge.kinds import one_factor
 from labkit.judge.matrices import times
 from robo47.jacobian import dls_step

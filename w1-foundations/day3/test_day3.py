@@ -10,7 +10,6 @@ from compare import assert_same
 
 from conftest import ROOT, load_script, need
 from labkit.judge.row import row_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
 
@@ -18,8 +17,8 @@ GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").s
 DAY = find_day(3)
 WHOSE = (ROOT / "w1-foundations/docs/which-jacobian-is-whose.md").read_text("utf-8")
 WHOSE = " ".join(WHOSE.split())
-ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
-LOOP = folder.load(DAY, "loop")
+ARM = DAY.module("jacobians").arm()  # screws, M and limits
+LOOP = DAY.module("loop")
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
 
@@ -234,7 +233,7 @@ def test_what_pushing_down_costs_joint_2_grows_with_the_hands_distance(arm):
 def test_the_two_ellipses_have_inverse_axes_and_the_picture_is_the_labs(monkeypatch):
     need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))
-    figures = folder.load(DAY, "figures")
+    figures = DAY.module("figures")
     stretched = np.linalg.svd(figures.planar(figures.STRETCHED))[1]
     assert stretched[1] < 0.15 * stretched[0]
     J = figures.planar(np.array([0.3, -0.8]))

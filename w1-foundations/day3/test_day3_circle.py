@@ -7,13 +7,12 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need, paper
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
 
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").split())
 DAY = find_day(3)
-ARM = folder.load(DAY, "jacobians").arm()  # screws, M and limits
+ARM = DAY.module("jacobians").arm()  # screws, M and limits
 ARMS = ARM[:2], ARM[2]
 
 lab = load_script(ROOT / "w1-foundations/src/day3_jacobian_ik.py")
@@ -185,7 +184,7 @@ def tab_with(functions=None, name="Jacobian"):
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-    return getattr(folder.load(DAY, "inspector"), name)(page)
+    return getattr(DAY.module("inspector"), name)(page)
 
 
 def test_the_tab_shows_ones_own_columns_and_the_wrong_ones_in_red():

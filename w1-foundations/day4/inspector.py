@@ -17,7 +17,6 @@ from robo47 import dynamics, panda, simulate
 from robo47.checks import Array
 
 JOINTS = 7
-NAMES = [f"joint{i}" for i in range(1, JOINTS + 1)]
 LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
 FORCE, PUSHED = np.array([0.0, 10.0, 0.0]), 0.5  # newtons in the world; seconds
 HZ, RATE = 25.0, 100.0  # of the picture; of the controller
@@ -49,7 +48,7 @@ class Forces(Tab):
         self.clock = page.html()
         limits = simulate.limits(self.model)[1]
         title = "gravity_torque; marked is what holds the arm"
-        self.bars = page.bars(NAMES, limits, "N m", title)
+        self.bars = page.bars(panda.ARM_JOINTS, limits, "N m", title)
         self.cells = page.html()
         radii = 0.03 * np.cbrt(self.rig.masses)  # the volume says what a link weighs
         self.balls = [page.draw.sphere(np.zeros(3), r, "orange") for r in radii]
@@ -132,7 +131,7 @@ class Forces(Tab):
         self.cells.content = heat_map(M, np.abs(M - right) > SAME)
         heaviest = int(np.argmax(np.abs(needed)))
         self.page.say(
-            f"{NAMES[heaviest]} holds most: {needed[heaviest]:.1f} N m. "
+            f"{panda.ARM_JOINTS[heaviest]} holds most: {needed[heaviest]:.1f} N m. "
             f"Least eigenvalue of M: {np.linalg.eigvalsh((M + M.T) / 2).min():.3f} "
             "kg m2."
         )

@@ -10,7 +10,6 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need, paper
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
 from robo47.verify import links
@@ -322,7 +321,7 @@ def test_the_script_runs_as_a_person_runs_it(monkeypatch, capsys):
 
 def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):
     pytest.importorskip("viser")
-    heat_map = folder.load(find_day(4), "inspector").heat_map
+    heat_map = find_day(4).module("inspector").heat_map
     M = arm.at(panda.READY_Q).M
     shown = [float(x) for x in re.findall(r">([-\d.]+)</td>", heat_map(M))]
     assert_same(np.reshape(shown, (7, 7)), M, 0.0051)
@@ -331,7 +330,7 @@ def test_the_heat_map_shows_every_entry_of_M_and_its_sign(arm):
 def forces(functions):
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
     page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-    return folder.load(find_day(4), "inspector").Forces(page)
+    return find_day(4).module("inspector").Forces(page)
 
 
 def fallen(tab, seconds=1.0):

@@ -6,7 +6,6 @@ the student's own functions, 250 of them a second, as in the lab.
 
 from collections.abc import Callable
 
-import mujoco
 import numpy as np
 
 from labkit.inspector import words
@@ -16,7 +15,7 @@ from labkit.inspector.tab import Tab
 from robo47 import control, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.panda import READY_Q
+from robo47.panda import ARM_JOINTS, READY_Q
 
 SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"
 HZ, RATE = 25.0, 250.0  # pictures a second; torques a second, as in the lab
@@ -25,7 +24,6 @@ KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s, as in the lab
 LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
-JOINTS = [f"joint{i}" for i in range(1, 8)]
 HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 Law = Callable[..., Array]
@@ -96,9 +94,9 @@ class Control(Tab):
         self.law, self.omega, self.heavy, self.swing = computed, 20.0, 0, False
         self.known, self.kp_kd = (0.0, 0), np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
+        steps = simulate.steps_per_period(self.models[0], RATE)
         h = self.models[0].opt.timestep
-        self.each = simulate.steps_per_period(self.models[0], RATE)
-        self.stiffest = float(control.stiffest_omega(h, self.each))
+        self.stiffest = float(control.stiffest_omega(h, steps))
         self.own = page.own(control)
         self.ghost = page.draw.ghost("blue")
         page.choice("controller", list(LAWS), self.choose)
@@ -108,7 +106,7 @@ class Control(Tab):
         self.clock = page.html()
         curves = ["measured", "predicted"]
         self.plot = page.plot(curves, y="largest error (mrad)", least=LEAST)
-        self.bars = page.bars(JOINTS, self.limits, "N m", "torque asked for")
+        self.bars = page.bars(ARM_JOINTS, self.limits, "N m", "torque asked for")
         self.loop = page.animate(self.step, HZ, work=self.work)
         page.light("ee", {"ee"})
         page.legend({"the simulated arm": "grey", "where it should be": "blue"})
@@ -158,21 +156,21 @@ class Control(Tab):
 
     def work(self, seconds: float) -> None:
         """Simulate one frame's time; it waits for the student's torques."""
-        data, model = self.data, self.models[self.heavy]
-        for _ in range(round(RATE / HZ)):
-            ref = reference(self.since / RATE, self.swing)
-            q, qd = data.qpos[:7].copy(), data.qvel[:7].copy()
-            wanted = self.law(self.own, self.arm, q, qd, ref, self)
-            given = self.own.saturate(wanted, self.limits)
-            data.ctrl[:7] = np.clip(given, -HUGE, HUGE)
-            mujoco.mj_step(model, data, self.each)
-            self.asked = [*self.asked[-49:], wanted]
-            self.since += 1
+        model = self.models[self.heavy]
+        simulate.run(model, self.data, self.torque, 1.0 / HZ, rate=RATE)
         self.predicted = np.nan
         if self.law is computed and not self.swing and not self.heavy:
             t = np.array([self.since / RATE])
             decay = self.own.error_response(t, self.omega, 1.0)
             self.predicted = 100.0 * float(decay[0])
+
+    def torque(self, t: float, q: Array, qd: Array) -> Array:
+        """Return the student's torque, and keep what it was before its limits."""
+        ref = reference(self.since / RATE, self.swing)
+        wanted = self.law(self.own, self.arm, q, qd, ref, self)
+        given = self.own.saturate(wanted, self.limits)
+        self.asked, self.since = [*self.asked[-49:], wanted], self.since + 1
+        return np.clip(given, -HUGE, HUGE)
 
     def step(self, seconds: float) -> None:
         """Show what came of it."""
@@ -197,8 +195,8 @@ class Control(Tab):
         if count < CHATTER * len(some):
             return ""
         return (
-            f". It CHATTERS: {JOINTS[worst]} went from limit to limit {count} times in "
-            f"the last {len(some)} torques"
+            f". It CHATTERS: {ARM_JOINTS[worst]} went from limit to limit {count} "
+            f"times in the last {len(some)} torques"
         )
 
     def show(self, wanted: Array) -> None:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, need, paper
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import panda
 
@@ -24,7 +23,7 @@ def tab():
 def tab_of(functions):
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
     page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-    return folder.load(find_day(5), "inspector").Control(page)
+    return find_day(5).module("inspector").Control(page)
 
 
 def frames(tab, seconds):

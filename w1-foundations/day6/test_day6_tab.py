@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, need, paper
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import panda
 
@@ -17,7 +16,7 @@ lab = load_script(ROOT / "w1-foundations/src/day6_task_space.py")
 
 def touch(functions, monkeypatch):
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = folder.load(DAY, "inspector")
+    inspector = DAY.module("inspector")
     monkeypatch.setattr(inspector, "Robot", MagicMock())
     page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
     return inspector, inspector.Touch(page)

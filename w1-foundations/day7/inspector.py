@@ -22,7 +22,6 @@ from robo47.capstone.phases import Result
 from robo47.checks import Array
 
 GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the lab's
-JOINTS = [f"joint{i}" for i in range(1, 8)]
 QUINTIC, TRAPEZOID = "quintic", "trapezoid"
 PLAY, PICK, STOP = "play / stop", "pick it", "stop"
 ARM = slice(0, 7)
@@ -50,8 +49,8 @@ class Plan(Tab):
         page.buttons([PLAY], lambda _: self.loop.toggle())
         self.numbers = page.html()
         limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
-        self.bars = page.bars(JOINTS, limits, "rad/s", title)
-        curves = [*JOINTS, "limit"]
+        self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
+        curves = [*panda.ARM_JOINTS, "limit"]
         self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
         self.loop = page.animate(self.play)
         self.ghost = page.draw.ghost("blue")
@@ -152,7 +151,7 @@ class Pick(Tab):
         page.buttons([PICK, STOP], self.press)
         self.clock = page.html()
         limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
-        self.bars = page.bars(JOINTS, limits, "rad/s", title)
+        self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
         self.loop = page.animate(self.replay)
         self.robot = Robot(page, _scene(), dressed)
         goal = [*capstone.GOAL_XY, scenes.TABLE_HEIGHT]

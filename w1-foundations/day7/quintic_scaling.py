@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row, Vector, draw
+from labkit.judge.answers import difference
 from labkit.judge.ask import Case
-from labkit.judge.compare import difference
 from labkit.judge.mistake import Finding
 from robo47.trajectory import quintic_scaling
 

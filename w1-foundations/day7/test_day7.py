@@ -14,7 +14,6 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import row_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import (
     capstone,
@@ -162,7 +161,7 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     plain = folded.copy()
     plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
     start = np.tile(panda.READY_Q, (len(yaw), 1))
-    loop = folder.load(find_day(3), "loop")
+    loop = find_day(3).module("loop")
 
     def walked(goals):
         q = loop.walk(arm.screws, arm.M_home, goals, start, limits)
@@ -312,7 +311,7 @@ def test_the_predictions_of_the_side_quest():
 
 @pytest.mark.kit
 def test_47_is_written_within_half_a_millimetre():
-    written = folder.load(DAY, "letters").write(lab)
+    written = DAY.module("letters").write(lab)
     off = np.linalg.norm(written.wanted - written.reached, axis=1)
     assert off.max() < 5e-4  # measured 2.0e-4
     assert written.torque < 0.9  # measured 0.45
@@ -336,7 +335,7 @@ def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
 def tab_of(name, functions, monkeypatch):
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
-    inspector = folder.load(DAY, "inspector")
+    inspector = DAY.module("inspector")
     monkeypatch.setattr(inspector, "Robot", MagicMock())
     page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
     return inspector, getattr(inspector, name)(page)

@@ -14,7 +14,6 @@ from compare import assert_same
 
 from conftest import ROOT, load_script, need
 from labkit.judge.row import rows_of
-from labkit.lesson import folder
 from labkit.lesson.day import find_day
 from robo47 import identification, panda, secret, verify
 
@@ -286,7 +285,7 @@ def test_second_differences_of_an_encoder_are_off_as_predicted():
 
 def test_the_tab_weighs_and_shows_what_has_no_sigma():
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = folder.load(DAY, "inspector")
+    inspector = DAY.module("inspector")
     tab = inspector.Weigh(MagicMock(q=panda.READY_Q.copy()))
     assert "Not held yet" in tab.table.content
     tab.press(inspector.HERE)

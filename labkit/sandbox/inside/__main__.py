@@ -34,7 +34,6 @@ def main() -> None:
     import answers
     import audit
     import fake_model
-    import fakes
     import imports
     import landlock
     import seccomp
@@ -50,15 +49,14 @@ def main() -> None:
         channel.write(line.encode("ascii"))
         channel.flush()
 
+    numpy = os.path.dirname(os.path.abspath(sys.modules["numpy"].__file__ or ""))
     folders = [os.path.join(libraries, extra) for extra in extras]
-    readable = [*PYTHON, *_numpy_folders(), *folders]
+    readable = [*PYTHON, numpy, f"{numpy}.libs", *folders]
     watch = audit.Guard(readable)
     makers = [_maker(fake_model, wire, data) for data in request["models"]]
     entries = [data["entry"] for data in request["models"]]
     named = dict(zip(entries, makers, strict=True))
-    fake = fakes.Fakes(watch.refuse, named, request["facts"])
-    beside = {name: base64.b64decode(code) for name, code in request["beside"].items()}
-    imports.Finder(request["library"], beside, fake, libraries, extras).install()
+    imports.Finder(request, named, watch.refuse, libraries, extras).install()
     for name in os.listdir(HERE):  # a student may want these names for their own
         if not name.startswith("__"):
             sys.modules.pop(name.removesuffix(".py"), None)
@@ -68,7 +66,13 @@ def main() -> None:
     closed = fences and seccomp.close()
     watch.arm()
     send(ready=True, fenced=fenced and closed)
-    if module := _load(request, send, watch.refused, answers.describe):
+    try:
+        module = _load(request)
+    except BaseException as error:
+        why = answers.describe(error, request["file"])
+        send(loaded=False, refused=watch.refused[:3], **why)
+    else:
+        send(loaded=True)
         answering = answers.Answers(module, makers, request["keep"], request["numbers"])
         for at, line in enumerate(asked):
             watch.refused.clear()
@@ -90,8 +94,10 @@ def _anew(request: Any, module: types.ModuleType) -> types.ModuleType:
     """Return the student's file loaded once more: what it kept so far is gone."""
     for name in request["beside"]:
         sys.modules.pop(name, None)
-    again = _load(request, lambda **_: None, [], lambda *_: {})
-    return again or module
+    try:
+        return _load(request)
+    except BaseException:
+        return module
 
 
 def _silence() -> None:
@@ -101,38 +107,21 @@ def _silence() -> None:
         os.dup2(null, stream)
 
 
-def _numpy_folders() -> list[str]:
-    """Return where NumPy's files are."""
-    folder = os.path.dirname(os.path.abspath(sys.modules["numpy"].__file__ or ""))
-    return [folder, folder + ".libs"]
-
-
 def _maker(fake_model: Any, wire: Any, data: Any) -> Callable[[], Any]:
     arrays = {name: wire.unpack_array(a) for name, a in data["arrays"].items()}
     return lambda: fake_model.MjModel(data, arrays)
 
 
-def _load(
-    request: Any,
-    send: Callable[..., None],
-    refused: list[str],
-    describe: Callable[[BaseException, str], dict[str, Any]],
-) -> types.ModuleType | None:
-    """Return the student's file as a module, or say why it does not load."""
-    file = request["file"]
+def _load(request: Any) -> types.ModuleType:
+    """Return the student's file as a module, or raise what keeps it from loading."""
+    file, added = request["file"], request["added"]
     module = types.ModuleType(file.removesuffix(".py"))
     module.__file__ = file
     sys.modules[module.__name__] = module
-    try:
-        added = request["added"]
-        if request.get("compiled", (None,))[0] != added:
-            own = base64.b64decode(request["code"]) + added.encode()
-            request["compiled"] = added, compile(own, file, "exec")
-        exec(request["compiled"][1], vars(module))
-    except BaseException as error:
-        send(loaded=False, refused=refused[:3], **describe(error, file))
-        return None
-    send(loaded=True)
+    if request.get("compiled", (None,))[0] != added:
+        own = base64.b64decode(request["code"]) + added.encode()
+        request["compiled"] = added, compile(own, file, "exec")
+    exec(request["compiled"][1], vars(module))
     return module
 
 

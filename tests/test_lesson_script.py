@@ -1,14 +1,24 @@
-"""The generator: what it keeps, what it takes out, what it refuses."""
+"""The lab script: what the starter keeps and takes out; slips that a file shows."""
 
 import ast
 
 import pytest
 
 from labkit.lesson.day import find_day
-from labkit.lesson.starter import find_regions, function_lines, make_starter, put_back
-from labkit.lesson.starter import solution as solution_of
+from labkit.lesson.script import (
+    find_regions,
+    function_lines,
+    make_starter,
+    put_back,
+    renamed,
+    unfinished,
+)
+from labkit.lesson.script import solution as solution_of
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
+
+DOC = '    """Return it."""\n'
+GAP = '    raise NotImplementedError("task 1.2: write f")\n'
 
 DAY = find_day(1)
 SOURCE = DAY.source.read_text("utf-8")
@@ -118,3 +128,31 @@ def test_a_function_that_was_deleted_comes_back_above_main():
 def test_every_lab_script_of_the_kit_gives_a_starter():
     for source in ROOT.glob("w*/src/day*.py"):
         ast.parse(make_starter(source.read_text("utf-8"), source.name, 1))
+
+
+@pytest.mark.parametrize(
+    ("body", "says"),
+    [
+        (GAP + "    return 1\n", "line 3"),
+        ("    y = 1\n" + GAP + "    return y\n", "line 4"),
+        ("    pass\n", "does nothing"),
+    ],
+)
+def test_what_keeps_a_function_from_doing_anything_is_said(body, says):
+    assert says in unfinished(f"def f():\n{DOC}{body}", "f")
+
+
+@pytest.mark.parametrize("body", [GAP, "    return 1\n", "    print(1)\n"])
+def test_a_plain_gap_or_code_without_a_slip_is_no_slip(body):
+    assert unfinished(f"def f():\n{DOC}{body}", "f") == ""
+
+
+def test_a_function_that_is_gone_or_does_not_parse_is_no_slip():
+    assert unfinished("x = 1\n", "f") == ""
+    assert unfinished("def f(:\n    pass\n", "f") == ""
+
+
+def test_a_renamed_function_is_found_again():
+    source = "x = 1\ndef rz(t):\n    return t\ndef exp_rotation(w):\n    return w\n"
+    assert "but rz (line 2): did you mean Rz?" in renamed(source, "Rz")
+    assert renamed(source, "log_rotation") == ""

@@ -1,0 +1,132 @@
+"""A class's grades: a student's day, everybody's, and what share of tasks passes."""
+
+import dataclasses
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from labkit.grade.result import UNGRADED, Mark, Result
+from labkit.grade.roster import Student
+from labkit.grade.similar import Group
+from labkit.lesson.day import Day
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One student with all that the table and the page show."""
+
+    student: Student  # from the roster
+    result: Result  # the grade
+    commit: str = ""  # the hash of the last commit, or ""
+    # From there to the deadline, by the student's own clock, negative past it; None
+    # without a commit.
+    minutes: int | None = None
+    note: str = ""  # what this run has to add to the result's error, as a failed pull
+    fault: bool = False  # whether this machine failed; the next run grades them
+    late: int | None = None  # how many commits came after the deadline; None without
+
+    @property
+    def error(self) -> str:
+        """Why something could not be graded or updated; "" where all was."""
+        return "; ".join(filter(None, (self.result.error, self.note)))
+
+    @property
+    def state(self) -> str:
+        """Where the student is, in a word or three; the pages list them so."""
+        tasks = self.result.tasks
+        if any(task.status == UNGRADED for task in tasks):
+            return UNGRADED
+        if all(task.passed for task in tasks):
+            return "done"
+        if self.result.does_not_load:
+            return "does not load"
+        if self.result.first_mistake:
+            return "stuck"
+        return "under way" if any(task.passed for task in tasks) else "not started"
+
+    @property
+    def late_by(self) -> tuple[int | None, int | None]:
+        """Minutes and begun days from the deadline to the commit that counts."""
+        if self.late is None or self.minutes is None:
+            return None, None
+        minutes = max(0, -self.minutes)
+        return minutes, -(-minutes // (24 * 60))
+
+
+def percent(*days: Graded) -> str:
+    """Return the share of a student's tasks that pass, "87.5".
+
+    A grade is "" where somebody's work could not be looked at: a learning platform
+    leaves such a grade as it is.
+    """
+    tasks = [task for one in days for task in one.result.tasks]
+    if any(task.status == UNGRADED for task in tasks):
+        return ""
+    return f"{100 * sum(task.passed for task in tasks) / max(1, len(tasks)):.1f}"
+
+
+@dataclass(frozen=True)
+class Course:
+    """A class on one day."""
+
+    day: Day  # from the manifest
+    class_: Sequence[Graded]  # everybody, in the order to show them
+    alike: Sequence[Group] = ()  # similar submissions, by folder
+    reference: int = 0  # what commit times count to, seconds since 1970
+    deadline: bool = False  # whether that is the deadline
+    seed: int = 0  # of the fresh inputs
+    graded_now: int = 0  # how many results are new
+    outdated: int = 0  # how many another version of the kit had given
+    odd: str = ""  # on lines of the journal that are no result, "" where there are none
+
+    @property
+    def counts(self) -> Counter[str]:
+        """How many students are in each state."""
+        return Counter(graded.state for graded in self.class_)
+
+    def lean(self) -> "Course":
+        """Return it without the texts, so that a week takes the memory of a day."""
+        bare = [
+            dataclasses.replace(one, result=dataclasses.replace(one.result, text=""))
+            for one in self.class_
+        ]
+        return dataclasses.replace(self, class_=bare)
+
+    def mistakes(self) -> list[tuple[Mark, list[str]]]:
+        """Return the mistakes of the class, the most common first.
+
+        A mistake counts where it was made: in a task that builds on no other open one.
+        It counts once per student.
+
+        Returns:
+            Each as a mark in the task in which most made it, with what one of them was
+            told, and the names of all.
+        """
+        made: dict[str, list[tuple[Mark, str]]] = {}
+        for graded in self.class_:
+            for name, mark in self._roots(graded.result).items():
+                made.setdefault(name, []).append((mark, graded.student.name))
+        found = []
+        for some in made.values():
+            ((most, _),) = Counter(mark.id for mark, _ in some).most_common(1)
+            found.append(
+                (dataclasses.replace(some[0][0], id=most), [w for _, w in some])
+            )
+        return sorted(found, key=lambda it: (-len(it[1]), it[0].id, it[0].mistake))
+
+    def _roots(self, result: Result) -> dict[str, Mark]:
+        """Return a student's mistakes in tasks whose needs are all passed, by name."""
+        marks = {mark.id: mark for mark in result.tasks}
+        roots: dict[str, Mark] = {}
+        for task in self.day.tasks:
+            mark = marks.get(task.id)
+            if mark is None or not mark.is_mistake or result.does_not_load:
+                continue
+            if all(marks[need].passed for need in task.needs if need in marks):
+                roots.setdefault(mark.mistake, mark)
+        return roots
+
+
+def by_student(courses: Sequence[Course]) -> list[tuple[Graded, ...]]:
+    """Return the days of each student, in the roster's order."""
+    return list(zip(*(course.class_ for course in courses), strict=True))

@@ -1,0 +1,343 @@
+"""Answers: made by a function, how far apart two sets of them are, inputs in words.
+
+Sets of answers are stacked, (n, ...); a function that returns several has its parts.
+"""
+
+import contextlib
+from collections.abc import Callable, Sequence, Set
+from dataclasses import dataclass
+from itertools import starmap
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from labkit.base.exchange import Question
+from robo47.checks import Array, pose_flaw, rotation_flaw
+
+Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
+MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
+KEPT = 64  # questions whose answers are kept
+RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
+# Words that are symbols of a formula; those of one letter but "a" are, too.
+SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
+           "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
+
+
+def gap(a: Array, b: Array) -> Array:
+    """Return how far apart entries are, (n, ...); one NaN is inf."""
+    with np.errstate(invalid="ignore"):
+        alike = (a == b) | (np.isnan(a) & np.isnan(b))  # inf equals inf, NaN NaN
+        apart = np.where(alike, 0.0, np.abs(a - b))
+    return np.nan_to_num(apart, nan=np.inf, posinf=np.inf)
+
+
+def difference(a: Array, b: Array, scale: float | Array = 1.0) -> Array:
+    """Return the largest difference of any entry per case, (n,); one NaN is inf.
+
+    Args:
+        a: (n, ...).
+        b: the same.
+        scale: what it is measured in: a number, or an array with one for each entry.
+    """
+    return (gap(a, b) / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
+
+
+def matches(a: Array, b: Array, scale: float | Array = 1.0) -> bool:
+    """Return whether a is b at every case, within rounding of b's largest entry.
+
+    Args:
+        a: (n, ...).
+        b: the same.
+        scale: what an entry is like, where b's are all small; as in `difference`.
+    """
+    if a.shape != b.shape:
+        return False
+    size = largest(b, scale)
+    return bool(difference(a, b, scale).max(initial=0.0) <= MATCHES * max(1.0, size))
+
+
+def largest(a: Array, scale: float | Array = 1.0) -> float:
+    """Return the largest finite entry, in units of a scale."""
+    sizes = np.abs(a / np.asarray(scale))
+    return float(sizes[np.isfinite(sizes)].max(initial=0.0))
+
+
+def as_one(some: Sequence[ArrayLike]) -> Array:
+    """Return arrays as one, (n, ...); smaller ones are filled up with zeros."""
+    arrays = [np.asarray(one, dtype=np.float64) for one in some]
+    sizes = zip(*(one.shape for one in arrays), strict=True)  # refuses other depths
+    whole = np.zeros((len(arrays), *map(max, sizes)))
+    for at, one in enumerate(arrays):
+        place: tuple[Any, ...] = (at, *map(slice, one.shape))
+        whole[place] = one
+    return whole
+
+
+def as_one_size(a: Array, b: Array) -> tuple[Array, Array]:
+    """Return two arrays (n, ...) with the smaller one filled up with zeros."""
+    if a.shape == b.shape:
+        return a, b
+    both = as_one([a, b])
+    return both[0], both[1]
+
+
+def parts(answers: Any) -> Parts:
+    """Return answers as a tuple of parts, also where there is one."""
+    some = answers if isinstance(answers, tuple) else (answers,)
+    return tuple(np.asarray(part, dtype=np.float64) for part in some)
+
+
+def plain(some: Parts) -> Any:
+    """Return answers as the function does: a tuple only where it has several parts."""
+    return some[0] if len(some) == 1 else some
+
+
+def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
+    """Return per call the largest difference of an entry, in units of its scale."""
+    trios = zip(S, T, kinds, strict=True)
+    each = [difference(*as_one_size(s, t), kind.scale) for s, t, kind in trios]
+    return np.max(each, axis=0)
+
+
+def all_match(kinds: Sequence[Any], S: Parts, T: Parts) -> bool:
+    """Return whether answers have as many parts, and each part `matches`."""
+    trios = zip(S, T, kinds, strict=False)
+    return len(S) == len(T) and all(matches(s, t, kind.scale) for s, t, kind in trios)
+
+
+def off_by(kinds: Sequence[Any], S: Parts, T: Parts) -> float:
+    """Return the largest difference of any entry, in units of its scale."""
+    return float(gaps(kinds, S, T).max())
+
+
+def worst_part(kinds: Sequence[Any], S: Parts, T: Parts, near: float) -> int:
+    """Return the first part of an answer that is wrong, or the one furthest off."""
+    trios = zip(S, T, kinds, strict=True)
+    off = [off_by([kind], (s,), (t,)) for s, t, kind in trios]
+    return next((i for i, x in enumerate(off) if x > near), int(np.argmax(off)))
+
+
+def rigid(M: Array) -> bool:
+    """Return whether all of M, (n, 3, 3) or (n, 4, 4), are rotations or poses."""
+    flaw = {(3, 3): rotation_flaw, (4, 4): pose_flaw}.get(M.shape[-2:])
+    return bool(flaw and np.isfinite(M).all() and flaw(M, RIGID) is None)
+
+
+def own(argument: Any) -> Any:
+    """Return a copy of an array or a number; a model or a path is as it is."""
+    plain = isinstance(argument, np.ndarray | np.generic)
+    return np.copy(argument)[()] if plain else argument
+
+
+def once(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that keeps its answers to the last questions."""
+    known: dict[Any, Any] = {}
+
+    def key(argument: Any) -> Any:
+        if isinstance(argument, np.ndarray):
+            return argument.shape, argument.dtype, argument.tobytes()
+        return repr(argument) if isinstance(argument, list) else argument
+
+    def keeping(*args: Any) -> Any:
+        if (question := tuple(map(key, args))) not in known:
+            if len(known) >= KEPT:
+                known.clear()
+            known[question] = function(*map(own, args))
+        return known[question]
+
+    return keeping
+
+
+def entry_of(
+    table: Callable[..., Any], slug: str, known: Set[str]
+) -> Callable[..., Any]:
+    """Return the function of one mistake of a table, which returns {slug: answer}."""
+
+    def one(*args: Any) -> Any:
+        if (answers := table(*args)).keys() != known:
+            raise KeyError(*answers.keys() ^ known)
+        answer = answers[slug]
+        return answer() if callable(answer) else own(answer)
+
+    return one
+
+
+@dataclass(frozen=True, eq=False)
+class InTurn:
+    """A function of one question's arguments as one of all, stacked."""
+
+    function: Callable[..., Any]  # of one question, as a student writes it
+
+    def __call__(self, *columns: Any) -> Any:
+        """Return the answers to all questions, (n, ...), or a tuple of such.
+
+        Args:
+            columns: one per argument: (n, ...), or what all questions share. Without
+            any (n, ...) there is one question.
+
+        Raises:
+            ValueError: the function has no answer to one of them.
+        """
+        answers = self.each(columns)
+        if isinstance(answers[0], tuple):
+            return tuple(map(as_one, zip(*answers, strict=True)))
+        return as_one(answers)
+
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the answers one by one; every call gets arrays of its own."""
+        calls = [
+            [own(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+            for i in range(_count(columns))
+        ]
+        try:
+            return [self.function(*args) for args in calls]
+        except Exception as error:  # a mistake may stop, as a student's may
+            raise ValueError(str(error)) from error
+
+    def nth(self, i: int, columns: Sequence[Any]) -> Any:
+        """Return the answer to one question."""
+        one = [c[[i]] if isinstance(c, np.ndarray) else c for c in columns]
+        return self.each(one)[0]
+
+
+class AtOnce(InTurn):
+    """A function of the library's, which takes all questions stacked where it can."""
+
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the answers one by one; the last tells whether stacks are taken."""
+        with contextlib.suppress(Exception):
+            end = [c[-1:] if isinstance(c, np.ndarray) else c for c in columns]
+            (last,) = super().each(end)
+            whole = self.function(*map(own, columns))
+            several = isinstance(whole, tuple)
+            answers = list(zip(*whole, strict=True) if several else whole)
+            pairs = zip(parts(answers[-1]), parts(last), strict=True)
+            if len(answers) == _count(columns) and all(starmap(np.array_equal, pairs)):
+                return answers
+        return super().each(columns)
+
+
+def _count(columns: Sequence[Any]) -> int:
+    """Return how many questions there are; one where nothing is stacked."""
+    return next((len(c) for c in columns if isinstance(c, np.ndarray)), 1)
+
+
+def millimetres(a: Array, b: Array) -> Array:
+    """Return the distance of points, (..., 3) in metres, as (...) in millimetres."""
+    return 1000.0 * np.linalg.norm(a - b, axis=-1)
+
+
+def degrees(R_a: Array, R_b: Array) -> Array:
+    """Return the angle between rotations, (..., 3, 3), as (...) in degrees.
+
+    By atan2 from R's skew part and trace: exact near 0, where arccos is not.
+    """
+    R = R_a.mT @ R_b
+    skew = R - R.mT
+    sine = np.sqrt(np.sum(skew**2, axis=(-2, -1)) / 8.0)
+    cosine = (np.trace(R, axis1=-2, axis2=-1) - 1.0) / 2.0
+    return np.rad2deg(np.arctan2(sine, cosine))
+
+
+def say_mm(mm: float) -> str:
+    """Return a length in words; "0" for what rounding leaves."""
+    return _say(mm, "mm", 1e-2)
+
+
+def say_degrees(deg: float) -> str:
+    """Return an angle in words; "0" for what rounding leaves."""
+    return _say(deg, "deg", 1e-3)
+
+
+def _say(value: float, unit: str, least: float) -> str:
+    if value < least:
+        return "0"
+    digits = 0 if value >= 200 else 1 if value >= 10 else 2
+    return f"{value:.{digits}f} {unit}"
+
+
+def say_value(value: float, unit: str, scale: float, entry: str) -> str:
+    """Return a number with its unit; "0" for what rounding leaves.
+
+    Args:
+        value: not negative.
+        unit: "" for none.
+        scale: what such a number is like.
+        entry: what to add where it is one entry of many.
+    """
+    if value < MATCHES * scale:
+        return "0"
+    return f"{value:.3g}{f' {unit}' if unit else ''}{entry}"
+
+
+def say_factor(factor: float) -> str:
+    """Return a factor as people write it: "1000", "-1", "pi / 180"."""
+    named = {np.pi / 180: "pi / 180", 180 / np.pi: "180 / pi", 2 * np.pi: "2 pi"}
+    for value, name in named.items():
+        if np.isclose(factor, value, rtol=1e-6):
+            return name
+    return f"{factor:.4g}"
+
+
+def say_range(values: Array, say: Callable[[float], str]) -> str:
+    """Return the least and the largest of values in words, once if they are alike."""
+    least, most = say(float(values.min())), say(float(values.max()))
+    return most if least == most else f"{least} to {most}"
+
+
+def capitalised(clause: str) -> str:
+    """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
+    first = clause.partition(" ")[0].rstrip(",")
+    letter = len(first) == 1 and first != "a"
+    if letter or first in SYMBOLS or not first.isalpha():
+        return clause
+    return clause[0].upper() + clause[1:]
+
+
+def typed(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a call as a student can type it; what is too long goes by its name."""
+    named = len(names) == len(question.args)
+    words = [
+        _value(arg) or (names[i] if named else "...")
+        for i, arg in enumerate(question.args)
+    ]
+    return f"{question.function}({', '.join(words)})"
+
+
+def in_words(question: Question, names: Sequence[str] = ()) -> str:
+    """Return a question's input as a student can type it, or "" where it is too long.
+
+    Numbers and vectors can be typed; where a matrix is among them, the rest would
+    mislead.
+    """
+    args = question.args
+    if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
+        return ""
+    named = len(names) == len(args) > 1
+    words = [
+        f"{names[i]} = {says}" if named else says
+        for i, arg in enumerate(args)
+        if (says := _value(arg))  # not the robot, or a path along it
+    ]
+    return (", " if named else " and ").join(words)
+
+
+def _value(arg: Any) -> str:
+    """Return a number or a vector as it is typed, "" for anything else."""
+    if isinstance(arg, (int, float)):
+        return number(float(arg))
+    if isinstance(arg, np.ndarray) and arg.ndim == 1:
+        return "(" + ", ".join(number(float(x)) for x in arg) + ")"
+    return ""
+
+
+def number(x: float) -> str:
+    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
+    for over in (1, 2, 3, 4, 6):
+        times = x * over / np.pi
+        if times and times == round(times) and abs(times) <= 2 * over:
+            sign = "-" if times < 0 else ""
+            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
+            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
+    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
