@@ -7,7 +7,7 @@ import shutil
 
 import pytest
 
-from conftest import ROOT, kits_worksheet, need
+from conftest import AUTHORS, ROOT, kits_worksheet, need
 from labkit.commands import docs
 from labkit.lesson.day import all_days, find_day
 from robo47 import __version__
@@ -80,6 +80,7 @@ def test_the_readme_names_the_commands_that_ci_runs():
         assert command in readme
     assert "make test" in ci
     assert "make lint" in ci
+    assert f"-m '{AUTHORS}'" in ci
     assert "- run: .ci/run\n" in (ROOT / ".github/workflows/ci.yml").read_text("utf-8")
 
 

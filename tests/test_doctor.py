@@ -61,9 +61,9 @@ def test_it_runs_on_a_bare_python_and_tells_a_broken_one(clone, bare, broken, sa
     assert "Traceback" not in done.stdout + done.stderr
 
 
-def test_a_reader_that_leaves_early_gets_no_traceback():
+def test_a_reader_that_leaves_early_gets_no_traceback(clone):
     with subprocess.Popen(
-        [sys.executable, str(ROOT / "scripts" / "doctor.py")],
+        [sys.executable, "-I", "-S", str(clone / "scripts" / "doctor.py")],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:
