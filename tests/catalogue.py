@@ -22,6 +22,7 @@ import types
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -38,7 +39,7 @@ _HEADER = re.compile(
     r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"
     r"\n# .+\n"
 )
-FORK = 0.03  # seconds that it saves at least
+FORK = 0.03  # seconds of a run that a child saves, at least: it costs some itself
 STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
 
 
@@ -199,48 +200,51 @@ def passing(day: Day, some: Iterable[Entry], trials: int = 50) -> list[Entry]:
     """
     left = [(one, written(day, one)) for one in some]
     again, passed, this = [], [], os.getpid()
-    began = time.process_time()
-
-    def branching(lab: ModuleType) -> None:
-        now = dict(vars(lab))  # the functions that a call leads to
-
-        def branch(name: str) -> None:
-            for pair in [one for one in left if name in one[1]]:
-                left.remove(pair)
-                if time.process_time() - began < FORK or not hasattr(os, "fork"):
-                    again.append(pair)
-                    continue
-                if not (child := os.fork()):
-                    left.clear()
-                    return now.update(pair[1])
-                if os.waitpid(child, 0)[1] == 0:
-                    passed.append(pair[0])
-
-        def caller(name: str) -> Callable:
-            @functools.wraps(now[name])
-            def call(*args: Any, **more: Any) -> Any:
-                branch(name)
-                return now[name](*args, **more)
-
-            return call
-
-        vars(lab).update({name: caller(name) for _, code in left for name in code})
-
     code = 1
     try:
-        code = run_as_lab(day, branching, trials)
+        code = run_as_lab(day, lambda lab: _branch(lab, left, again, passed), trials)
     finally:
         if os.getpid() != this:
             os._exit(code)
-    assert code == 0
+    assert code == 0, f"day {day.number}: {trials} inputs are too few for its lab"
     for one, functions in again:
-
-        def rewritten(lab: ModuleType, own: Mapping[str, Callable] = functions) -> None:
-            vars(lab).update(own)
-
-        if run_as_lab(day, rewritten, trials) == 0:
+        if run_as_lab(day, partial(_put, functions=functions), trials) == 0:
             passed.append(one)
     return passed + [one for one, _ in left]
+
+
+def _put(lab: ModuleType, functions: Mapping[str, Callable]) -> None:
+    vars(lab).update(functions)
+
+
+def _branch(lab: ModuleType, left: list, again: list, passed: list[Entry]) -> None:
+    """Have a lab's run go on with each of the functions left, in a child of its own.
+
+    Who is to be run again is noted, and with whom a child has passed.
+    """
+    now, began = dict(vars(lab)), time.process_time()  # what a name's call leads to
+
+    def branch(name: str) -> None:
+        cheap = time.process_time() - began < FORK or not hasattr(os, "fork")
+        for pair in [one for one in left if name in one[1]]:
+            left.remove(pair)
+            if cheap:
+                again.append(pair)
+            elif not (child := os.fork()):
+                left.clear()
+                return now.update(pair[1])
+            elif os.waitpid(child, 0)[1] == 0:
+                passed.append(pair[0])
+
+    def caller(name: str) -> Callable:
+        @functools.wraps(now[name])
+        def call(*args: Any, **more: Any) -> Any:
+            branch(name)
+            return now[name](*args, **more)
+
+        return call
+
+    _put(lab, {name: caller(name) for _, code in left for name in code})
 
 
 def main() -> int:
