@@ -13,15 +13,19 @@ one Panda)`.
 import contextlib
 import functools
 import io
+import os
 import re
 import sys
 import textwrap
+import time
 import types
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import inprocess
 
@@ -35,6 +39,7 @@ _HEADER = re.compile(
     r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"
     r"\n# .+\n"
 )
+FORK = 0.03  # seconds of a run that a child saves, at least: it costs some itself
 STATUS = {"right": "passed", "close": "close", "wrong": "wrong"}
 
 
@@ -50,6 +55,7 @@ class Entry(NamedTuple):
         path: of the file; None of a way.
         code: by function, of a way.
         also: other names for the same numbers.
+        named: whether making it again names it: then what is always asked tells.
     """
 
     name: str
@@ -60,6 +66,12 @@ class Entry(NamedTuple):
     path: Path | None = None
     code: Mapping[str, Callable] = {}
     also: frozenset[str] = frozenset()
+    named: bool = False
+
+    @property
+    def group(self) -> str:
+        """What it stands with: a function whose ways these are, or the files."""
+        return "submissions" if self.path else self.name.partition(":")[0]
 
     def is_told(self, verdict: Verdict) -> bool:
         """Return whether a verdict is what the entry must be told."""
@@ -101,6 +113,7 @@ def ways(day: Day, *statuses: str) -> list[Entry]:
             not (way.hidden or way.reached),  # the small function's own way is run
             code={function: way.code},
             also=frozenset().union(*(one for one in row.alike if way.slug in one)),
+            named=way.named,
         )
         for function, row in rows_of(day).items()
         for i, way in enumerate(row.ways)
@@ -114,7 +127,8 @@ def told(day: Day, entry: Entry) -> dict[str, Verdict]:
     if entry.code:  # what else stands in the complete lab is right, and not asked again
         day = _without_needs(day)
     only = entry.tasks[0] if len(entry.tasks) == 1 else None
-    found = inprocess.verdicts(day, script, only, instead=entry.code)
+    fresh = 8 if entry.named else 1
+    found = inprocess.verdicts(day, script, only, instead=entry.code, fresh=fresh)
     return {task: found[task] for task in entry.tasks}
 
 
@@ -146,17 +160,19 @@ def written(day: Day, entry: Entry) -> Mapping[str, Callable]:
     return {k: v for k, v in vars(own).items() if k in names}
 
 
-def run_as_lab(day: Day, entry: Entry | None = None, trials: int = 50) -> int:
-    """Return the exit code of a day's lab with an entry's functions in it.
+def run_as_lab(
+    day: Day, change: Callable[[ModuleType], None] | None = None, trials: int = 50
+) -> int:
+    """Return the exit code of a day's lab.
 
     Args:
         day: whose complete script is run, without logging, in this process.
-        entry: its functions of the day's tasks take the script's place.
+        change: is given the script to alter; then the first failure ends the run.
         trials: on how many random inputs.
     """
     lab = load_lab(day.source)
-    if entry:
-        vars(lab).update(written(day, entry))
+    if change:
+        change(lab)
         lab.Lab = Impatient
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, trials))
@@ -168,11 +184,67 @@ def run_as_lab(day: Day, entry: Entry | None = None, trials: int = 50) -> int:
     except FirstFailure:
         return 1
     except Exception:
-        if entry is None:
+        if change is None:
             raise
         return 1  # a lab that stops has not passed, whatever stopped it
     finally:
         sys.argv = arguments
+
+
+def passing(day: Day, some: Iterable[Entry], trials: int = 50) -> list[Entry]:
+    """Return the entries with whose functions a day's lab passes.
+
+    The lab is run once. Where it first calls a function, a child of this process goes
+    on with each way to write it: what comes before is that of the complete lab. Where
+    that is little, the lab is run again instead.
+    """
+    left = [(one, written(day, one)) for one in some]
+    again, passed, this = [], [], os.getpid()
+    code = 1
+    try:
+        code = run_as_lab(day, lambda lab: _branch(lab, left, again, passed), trials)
+    finally:
+        if os.getpid() != this:
+            os._exit(code)
+    assert code == 0, f"day {day.number}: {trials} inputs are too few for its lab"
+    for one, functions in again:
+        if run_as_lab(day, partial(_put, functions=functions), trials) == 0:
+            passed.append(one)
+    return passed + [one for one, _ in left]
+
+
+def _put(lab: ModuleType, functions: Mapping[str, Callable]) -> None:
+    vars(lab).update(functions)
+
+
+def _branch(lab: ModuleType, left: list, again: list, passed: list[Entry]) -> None:
+    """Have a lab's run go on with each of the functions left, in a child of its own.
+
+    Who is to be run again is noted, and with whom a child has passed.
+    """
+    now, began = dict(vars(lab)), time.process_time()  # what a name's call leads to
+
+    def branch(name: str) -> None:
+        cheap = time.process_time() - began < FORK or not hasattr(os, "fork")
+        for pair in [one for one in left if name in one[1]]:
+            left.remove(pair)
+            if cheap:
+                again.append(pair)
+            elif not (child := os.fork()):
+                left.clear()
+                return now.update(pair[1])
+            elif os.waitpid(child, 0)[1] == 0:
+                passed.append(pair[0])
+
+    def caller(name: str) -> Callable:
+        @functools.wraps(now[name])
+        def call(*args: Any, **more: Any) -> Any:
+            branch(name)
+            return now[name](*args, **more)
+
+        return call
+
+    _put(lab, {name: caller(name) for _, code in left for name in code})
 
 
 def main() -> int:

@@ -8,19 +8,20 @@ import copy
 import functools
 import inspect
 import io
+import itertools
 import sys
 import types
+from dataclasses import replace
 from pathlib import Path as File
 
 import mujoco
 import numpy as np
 import pytest
 
-from labkit.base.exchange import Exchange, LoadError, Path, Reply
+from labkit.base.exchange import LoadError, Path, Reply
 from labkit.check import tasks
 from labkit.judge import Robot
 from labkit.judge.answers import InTurn
-from labkit.judge.ask import Asked
 from labkit.sandbox.sandbox import twice
 from robo47 import panda
 
@@ -95,19 +96,18 @@ class InProcess:
                 value = function(*args)
         except BaseException as error:
             return _describe(error, self.script)
-        names = list(inspect.signature(function).parameters)
         changed = [
-            names[i]
+            i
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))
             if isinstance(was, np.ndarray) and not np.array_equal(arg, was)
         ]
-        shares = _shares(value, kept, args, names)
-        kept.append(value)
+        shares, handed = _shares(value, kept, args)
+        names = list(inspect.signature(function).parameters) if changed + handed else ()
         return Reply(
             value=_copied(value),
-            changed=tuple(changed),
+            changed=tuple(names[i] for i in changed),
             printed=printed.getvalue(),
-            shares=tuple(shares),
+            shares=(*shares, *(names[i] for i in handed)),
         )
 
     def _argument(self, arg):
@@ -129,18 +129,18 @@ def _copied(value):
     return None if value is None else np.array(value)
 
 
-def _shares(value, kept, args, names):
-    found = []
+def _shares(value, kept, args):
+    """Return what an answer is a part of: other answers, and arguments' places."""
     if not isinstance(value, np.ndarray):
-        return found
-    for other in kept:
-        if isinstance(other, np.ndarray) and np.may_share_memory(value, other):
-            found.append("another answer")
-            break
-    for i, arg in enumerate(args):
-        if isinstance(arg, np.ndarray) and np.may_share_memory(value, arg):
-            found.append(names[i])
-    return found
+        return [], []
+    another = any(map(np.may_share_memory, kept, itertools.repeat(value)))
+    kept.append(value)
+    handed = [
+        i
+        for i, arg in enumerate(args)
+        if isinstance(arg, np.ndarray) and np.may_share_memory(value, arg)
+    ]
+    return ["another answer"] * another, handed
 
 
 def _describe(error, script):
@@ -158,20 +158,9 @@ def _describe(error, script):
 
 @contextlib.contextmanager
 def worked_out_once():
-    """Let all files of a day share its questions, each mistake's answers and arms."""
-    make_round, each, make_arm = tasks.make_round, InTurn.each, panda.arm
-    rounds, answers, arms = {}, {}, {}
-
-    def asked_anew(task, function, ask, seed):
-        key = task, function, id(ask), seed
-        if key not in rounds:
-            rounds[key] = make_round(task, function, ask, seed)
-        known = rounds[key]
-        main, fresh, probes, *held_out = (
-            [Exchange(one.question) for one in exchanges]
-            for exchanges in (known.main, known.fresh, known.probes, *known.held_out)
-        )
-        return Asked(known.function, known.ask, main, fresh, held_out, probes)
+    """Let all files of a day share each mistake's answers and the arms."""
+    each, make_arm = InTurn.each, panda.arm
+    answers, arms = {}, {}
 
     def remembered(self, columns):
         key = (self, *map(_content, columns))
@@ -195,7 +184,6 @@ def worked_out_once():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(panda, "arm", arm)
-        patch.setattr(tasks, "make_round", asked_anew)
         patch.setattr(tasks, "library_of", functools.cache(tasks.library_of))
         patch.setattr(InTurn, "each", remembered)
         yield
@@ -209,7 +197,18 @@ def _content(column):
     return column.shape, column.dtype.str, column.tobytes()
 
 
-def verdicts(day, script: File, only=None, seed=1, instead=None):
-    """Return {task: verdict} of a file of ours, some of its functions replaced."""
-    results = tasks.check_tasks(day, script, InProcess(instead), only, seed)
+def verdicts(day, script: File, only=None, seed=1, instead=None, fresh=1):
+    """Return {task: verdict} of a file of ours, some of its functions replaced.
+
+    Of the questions that are drawn anew every `fresh`-th is asked.
+    """
+    make_round = tasks.make_round
+
+    def fewer(*row):
+        asked = make_round(*row)
+        return replace(asked, fresh=asked.fresh[::fresh])
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tasks, "make_round", fewer)
+        results = tasks.check_tasks(day, script, InProcess(instead), only, seed)
     return {result.task.id: result.verdict for result in results}

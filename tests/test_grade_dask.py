@@ -102,7 +102,7 @@ def grade_and_kill_one(clones, out, address, worker, number):
 @pytest.mark.parametrize(
     ("students", "killed_at"),
     [
-        (10, 2),
+        (8, 1),
         pytest.param(40, 3, marks=pytest.mark.soak),
         pytest.param(200, 60, marks=pytest.mark.soak),
     ],

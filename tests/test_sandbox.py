@@ -1,6 +1,7 @@
 """What comes back from a student's file, and what that file may import."""
 
 import contextlib
+import sys
 
 import numpy as np
 import pytest
@@ -255,22 +256,23 @@ class TestWhatATaskMayTake:
             ask(self.IMAGE, question)
 
     def test_a_task_may_ask_for_time_and_memory(self, ask, monkeypatch):
-        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
-        monkeypatch.setattr(sandbox, "TASK_SECONDS", 1.5)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.3)
+        monkeypatch.setattr(sandbox, "TASK_SECONDS", 0.9)
         code = """
             import time
             import numpy as np
             def slow(x):
-                time.sleep(0.8)
+                time.sleep(0.5)
                 return x
             def large(x):
-                return float(np.ones(170_000_000).sum()) * 0.0 + x
+                return np.empty(2_200_000_000, np.int8)[:1].size * x
         """
         slow, large = (Question("1.1", name, (1.0,)) for name in ("slow", "large"))
         assert ask(code, slow)[0].kind == "stopped"
         assert ask(code, slow, limits=Limits({"1.1": 6.0}))[0].value == 1.0
         (reply,) = ask(code, large, limits=Limits({"1.1": 30.0}))
-        assert reply.kind in ("stopped", "_ArrayMemoryError", "MemoryError")
+        if sys.platform.startswith("linux"):  # others count what is filled
+            assert reply.kind in ("_ArrayMemoryError", "MemoryError")
         (reply,) = ask(code, large, limits=Limits({"1.1": 30.0}, memory=3.0))
         assert reply.value == 1.0
 

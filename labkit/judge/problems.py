@@ -228,6 +228,8 @@ def _differs(reply: Reply) -> bool:
     first, second = flat(reply.value), flat(reply.again)
     if first is None or second is None or first.shape != second.shape:
         return not (first is None and second is None)
+    if first.tobytes() == second.tobytes():  # as nearly always
+        return False
     scale = max(1.0, float(np.abs(first[np.isfinite(first)]).max(initial=0.0)))
     return not np.allclose(first, second, rtol=0.0, atol=SAME * scale, equal_nan=True)
 

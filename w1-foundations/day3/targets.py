@@ -8,6 +8,7 @@ Where the docstring's loop has one way only to go, an answer has to end as near.
 import numpy as np
 
 from labkit.judge import Finding, draw
+from labkit.judge.mistake import once
 from robo47 import jacobian, screws
 from robo47.checks import Array
 
@@ -83,6 +84,7 @@ def _by_the_limits(rng) -> tuple[Array, Array]:
     return start[some], goal[some]
 
 
+@once
 def _reached(goal: Array, start: Array, limits: Array, steps: int = 25) -> np.ndarray:
     """Return whether the right loop has steps to spare for a target, (n,)."""
     S, M, _ = arm()
@@ -110,7 +112,7 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return Finding("no-nearer", "It ends no nearer to its target than it started.")
     if after <= 1e-8:
         return None
-    if _reached(T_goal, q_start, limits, steps=45):
+    if _reached(T_goal, q_start, limits, 45):
         says = f"The hand is not at its target, which is near: {after:.2g} off"
         return Finding(
             "not-reached",
@@ -140,8 +142,9 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     return None
 
 
-def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
-    """Return that the docstring's loop comes nearer, where its way is certain.
+@once
+def _certain(T_goal, q_start, limits) -> float:
+    """Return how far off the docstring's loop ends; 0 where its way is not certain.
 
     It is where no limit is met, and a last digit of the start changes nothing.
     """
@@ -153,7 +156,13 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     )
     least = float(miss[0])
     certain = np.abs(free[0] - kept[0]).max() < 1e-6 and np.ptp(miss) < 0.003 * least
-    if not certain or least < 1e-3 or after < 1.1 * least:  # another damping: 1.08
+    return least if certain else 0.0
+
+
+def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
+    """Return that the docstring's loop comes nearer, where its way is certain."""
+    least = _certain(T_goal, q_start, limits)
+    if least < 1e-3 or after < 1.1 * least:  # another damping: 1.08
         return None
     says = (
         f"It ends {after:.3g} off a target far away; 60 steps can end {least:.3g} off"
@@ -180,8 +189,13 @@ def _unchanged(q_start: Array, q: Array) -> Finding | None:
     )
 
 
+@once
+def _best(*target) -> float:
+    return _miss(*target[:3], jacobian.solve_ik(*target))
+
+
 def _as_near_as_can_be(S, M, T_goal, q_start, limits, after) -> Finding | None:
-    best = _miss(S, M, T_goal, jacobian.solve_ik(S, M, T_goal, q_start, limits))
+    best = _best(S, M, T_goal, q_start, limits)
     if after < 1.01 * best:  # measured: 1.001; with J_space up to 1.08
         return None
     says = f"stays {after:.3f} off a target out of reach; {best:.3f} can be had"
