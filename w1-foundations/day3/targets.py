@@ -8,7 +8,7 @@ Where the docstring's loop has one way only to go, an answer has to end as near.
 import numpy as np
 
 from labkit.judge import Finding, draw
-from labkit.judge.mistake import once
+from labkit.judge.answers import once
 from robo47 import jacobian, screws
 from robo47.checks import Array
 
