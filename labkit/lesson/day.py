@@ -113,7 +113,6 @@ class Day:
     guide: str  # the lab guide
     minutes: int  # how long it takes
     was: tuple[str, ...] = ()  # file names that the lab script had before
-    readings: tuple[str, ...] = ()  # what to read and watch
     # Modules of robo47 that are its answers; later days may import them.
     library: tuple[str, ...] = ()
     limit: float = 1e-8  # what an error must be under where no metric says more
@@ -144,7 +143,7 @@ class Day:
 
     @property
     def own(self) -> Path:
-        """The day's own folder: questions.py, submissions/ and so on."""
+        """The day's own folder: its functions' files, submissions/ and so on."""
         return self.folder / f"day{self.number}"
 
     def named_as(self, is_there: Callable[[str], bool]) -> "Day":
