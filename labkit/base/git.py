@@ -214,17 +214,7 @@ def run(
         except OSError as error:
             says = f"git cannot be run: {error.strerror}; install git"
             raise GitError(says) from None
-        try:
-            processes.limit_files(process, largest)
-            process.communicate(say.encode(), timeout=seconds)
-        except subprocess.TimeoutExpired:
-            ran, waited = processes.scheduled(process)
-            starved = waited > seconds / 2 and ran < (seconds - waited) / 2
-            kind = GitError if starved else _SlowError
-            raise kind(f"git took more than {seconds:.0f} s") from None
-        finally:
-            processes.end(process)
-            process.stdin.close()
+        _wait(process, say, seconds, largest)
         if processes.was_killed(process):
             raise GitError("git was killed")
         said: list[Any] = []
@@ -234,6 +224,24 @@ def run(
     if text:
         said = [each.decode("utf-8", "replace") for each in said]
     return subprocess.CompletedProcess(command, process.returncode, *said)
+
+
+def _wait(
+    process: subprocess.Popen[bytes], say: str, seconds: float, largest: int
+) -> None:
+    """Tell git what it is to read, and wait for its end; arguments as in `run`."""
+    try:
+        processes.limit_files(process, largest)
+        process.communicate(say.encode(), timeout=seconds)
+    except subprocess.TimeoutExpired:
+        ran, waited = processes.scheduled(process)
+        starved = waited > seconds / 2 and ran < (seconds - waited) / 2
+        kind = GitError if starved else _SlowError
+        raise kind(f"git took more than {seconds:.0f} s") from None
+    finally:
+        processes.end(process)
+        if process.stdin:
+            process.stdin.close()
 
 
 def _repository(clone: Path, own: bool = False) -> Path | None:
