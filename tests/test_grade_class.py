@@ -2,6 +2,8 @@
 
 import contextlib
 import csv
+import datetime
+import html
 import io
 import json
 import os
@@ -17,7 +19,8 @@ from urllib.parse import unquote
 
 import pytest
 from make_class import DAY, DEADLINE, KINDS, NAMES, SOLVED, WEEK, commit, make_class
-from test_report import measured
+from test_report import MEASURE
+from test_week import titles
 
 from labkit.base import cli
 from labkit.commands import grade as command
@@ -71,14 +74,14 @@ def command_of(root, out, *arguments):
     return [sys.executable, *map(str, (ROOT / SCRIPT, root, *fixed, *arguments))]
 
 
-def grade(root, out, *arguments, **environment):
+def grade(root, out, *arguments):
     """Grade a class; return the finished process."""
     done = subprocess.run(
         command_of(root, out, *arguments),
         capture_output=True,
         cwd=ROOT,
         encoding="utf-8",
-        env={**os.environ, "PYTHONIOENCODING": "utf-8", **environment},
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
         timeout=600,
         check=False,
     )
@@ -430,9 +433,10 @@ def test_strangers_code_runs_behind_a_wall_or_because_one_says_so(
 
 class TestMistakesOfTheTeacher:
     def test_a_deadline_that_is_a_day_means_its_end(self, small):
-        grade(*small, "--deadline", "2026-09-04", TZ="UTC")
-        # the last commit is at 16:00 of that day, and eight hours are left of it
-        assert rows(small[1])["Zoë Ångström"][MINUTES] == "480"
+        grade_here(*small, "--deadline", "2026-09-04")
+        end = datetime.datetime(2026, 9, 5).timestamp()  # midnight here
+        left = int(end - DEADLINE) // 60  # the last commit is at DEADLINE
+        assert rows(small[1])["Zoë Ångström"][MINUTES] == str(left)
 
     def test_another_one_is_at_work_or_has_another_day_in_the_same_place(self, small):
         clones, out = small
@@ -460,8 +464,9 @@ class TestMistakesOfTheTeacher:
             name, value = words.split()
             assert grade_here(*small, f"--{name}", value).returncode == 2
 
-    def test_help_fits_80_columns(self, run):
-        said = run(SCRIPT, "--help", COLUMNS="80").stdout
+    def test_help_fits_80_columns(self, tmp_path, monkeypatch):
+        monkeypatch.setenv("COLUMNS", "80")
+        said = grade_here(tmp_path, tmp_path, "--help").stdout
         assert max(map(len, said.splitlines())) <= 80
         assert "--dask tls://" in said
 
@@ -485,15 +490,15 @@ def test_a_class_of_200_gives_the_same_bytes_however_it_is_graded(tmp_path):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("width", [390, 1280])
-def test_the_page_fits_and_runs_nothing_in_a_real_browser(
-    graded, tmp_path, width, chromium
-):
-    found = measured(chromium, tmp_path, graded.page, width)
-    title, scroll_width, too_wide, *_, made = found
-    assert title == f"Day 1: {DAY.title}"
-    assert int(scroll_width) <= width
-    assert (too_wide, made) == ("0", "0")
+def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, chromium):
+    widths, page = (390, 1280), html.escape(graded.page)
+    pages = [MEASURE.format(width=width, page=page) for width in widths]
+    found = titles(chromium, tmp_path, *pages)
+    for width, counted in zip(widths, found, strict=True):
+        title, scroll_width, too_wide, *_, made = counted.rsplit(maxsplit=5)
+        assert title == f"Day 1: {DAY.title}"
+        assert int(scroll_width) <= width
+        assert (too_wide, made) == ("0", "0")
 
 
 def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
