@@ -12,17 +12,27 @@ import time
 
 import pytest
 from make_class import make_class
-from test_grade_class import IN_TIME, command_of, grade, journalled, outputs, rows
+from test_grade_class import (
+    IN_TIME,
+    command_of,
+    grade,
+    grade_here,
+    journalled,
+    outputs,
+    rows,
+)
 
 from conftest import need
+from labkit.grade import engine
 
 pytestmark = pytest.mark.kit
 
 
-@pytest.fixture
-def certificates(tmp_path, monkeypatch):
+@pytest.fixture(scope="module")
+def certificates(tmp_path_factory):
     """Make certificates as docs/cluster.md does, and tell Dask in the environment."""
     need(shutil.which("openssl") is not None, "openssl")
+    folder = tmp_path_factory.mktemp("certificates")
     ca, own = "-keyout ca.key -out ca.pem", "-keyout class.key -out class.csr"
     sign = "-in class.csr -CA ca.pem -CAkey ca.key -CAcreateserial -out class.pem"
     for command in (
@@ -32,45 +42,59 @@ def certificates(tmp_path, monkeypatch):
     ):
         done = subprocess.run(
             ["openssl", *command.split()],
-            cwd=tmp_path,
+            cwd=folder,
             capture_output=True,
             check=False,
         )
         assert done.returncode == 0, done.stderr
     prefix = "DASK_DISTRIBUTED__COMM__TLS"
-    monkeypatch.setenv(f"{prefix}__CA_FILE", str(tmp_path / "ca.pem"))
-    for role in ("CLIENT", "SCHEDULER", "WORKER"):
-        monkeypatch.setenv(f"{prefix}__{role}__CERT", str(tmp_path / "class.pem"))
-        monkeypatch.setenv(f"{prefix}__{role}__KEY", str(tmp_path / "class.key"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(f"{prefix}__CA_FILE", str(folder / "ca.pem"))
+        for role in ("CLIENT", "SCHEDULER", "WORKER"):
+            patch.setenv(f"{prefix}__{role}__CERT", str(folder / "class.pem"))
+            patch.setenv(f"{prefix}__{role}__KEY", str(folder / "class.key"))
+        yield
 
 
-@pytest.fixture
-def cluster(tmp_path, certificates):
-    """Start a scheduler and two workers on loopback; return its address and them."""
+@contextlib.contextmanager
+def start(folder, what, *arguments):
+    """Run a program of Dask on loopback until the block ends."""
+    command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
+    command += ["--host", "127.0.0.1", "--no-dashboard"]
+    with (folder / f"{what}.log").open("ab") as log:
+        process = subprocess.Popen(command, stdout=log, stderr=log, cwd=folder)
+        with process:  # waits for it
+            try:
+                yield process
+            finally:
+                process.kill()
+
+
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory, certificates):
+    """Start a scheduler; return its address."""
     need(importlib.util.find_spec("distributed") is not None, "the extra grade: Dask")
-    with contextlib.ExitStack() as ends:
-        log = ends.enter_context((tmp_path / "dask.log").open("wb"))
-
-        def start(what, *arguments):
-            command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
-            command += ["--host", "127.0.0.1", "--no-dashboard"]
-            process = subprocess.Popen(command, stdout=log, stderr=log, cwd=tmp_path)
-            ends.enter_context(process)  # waits for it
-            ends.callback(process.kill)
-            return process
-
-        found = tmp_path / "scheduler.json"
-        tls = ("--protocol", "tls", "--port", "0", "--scheduler-file", str(found))
-        start("scheduler", *tls)
+    folder = tmp_path_factory.mktemp("scheduler")
+    found = folder / "scheduler.json"
+    tls = ("--protocol", "tls", "--port", "0", "--scheduler-file", str(found))
+    with start(folder, "scheduler", *tls):
         wait_for(lambda: found.exists() and found.read_text().rstrip().endswith("}"))
         address = json.loads(found.read_text())["address"]
         assert address.startswith("tls://")
+        yield address
+
+
+@pytest.fixture
+def workers(tmp_path, scheduler):
+    """Start two workers of it; return them."""
+    with contextlib.ExitStack() as ends:
         workers = []
         for i in range(2):
             own = tmp_path / f"worker{i}"
             arguments = ("--nthreads", "1", "--no-nanny", "--local-directory", str(own))
-            workers.append(start("worker", address, *arguments))
-        yield address, workers
+            it = start(tmp_path, "worker", scheduler, *arguments)
+            workers.append(ends.enter_context(it))
+        yield workers
 
 
 def wait_for(condition):
@@ -108,13 +132,14 @@ def grade_and_kill_one(clones, out, address, worker, number):
     ],
 )
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
-    tmp_path, cluster, students, killed_at
+    tmp_path, scheduler, workers, students, killed_at
 ):
-    address, (first, second) = cluster
+    first, second = workers
     clones, here, there = (tmp_path / name for name in ("clones", "here", "there"))
     make_class(clones, students)
-    grade(clones, here, *IN_TIME)
-    said = grade_and_kill_one(clones, there, address, first, killed_at)
+    grade_here(clones, here, *IN_TIME)
+    engine.close_graders()
+    said = grade_and_kill_one(clones, there, scheduler, first, killed_at)
     assert f"graded now: {students};" in said
     assert second.poll() is None
     assert outputs(there) == outputs(here)
@@ -122,20 +147,22 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(
     assert max(n for folder, n in journalled(there).items() if folder) == 1
 
 
-def test_who_has_no_certificate_reaches_nobody(tmp_path, cluster, monkeypatch):
-    address, _ = cluster
+def test_who_has_no_certificate_reaches_nobody(tmp_path, scheduler, monkeypatch):
     make_class(tmp_path / "clones", 1)
     for name in [n for n in os.environ if n.startswith("DASK_DISTRIBUTED__COMM__TLS")]:
         monkeypatch.delenv(name)
-    for asked in (address, address.replace("tls:", "tcp:")):
+    for asked in (scheduler, scheduler.replace("tls:", "tcp:")):
         done = grade(tmp_path / "clones", tmp_path, "--dask", asked)
         assert done.returncode == 2
         assert "certificates" in done.stderr or "no Dask scheduler" in done.stderr
 
 
-def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(tmp_path):
+def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setattr(engine, "REACHING", 0.3)
     make_class(tmp_path / "clones", 1)
-    done = grade(tmp_path / "clones", tmp_path, "--dask", "tcp://127.0.0.1:1")
+    done = grade_here(tmp_path / "clones", tmp_path, "--dask", "tcp://127.0.0.1:1")
     assert done.returncode == 2
     installed = importlib.util.find_spec("distributed") is not None
     says = "no Dask scheduler at" if installed else "--dask needs the package"

@@ -12,18 +12,27 @@ from dataclasses import replace
 import pytest
 from test_report import MEASURE, dom
 
+from conftest import copy_kit, keep_first_day, run_copy
 from labkit.base import store
 from labkit.check.memory import Met
+from labkit.commands.week import lines_of
 from labkit.lesson.day import Metric, days_of, find_day
 from labkit.lesson.marks import Writers, file_mark, marks_of
 from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import OwnDay, facts_of, minutes_of
+from labkit.report.week_labs import Ran
 
 pytestmark = pytest.mark.kit
 
 RUN_WEEK, REPORT = "scripts/run_week.py", "scripts/report_metrics.py"
+WRITTEN = ("w1-foundations", "metrics", ".robo47")  # folders of a clone
+BEFORE, AFTER = (
+    b"# Mine\r\n<!-- numbers -->\r\n",
+    b"<!-- end -->\r\n\xc3\xa9 mine too\r\n",
+)
+UNSEEN = b"Not counted, since `make check` has not seen it as it is: day 1."
 SMALL = Metric("fk", "err", max=1e-8)
 SHARE = Metric("right", "share", min=0.95)
 
@@ -33,10 +42,71 @@ def day():
     return find_day(1)
 
 
+@pytest.fixture(scope="module")
+def kit(tmp_path_factory):
+    """Return a copy of the kit with its first day alone, for all tests, one by one."""
+    return keep_first_day(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
+
+
+@pytest.fixture(scope="module")
+def fresh(kit, tmp_path_factory):
+    """Return where the parts of that copy that a test may write in are kept."""
+    return save(kit, tmp_path_factory.mktemp("fresh"))
+
+
 @pytest.fixture
-def begun(one_day):
+def clone(kit, fresh):
+    """Return that copy with nothing done in it."""
+    bring_back(kit, fresh)
+    return kit
+
+
+@pytest.fixture(scope="module")
+def worked(kit, fresh, tmp_path_factory):
+    """Keep what is there once a day met a mistake, was checked and run."""
+    bring_back(kit, fresh)
+    day = begin(kit)
+    retro_of(day).write_bytes(BEFORE + b"old\r\n" + AFTER)
+    wrong = find_day(1).own / "submissions" / "wrong" / "inverse_no_minus.py"
+    solved = day.work.read_text("utf-8")
+    day.work.write_text(f"{solved}\n\n{wrong.read_text('utf-8')}", "utf-8")
+    run_copy(kit, "scripts/check_day.py", "1")
+    day.work.write_text(solved, "utf-8")
+    run_copy(kit, "scripts/check_day.py", "1")
+    assert run_copy(kit, "scripts/run_day.py", "1").returncode == 0
+    return save(kit, tmp_path_factory.mktemp("worked"))
+
+
+@pytest.fixture
+def done(clone, worked):
+    """Return the day in that state, with a retrospective."""
+    bring_back(clone, worked)
+    return find_day(1, clone)
+
+
+def save(kit, folder):
+    """Keep what commands write in, and return where."""
+    for name in WRITTEN:
+        if (kit / name).is_dir():
+            shutil.copytree(kit / name, folder / name)
+    return folder
+
+
+def bring_back(kit, folder):
+    """Let a copy of the kit be as it was when that was kept."""
+    for name in (*WRITTEN, ".git"):
+        shutil.rmtree(kit / name, ignore_errors=True)
+    shutil.copytree(folder, kit, dirs_exist_ok=True)
+
+
+@pytest.fixture
+def begun(clone):
     """Begin the day with the kit's solution, in a file of one's own, in a copy."""
-    day = find_day(1, one_day)
+    return begin(clone)
+
+
+def begin(clone):
+    day = find_day(1, clone)
     day.work.parent.mkdir()
     for name in ("kit.py", day.script):
         text = day.source.with_name(name).read_text("utf-8")
@@ -87,7 +157,6 @@ def test_the_kits_labs_can_be_run_beside_what_is_begun(run_in, begun):
     assert "yours" not in done.stdout
 
 
-@pytest.mark.kit
 def test_a_lab_that_fails_is_named_with_its_reason(run_in, begun):
     begun.work.write_text("raise SystemExit('error: no idea')\n")
     done = run_in(RUN_WEEK)
@@ -233,11 +302,20 @@ def test_no_text_of_a_journal_becomes_a_script(day):
     assert "default-src 'none'" in text
 
 
+def titles(chromium, folder, *pages):
+    """Return what each page makes of its title, all in one browser."""
+    frame = '<iframe style="width:1400px;height:1000px" srcdoc="{}"></iframe>'
+    frames = "".join(frame.format(html.escape(page)) for page in pages)
+    each = "[...document.querySelectorAll('iframe')].map(f => f.contentDocument.title)"
+    script = f"<script>onload = () => document.title = {each}.join('|')</script>"
+    text = dom(chromium, folder, f"<body>{frames}{script}")
+    found = re.search(r"<title>(.*?)</title>", text)
+    assert found is not None
+    return found[1].split("|")
+
+
 @pytest.mark.browser
-@pytest.mark.parametrize("width", [390, 1280])
-def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
-    day, tmp_path, width, chromium
-):
+def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(day, tmp_path, chromium):
     week = [
         facts(d, numbers=[ran(m) for m in d.metrics]) for d in days_of(find_week(1))
     ]
@@ -246,23 +324,20 @@ def test_the_page_fits_and_its_verdicts_are_seen_on_a_phone(
     seen = "[...d.querySelectorAll('td.pass')].every("
     seen += f"e => e.{box}.left + 30 < e.closest('.card').{box}.right)"
     harness = MEASURE.replace("d.documentElement.scrollWidth", seen)
-    harness = harness.format(width=width, page=html.escape(text))
-    found = re.search(r"<title>(.*?)</title>", dom(chromium, tmp_path, harness))
-    assert found is not None
-    *title, shown, too_wide, _, _, made = found[1].split()
-    assert " ".join(title) == "Week 1: foundations"
-    assert (shown, too_wide, made) == ("true", "0", "0")
+    pages = [harness.format(width=w, page=html.escape(text)) for w in (390, 1280)]
+    for found in titles(chromium, tmp_path, *pages):
+        *title, shown, too_wide, _, _, made = found.split()
+        assert " ".join(title) == "Week 1: foundations"
+        assert (shown, too_wide, made) == ("true", "0", "0")
 
 
-BEFORE, AFTER = (
-    b"# Mine\r\n<!-- numbers -->\r\n",
-    b"<!-- end -->\r\n\xc3\xa9 mine too\r\n",
-)
+def retro_of(day):
+    return day.folder / "docs" / "RETRO_w1.md"
 
 
 @pytest.fixture
 def diary(begun):
-    file = begun.folder / "docs" / "RETRO_w1.md"
+    file = retro_of(begun)
     file.write_bytes(BEFORE + b"old\r\n" + AFTER)
     return file
 
@@ -290,9 +365,9 @@ def test_without_its_marks_a_retrospective_is_left_alone(begun, diary, text):
     assert diary.read_bytes() == text
 
 
-def test_nobodys_numbers_are_written_nowhere(one_day):
-    day = find_day(1, one_day)
-    file = day.folder / "docs" / "RETRO_w1.md"
+def test_nobodys_numbers_are_written_nowhere(clone):
+    day = find_day(1, clone)
+    file = retro_of(day)
     file.write_bytes(BEFORE + AFTER)
     assert week_retro.fill([facts(day)]) == []
     assert file.read_bytes() == BEFORE + AFTER
@@ -310,103 +385,90 @@ def test_another_logs_numbers_stay_out_of_the_retrospective(
     assert diary.read_bytes() == before
 
 
-@pytest.mark.kit
-def test_make_report_writes_the_weeks_page_from_what_was_done(
-    run_in, begun, clone, diary
-):
-    wrong = find_day(1).own / "submissions" / "wrong" / "inverse_no_minus.py"
-    solved = begun.work.read_text("utf-8")
-    begun.work.write_text(f"{solved}\n\n{wrong.read_text('utf-8')}", "utf-8")
-    run_in("scripts/check_day.py", "1")
-    begun.work.write_text(solved, "utf-8")
-    run_in("scripts/check_day.py", "1")
-    assert run_in("scripts/run_day.py", "1").returncode == 0
-    done = run_in(REPORT)
-    assert done.returncode == 0, done.stderr
-    assert "wrote metrics/report-week1.html" in done.stdout
-    log = (clone / "metrics" / "report.html").read_text("utf-8")
+def test_make_report_writes_the_weeks_page_from_what_was_done(run_in, kit, done):
+    said = run_in(REPORT)
+    assert said.returncode == 0, said.stderr
+    assert "wrote metrics/report-week1.html" in said.stdout
+    assert "checks: 2 passing, 0 failing" in said.stdout
+    log = (kit / "metrics" / "report.html").read_text("utf-8")
     assert 'href="report-week1.html">Week 1</a>' in log
-    text = (clone / "metrics" / "report-week1.html").read_text("utf-8")
+    text = (kit / "metrics" / "report-week1.html").read_text("utf-8")
     assert "8 of 8" in text
+    assert "make check DAY=1" not in text
     assert "inverse: t not negated<br>" in text
     assert "<td class=pass>✓ left behind" in text
-    assert b"Named mistakes met: 1; left behind: 1." in diary.read_bytes()
+    diary = retro_of(done).read_bytes()
+    assert b"Named mistakes met: 1; left behind: 1." in diary
+    assert UNSEEN not in diary
     assert "report-week" not in run_in(REPORT, "--day", "1").stdout
 
 
-def test_what_changed_since_the_check_is_not_counted_and_not_run(
-    run_in, begun, clone, diary
-):
-    page = clone / "metrics" / "report-week1.html"
-    for edit, known in (("", False), ("", True), ("raise SystemExit\n", False)):
-        begun.work.write_text(begun.work.read_text("utf-8") + edit, "utf-8")
-        if known:
-            run_in("scripts/check_day.py", "1")
-        assert run_in(REPORT).returncode == 0
-        text = page.read_text("utf-8")
-        assert ("make check DAY=1" in text) is not known
-        assert ("8 of 8" in text) is known
-        says = b"Not counted, since `make check` has not seen it as it is: day 1."
-        assert (says in diary.read_bytes()) is not known
+@pytest.mark.parametrize("known", [False, True])
+def test_what_no_check_has_seen_is_not_counted_and_not_run(run_in, request, kit, known):
+    day = request.getfixturevalue("done" if known else "begun")
+    if known:
+        text = day.work.read_text("utf-8")
+        day.work.write_text(text + "raise SystemExit\n", "utf-8")
+    else:
+        retro_of(day).write_bytes(BEFORE + AFTER)
+    assert run_in(REPORT).returncode == 0
+    text = (kit / "metrics" / "report-week1.html").read_text("utf-8")
+    assert "make check DAY=1" in text
+    assert "8 of 8" not in text
+    assert UNSEEN in retro_of(day).read_bytes()
 
 
-def test_an_edit_after_the_run_makes_every_number_of_the_day_stale(
-    run_in, begun, clone, diary
-):
-    run_in("scripts/check_day.py", "1")
+def test_the_kits_runs_are_not_mine(run_in, begun):
     run_in("scripts/run_day.py", "1", "--kit")
-    done = run_in(REPORT)
-    assert "checks: 0 passing, 0 failing" in done.stdout, "the kit's runs are not mine"
-    run_in("scripts/run_day.py", "1")
-    assert "checks: 2 passing, 0 failing" in run_in(REPORT).stdout
-    text = begun.work.read_text("utf-8")
+    assert "checks: 0 passing, 0 failing" in run_in(REPORT).stdout
+
+
+def test_an_edit_after_the_run_makes_every_number_of_the_day_stale(run_in, kit, done):
+    text = done.work.read_text("utf-8")
     broken = text.replace("    return make_T(R.T, -R.T @ t)", "    return T.T")
-    begun.work.write_text(broken + "# later\n", "utf-8")
-    done = run_in(REPORT)
-    assert "checks: 0 passing, 0 failing" in done.stdout
-    told = " ".join(done.stdout.split())
+    done.work.write_text(broken + "# later\n", "utf-8")
+    said = run_in(REPORT)
+    assert "checks: 0 passing, 0 failing" in said.stdout
+    told = " ".join(said.stdout.split())
     assert "day 1: Not checked as it is now: make check DAY=1" in told
     assert "2 numbers from before your file changed: make run DAY=1" in told
     for page in ("report.html", "report-week1.html"):
-        text = (clone / "metrics" / page).read_text("utf-8")
+        text = (kit / "metrics" / page).read_text("utf-8")
         assert "your file changed since" in text
         assert "✓ pass" not in text
-    assert diary.read_bytes().count(b"(my file changed since)") == 2
+    assert retro_of(done).read_bytes().count(b"(my file changed since)") == 2
 
 
 def test_borrowed_functions_are_told_everywhere_and_pass_nowhere(
     run_in, begun, clone, diary
 ):
     assert run_in("scripts/borrow.py", "1.1").returncode == 0
-    run_in("scripts/check_day.py", "1")
     assert run_in("scripts/run_day.py", "1").returncode == 0
+    checked = run_in("scripts/check_day.py", "1", "--explain").stdout
+    assert "Borrowed from the kit: 1.1. The rows count once" in checked
     done = run_in(REPORT)
     assert "checks: 0 passing, 0 failing" in done.stdout
     assert "1.1 borrowed" in done.stdout
     for page in ("report.html", "report-week1.html"):
         assert "partly borrowed" in (clone / "metrics" / page).read_text("utf-8")
     assert b"Borrowed from the kit, and not counted: 1.1." in diary.read_bytes()
-    assert "1    part kit's" in run_in(RUN_WEEK).stdout
-    checked = run_in("scripts/check_day.py", "1", "--explain").stdout
-    assert "Borrowed from the kit: 1.1. The rows count once" in checked
+    (line,) = lines_of(Ran(begun, True, [ran(SMALL)], ""))
+    assert line[:3] == ("1", "part kit's", "fk")
 
 
-def test_another_days_file_leaves_a_day_as_it_was_checked(run_in, begun):
-    run_in("scripts/check_day.py", "1")
-    begun.work.with_name("day2_screws.py").write_text("x = 1\n")
+def test_another_days_file_leaves_a_day_as_it_was_checked(run_in, done):
+    done.work.with_name("day2_screws.py").write_text("x = 1\n")
     assert "Not checked" not in run_in(REPORT).stdout
 
 
-def test_a_check_of_one_task_tells_nothing_of_the_others(run_in, begun, clone):
+@pytest.mark.parametrize("whole", [False, True])
+def test_a_check_of_one_task_tells_nothing_of_the_others(run_in, request, kit, whole):
+    request.getfixturevalue("done" if whole else "begun")
     run_in("scripts/check_day.py", "--task", "1.1")
     run_in(REPORT)
-    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
-    assert "make check DAY=1" in page
-    run_in("scripts/check_day.py", "1")
-    run_in("scripts/check_day.py", "--task", "1.1")
-    run_in(REPORT)
-    page = (clone / "metrics" / "report-week1.html").read_text("utf-8")
-    assert "8 of 8" in page
+    page = (kit / "metrics" / "report-week1.html").read_text("utf-8")
+    assert ("make check DAY=1" in page) is not whole
+    assert ("8 of 8" in page) is whole
 
 
 def test_the_weeks_facts_are_found_without_mujoco_and_the_sandbox():

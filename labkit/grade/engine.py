@@ -39,6 +39,7 @@ from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
 
 PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
+REACHING = 10.0  # seconds for a Dask scheduler to answer
 PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
 NO_DASK = (
@@ -200,7 +201,7 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
     if address.startswith("tls:") and not known.get("ssl_context"):
         raise Robo47Error(NO_CERTIFICATES)
     try:
-        client = Client(address, timeout=10, set_as_default=False)
+        client = Client(address, timeout=REACHING, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise Robo47Error(f"no Dask scheduler at {address}: {why}") from None
