@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 import pytest
+from restored import Restored
 
 from conftest import ROOT, copy_kit, keep_first_day, need, run_copy
 from labkit.commands import fresh as command
@@ -68,13 +69,13 @@ def handed_in(tmp_path_factory):
     git(clone, "config", "core.autocrlf", "false")
     assert run_copy(clone, "scripts/run_day.py", "1").returncode == 0
     commit(clone)
-    return clone
+    return Restored(clone)
 
 
 @pytest.fixture
-def student(handed_in, tmp_path):
-    """A copy of it, to change."""
-    return shutil.copytree(handed_in, tmp_path / "clone")
+def student(handed_in):
+    """That clone, as it was then."""
+    return handed_in.put_back()
 
 
 @pytest.fixture
