@@ -124,7 +124,7 @@ class TestAnAttack:
         assert verdicts["1.2"].status == "passed"
 
     def test_that_loops_forever_costs_its_own_tasks_only(self, check, monkeypatch):
-        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
         verdicts = check(attack("while True: pass"))
         assert verdicts["1.1"].mistake == "stopped"
         assert "loop" in verdicts["1.1"].message
@@ -137,30 +137,25 @@ class TestAnAttack:
         assert replies[-1].kind == "stopped"
         assert replies[0].value == 1
 
-    @pytest.mark.parametrize(
-        ("code", "refused"),
-        [
-            ("import os\ndef f():\n    while True: os.fork()", "start another"),
-            ("import subprocess, sys\ndef f(): subprocess.run([sys.executable])",
-             "start another"),
-            ("import os\ndef f(): os.system('echo PASSED')", "start another"),
-            ("import multiprocessing as m\ndef f(): m.Process(target=f).start()",
-             "start another"),
-            ("import ctypes\ndef f(): return ctypes.CDLL(None)", "call into a foreign"),
-            ("import socket\ndef f(): socket.create_connection(('127.0.0.1', 9))",
-             "use the network"),
-            ("import gc\ndef f(): return gc.get_objects()", "search the interpreter's"),
-            ("import os\ndef f(): os.symlink('/', 'root')", "write to"),
-        ],
-    )  # fmt: skip
-    def test_that_starts_processes_or_leaves_python_is_refused(
-        self, ask, code, refused
-    ):
-        if "fork" in code and not hasattr(os, "fork"):
-            pytest.skip("needs os.fork")
-        (reply,) = ask(code)
-        assert reply.kind == "RefusedError"
-        assert reply.refused[0].startswith(refused)
+    def test_that_starts_processes_or_leaves_python_is_refused(self, ask):
+        ways = {
+            "subprocess.run([sys.executable])": "start another",
+            "os.system('echo PASSED')": "start another",
+            "multiprocessing.Process(target=print).start()": "start another",
+            "ctypes.CDLL(None)": "call into a foreign",
+            "socket.create_connection(('127.0.0.1', 9))": "use the network",
+            "gc.get_objects()": "search the interpreter's",
+            "os.symlink('/', 'root')": "write to",
+        }
+        if hasattr(os, "fork"):
+            ways["os.fork()"] = "start another"
+        modules = "ctypes, gc, multiprocessing, os, socket, subprocess, sys"
+        code = [f"def f{i}(): import {modules}; {w}\n" for i, w in enumerate(ways)]
+        asked = [Question("1.1", f"f{i}", ()) for i in range(len(ways))]
+        replies = ask("".join(code), *asked)
+        assert {reply.kind for reply in replies} == {"RefusedError"}
+        for reply, refused in zip(replies, ways.values(), strict=True):
+            assert reply.refused[0].startswith(refused)
 
     @pytest.mark.parametrize(
         "code",
@@ -175,18 +170,18 @@ class TestAnAttack:
     def test_that_prints_passed_or_a_forged_reply_passes_nothing(self, check):
         forged = '{"at": 0, "value": {"array": {"dtype": "f8"}}}'
         line = f"print('PASSED'); print('{forged}', flush=True); return None"
-        verdicts = check(attack(line))
-        assert verdicts["1.1"].mistake == "nothing-returned"
+        verdict = check(attack(line), "1.1")["1.1"]
+        assert verdict.mistake == "nothing-returned"
 
     def test_that_writes_to_every_open_channel_is_found_out(self, check):
         code = (
             "import os\n    for fd in range(64):\n        try: os.write(fd, b'PASSED')"
         )
         code += "\n        except OSError: pass"
-        assert check(attack(code))["1.1"].mistake == "stopped"
+        assert check(attack(code), "1.1")["1.1"].mistake == "stopped"
 
     def test_that_closes_the_channel_and_goes_on_is_found_out(self, ask, monkeypatch):
-        monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.3)
         (reply,) = ask(
             "import os\ndef f():\n    os.closerange(0, 64)\n    while True: 0"
         )
@@ -207,7 +202,7 @@ class TestAnAttack:
     def test_with_an_object_that_equals_everything_passes_nothing(self, check, code):
         mischief = REFERENCE.replace("    return T\n", "    return E()\n", 1)
         mischief = mischief.replace("READY_Q =", f"{code}\nREADY_Q =", 1)
-        assert check(mischief)["1.1"].status == "wrong"
+        assert check(mischief, "1.1")["1.1"].status == "wrong"
 
     @pytest.mark.parametrize(
         "patch",
@@ -222,7 +217,7 @@ class TestAnAttack:
     def test_that_patches_numpy_or_the_checker_passes_nothing(self, check, patch):
         wrong = REFERENCE.replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
         wrong = wrong.replace("READY_Q =", f"{patch}\nREADY_Q =", 1)
-        assert check(wrong)["1.1"].status == "wrong"
+        assert check(wrong, "1.1")["1.1"].status == "wrong"
 
     def test_that_hides_a_complaint_hides_no_wrong_number(self, check):
         """What the sandbox says of itself is advice; numbers are judged outside."""
@@ -230,9 +225,9 @@ class TestAnAttack:
         hide += "    while '_differs' not in it.f_globals: it = it.f_back\n"
         hide += "    it.f_globals['_differs'] = lambda *a: False\n    t += 1"
         hidden = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = t - 1", 1)
-        assert check(hidden)["1.1"].status == "passed"
+        assert check(hidden, "1.1")["1.1"].status == "passed"
         wrong = attack(hide).replace("T[:3, 3] = t", "T[:3, 3] = -t", 1)
-        assert check(wrong)["1.1"].status == "wrong"
+        assert check(wrong, "1.1")["1.1"].status == "wrong"
 
     @pytest.mark.parametrize(
         "line",
@@ -242,7 +237,7 @@ class TestAnAttack:
         ],
     )
     def test_that_reads_the_reference_solution_is_refused(self, check, line):
-        verdict = check(attack(line))["1.1"]
+        verdict = check(attack(line), "1.1")["1.1"]
         assert verdict.mistake == "refused"
         assert "day1_transforms.py" in verdict.message or "src" in verdict.message
         assert str(ROOT) not in verdict.message
@@ -267,7 +262,7 @@ class TestAnAttack:
     def test_that_digs_for_the_real_mujoco_meets_the_fake_again(self, check):
         line = "import sys; del sys.modules['mujoco']; import mujoco"
         line += "; mujoco.mj_forward(None, None)"
-        assert check(attack(line))["1.1"].mistake == "not-by-hand"
+        assert check(attack(line), "1.1")["1.1"].mistake == "not-by-hand"
 
     def test_by_a_helper_file_finds_no_library_of_its_day_or_a_later_one(
         self, ask, student
@@ -346,19 +341,22 @@ class TestAnAttack:
     def test_that_writes_outside_its_folder_changes_nothing(self, ask, tmp_path):
         precious = tmp_path / "precious.txt"
         precious.write_text("mine")
-        for action in (
+        actions = (
             f"open({str(precious)!r}, 'w')",
             f"os.remove({str(precious)!r})",
             f"os.rename({str(precious)!r}, 'x')",
             f"os.open({str(precious)!r}, os.O_WRONLY | os.O_TRUNC)",
             f"os.truncate({str(precious)!r}, 0)",
-        ):
-            assert ask(f"import os\ndef f(): {action}")[0].kind == "RefusedError"
+        )
+        code = [f"def f{i}(): {action}\n" for i, action in enumerate(actions)]
+        asked = [Question("1.1", f"f{i}", ()) for i in range(len(actions))]
+        replies = ask("import os\n" + "".join(code), *asked)
+        assert [reply.kind for reply in replies] == ["RefusedError"] * len(actions)
         assert precious.read_text() == "mine"
 
     def test_on_the_metrics_file_leaves_it_as_it_is(self, check):
         before = METRICS_CSV.read_bytes()
-        verdict = check(attack(f"open({str(METRICS_CSV)!r}, 'w')"))["1.1"]
+        verdict = check(attack(f"open({str(METRICS_CSV)!r}, 'w')"), "1.1")["1.1"]
         assert verdict.mistake == "refused"
         assert METRICS_CSV.read_bytes() == before
 
@@ -405,7 +403,7 @@ class TestAFile:
         gap = 'raise NotImplementedError("task 1.1: write make_T")'
         assert gap in starter
         code = starter.replace(gap, f"raise NotImplementedError({deep})")
-        assert check(code)["1.1"].mistake == "unwritten"
+        assert check(code, "1.1")["1.1"].mistake == "unwritten"
 
     def test_is_compiled_once(self, ask):
         (reply,) = ask("""

@@ -10,8 +10,9 @@ from dataclasses import replace
 from functools import partial
 
 import pytest
+from restored import Restored
 
-from conftest import ROOT, copy_kit, keep_first_day, need, run_copy
+from conftest import ROOT, SKIPPED, copy_kit, keep_first_day, need, run_copy
 from labkit.commands import fresh as command
 from labkit.fresh import clone as cloning
 from labkit.fresh.compare import faults, same
@@ -68,13 +69,27 @@ def handed_in(tmp_path_factory):
     git(clone, "config", "core.autocrlf", "false")
     assert run_copy(clone, "scripts/run_day.py", "1").returncode == 0
     commit(clone)
-    return clone
+    return Restored(clone)
 
 
 @pytest.fixture
-def student(handed_in, tmp_path):
-    """A copy of it, to change."""
-    return shutil.copytree(handed_in, tmp_path / "clone")
+def student(handed_in):
+    """That clone, as it was then."""
+    return handed_in.put_back()
+
+
+@pytest.fixture(scope="module")
+def without_code(handed_in, tmp_path_factory):
+    """The same week alone, in a repository of its own: a tenth of the files."""
+    clone, whole = tmp_path_factory.mktemp("week") / "clone", handed_in.put_back()
+    for name in (WEEK, "metrics"):
+        shutil.copytree(whole / name, clone / name, ignore=SKIPPED)
+    shutil.copytree(whole / WEEK / "work", clone / WEEK / "work")
+    shutil.copy(whole / ".gitignore", clone)
+    git(clone, "init", "-q")
+    git(clone, "config", "core.autocrlf", "false")
+    commit(clone)
+    return Restored(clone)
 
 
 @pytest.fixture
@@ -140,6 +155,10 @@ def test_without_a_commit_it_cannot_run(tmp_path):
 
 @pytest.mark.kit
 class TestWhatIsMissing:
+    @pytest.fixture
+    def student(self, without_code):
+        return without_code.put_back()
+
     def test_is_nothing_where_all_is_committed(self, lacks):
         assert lacks() == []
 
@@ -289,9 +308,10 @@ class TestTheCommand:
         assert "PASS  day 46, your lab" in done.stdout
         assert done.stdout.splitlines()[-1].endswith("your numbers: 1 lab, 2 rows")
 
-    def test_cannot_run_outside_a_repository(self, clone):
-        need(not (clone.parent / ".git").exists(), "a folder outside any repository")
-        done = run_copy(clone, FRESH)
+    def test_cannot_run_outside_a_repository(self, student, run_in):
+        need(not (student.parent / ".git").exists(), "a folder outside any repository")
+        shutil.rmtree(student / ".git")
+        done = run_in(FRESH)
         assert done.returncode == 2
         assert done.stderr.startswith("error: git rev-parse: ")
 

@@ -1,19 +1,33 @@
 """Running a lab, one's own or the kit's, and a week; the kit's is known as such."""
 
 import pytest
+from restored import Restored
 
+from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import days_of, find_day
 from labkit.lesson.script import is_kits, require_kits
 from robo47.errors import Robo47Error
+from robo47.paths import ROOT
 
 pytestmark = pytest.mark.kit
 
 RUN, WEEK, START = "scripts/run_day.py", "scripts/run_week.py", "scripts/start_day.py"
 
 
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """Return a copy of the kit with its first day alone, put back after each test."""
+    return Restored(keep_first_day(copy_kit(tmp_path_factory.mktemp("kit") / "clone")))
+
+
 @pytest.fixture
-def day(one_day):
-    return find_day(1, one_day)
+def clone(copy):
+    return copy.put_back()
+
+
+@pytest.fixture
+def day(clone):
+    return find_day(1, clone)
 
 
 def test_ones_own_lab_runs_and_not_a_module_beside_it(run_in, day):
@@ -44,8 +58,8 @@ def test_a_lab_that_is_not_begun_is_told_with_the_command(run_in, day):
         (("scripts/borrow.py", "1.1", "--day", "x"), "'x' is no day"),
     ],
 )
-def test_what_is_not_there_is_refused_by_all_in_one_line(run_in, command, says):
-    done = run_in(*command)
+def test_what_is_not_there_is_refused_by_all_in_one_line(command, says):
+    done = run_copy(ROOT, *command)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert says in done.stderr
 

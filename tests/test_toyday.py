@@ -12,6 +12,9 @@ from functools import partial
 import pytest
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
+from labkit.check.tasks import check_tasks
+from labkit.lesson.day import find_day
+from labkit.sandbox import sandbox
 
 pytestmark = pytest.mark.kit
 TOY = ROOT / "tests" / "toyday" / "w9-toy"
@@ -46,46 +49,45 @@ def solve(kit, work):
     work.write_bytes((kit / "w9-toy" / "src" / work.name).read_bytes())
 
 
-def entries(run, *options):
-    done = run("scripts/check_day.py", 46, "--json", *options)
+def checked(kit, task, file):
+    """Return the verdict on a task of a file."""
+    with sandbox.Sandbox() as box:
+        (found,) = check_tasks(find_day(46, kit), file, box, task)
+    return found.verdict
+
+
+def test_the_starter_has_every_task_to_do_and_the_last_day_begun_is_checked(run, begun):
+    done = run("scripts/check_day.py", "--json")
     assert done.stderr == ""
-    return {entry["id"]: entry for entry in json.loads(done.stdout)["entries"]}
-
-
-def test_the_starter_has_every_task_to_do(run, begun):
-    found = entries(run)
-    tasks = [entry for entry in found.values() if entry["kind"] == "task"]
-    assert len(tasks) == 8
+    found = json.loads(done.stdout)
+    tasks = [entry for entry in found["entries"] if entry["kind"] == "task"]
+    assert (found["day"], len(tasks)) == (46, 8)
     assert {entry["status"] for entry in tasks} == {"todo"}
-
-
-def test_the_last_day_begun_is_the_one_that_is_checked(run, begun):
-    assert "Day 46: A toy" in run("scripts/check_day.py").stdout
 
 
 def test_the_solution_passes_and_a_side_quest_is_not_counted(kit, run, begun):
     solve(kit, begun)
     done = run("scripts/check_day.py", 46)
+    assert "Day 46: A toy" in done.stdout
     assert "46.8  fingers (side quest)  passed" in done.stdout
     assert "WRONG" not in done.stdout
-    assert entries(run)["46.8"]["status"] == "passed"
 
 
 FILES = sorted(TOY.glob("day46/submissions/*/*.py"))
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)
-def test_each_kind_of_answer_has_its_own_words(kit, run, file):
+def test_each_kind_of_answer_has_its_own_words(kit, file, monkeypatch):
+    monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
     tasks, _, slug = file.read_text().splitlines()[0].partition(": ")
     slug = slug.partition(" ")[0]
     for task in tasks.split()[2:]:
-        options = ("--task", task, "--file", kit / "w9-toy" / file.relative_to(TOY))
-        entry = entries(run, *options)[task]
-        assert (entry["mistake"] or entry["status"]) == slug
-        assert "rotation" not in entry["message"]
+        verdict = checked(kit, task, kit / "w9-toy" / file.relative_to(TOY))
+        assert (verdict.mistake or verdict.status) == slug
+        assert "rotation" not in verdict.message
 
 
-def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
+def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, begun):
     manifest = kit / "w9-toy" / "day46" / "day.toml"
     text = manifest.read_text()
     own = text.replace("minutes = 10", 'minutes = 10\nlibrary = ["simulate"]')
@@ -95,11 +97,11 @@ def test_the_library_of_its_own_day_and_later_ones_is_refused(kit, run, begun):
     begun.write_text(begun.read_text().replace(gap, gap + call))
     try:
         manifest.write_text(own)
-        entry = entries(run, "--task", "46.2")["46.2"]
+        verdict = checked(kit, "46.2", begun)
     finally:
         manifest.write_text(text)
-    assert entry["mistake"] == "not-by-hand"
-    assert "robo47.simulate.anything" in entry["message"]
+    assert verdict.mistake == "not-by-hand"
+    assert "robo47.simulate.anything" in verdict.message
 
 
 def test_its_lab_runs_logs_and_is_judged_by_max_and_min(kit, run, begun):

@@ -1,9 +1,9 @@
 """`make update`: a mid-term kit on a student's clone, and nothing of theirs is lost."""
 
-import shutil
 import subprocess
 
 import pytest
+from restored import Restored
 
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
@@ -76,21 +76,19 @@ def begun(tmp_path_factory):
     edit(clone / SHEET, ("*(your words)*", "A pose says where a thing is and how."))
     add_row(clone, ROW)
     commit(clone, "my work")
-    return place
+    return Restored(place)
 
 
 @pytest.fixture
-def kit(begun, tmp_path):
-    """A copy of the kit's repository."""
-    return shutil.copytree(begun / "kit", tmp_path / "kit")
+def kit(begun):
+    """The kit's repository, put back as it was."""
+    return begun.put_back() / "kit"
 
 
 @pytest.fixture
-def student(begun, kit, tmp_path):
-    """A copy of the student's clone of it."""
-    clone = shutil.copytree(begun / "student", tmp_path / "student")
-    git(clone, "remote", "set-url", "origin", str(kit))
-    return clone
+def student(kit):
+    """The student's clone of it."""
+    return kit.with_name("student")
 
 
 def commit(folder, message):
