@@ -1,6 +1,7 @@
 """The pictures of the lessons: committed, drawn again, and the command for it."""
 
 import os
+import sys
 
 import numpy as np
 import pytest
@@ -8,13 +9,15 @@ from pictures import count, differing
 
 from conftest import ROOT
 from robo47 import panda
+from robo47.errors import Robo47Error
 
 if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("PIL", reason="needs Pillow: make figures")
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
 from PIL import Image
 
-from labkit.figures import overlay, portrait, sheet
+from labkit.commands import figures as command
+from labkit.figures import client, overlay, portrait, sheet
 from labkit.figures.lessons import lesson_figures
 from labkit.lesson.day import Day, all_days
 
@@ -22,6 +25,13 @@ pytestmark = pytest.mark.kit
 
 FOLDER = ROOT / "w1-foundations" / "figures"
 SIZES = {"reference": (1200, 800), "order": (1600, 810), "fk_error": (1200, 1050)}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def ended():
+    """End the process that draws."""
+    yield
+    client.close()
 
 
 @pytest.mark.parametrize("name", SIZES)
@@ -49,9 +59,10 @@ def test_a_weeks_table_shows_the_days_picture_as_it_is_now(day):
 @pytest.mark.gl
 @pytest.mark.meshes
 @pytest.mark.usefixtures("gl", "real_panda")
-def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
-    done = run("scripts/make_figures.py", "--out", tmp_path)
-    assert (done.returncode, done.stderr.count("rror")) == (0, 0), done.stderr
+def test_the_committed_pictures_can_be_drawn_again(monkeypatch, tmp_path):
+    names = [f"day1_{name}" for name in SIZES]
+    monkeypatch.setattr(sys, "argv", ["", *names, "--out", str(tmp_path)])
+    assert command.main() == 0
     for name, size in SIZES.items():
         fresh = Image.open(tmp_path / f"day1_{name}.png").convert("RGB")
         kept = Image.open(FOLDER / f"day1_{name}.png").convert("RGB")
@@ -62,9 +73,9 @@ def test_the_committed_pictures_can_be_drawn_again(run, tmp_path):
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
-def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
+def test_the_pictures_of_the_order_show_the_labs_numbers(monkeypatch, capsys):
     draw = lesson_figures(1)["day1_order"]
-    from day1_transforms import READY_Q, compose_fk
+    from day1_transforms import READY_Q, compose_fk, main
 
     seen = {}
 
@@ -74,7 +85,9 @@ def test_the_pictures_of_the_order_show_the_labs_numbers(run, monkeypatch):
 
     monkeypatch.setattr(portrait, "draw", note)
     draw()
-    lab = run("w1-foundations/src/day1_transforms.py", "--no-log").stdout
+    monkeypatch.setattr(sys, "argv", ["day1_transforms.py", "--no-log"])
+    assert main() == 0
+    lab = capsys.readouterr().out
     T_world_ee = compose_fk(panda.load("panda_nohand"), READY_Q)
     np.testing.assert_allclose(seen["T_world_ee"], T_world_ee)
     for name in ("T_world_ee @ T_extra", "T_extra @ T_world_ee"):
@@ -99,11 +112,13 @@ def test_without_a_backend_the_command_says_so_in_one_line(run, choice):
     ],
 )
 def test_another_name_or_a_folder_that_cannot_be_written_to_is_told(
-    run, tmp_path, name, says
+    monkeypatch, tmp_path, name, says
 ):
     (tmp_path / "file").write_text("")
-    done = run("scripts/make_figures.py", name, "--out", tmp_path / "file")
-    assert (done.returncode, says in done.stderr) == (2, True)
+    monkeypatch.setattr(portrait, "draw", lambda scene, _: Image.new("RGB", scene.size))
+    monkeypatch.setattr(sys, "argv", ["", name, "--out", str(tmp_path / "file")])
+    with pytest.raises(Robo47Error, match=says):
+        command.main()
 
 
 def test_a_day_without_pictures_has_none(monkeypatch):

@@ -12,8 +12,9 @@ import pytest
 pytest.importorskip("viser", reason="the extra view")
 
 from labkit.base.git import History
+from labkit.commands import proof as command
 from labkit.grade.roster import Student
-from labkit.lesson.day import days_of, find_day
+from labkit.lesson.day import find_day
 from labkit.lesson.marks import Writers, file_mark
 from labkit.lesson.week import find_week
 from labkit.proof import facts, page
@@ -71,21 +72,8 @@ class Seen(HTMLParser):
         self.words += data
 
 
-def half_done(tmp_path, sandbox):
-    """Return the proof of somebody who wrote Day 1 alone."""
-    clone, days, folders = a_clone(tmp_path / "of"), days_of(find_week(1)), []
-    for day in days:
-        folders.append(tmp_path / str(day.number))
-        folders[-1].mkdir()
-    known = [
-        facts.facts_of(day, clone, folder, sandbox)
-        for day, folder in zip(days, folders, strict=True)
-    ]
-    return page.Proof(clone, known, pick(known, folders, sandbox))
-
-
-def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path, sandbox):
-    proof = half_done(tmp_path, sandbox)
+def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path):
+    proof = command.found(find_week(1), a_clone(tmp_path / "of"))
     first, *rest = proof.days
     functions = [f for task in first.day.tasks for f in task.functions]
     assert sorted(first.own) == sorted(functions)
@@ -144,30 +132,34 @@ def test_nothing_from_outside_becomes_a_tag():
 
 
 @functools.cache
-def a_pick():
-    """Return a pick whose film ends after half a second."""
-    return capstone.pick(capstone.library())._replace(seconds=0.5)
+def filmed():
+    """Return a hostile proof with a film that ends after half a second."""
+    result = capstone.pick(capstone.library())._replace(seconds=0.5)
+    return replace(hostile(), picked=Picked(result, "", 35, 35))
+
+
+@functools.cache
+def a_page():
+    """Return its page."""
+    return page.render(filmed())
 
 
 def test_no_script_runs_but_the_players():
-    proof = replace(hostile(), picked=Picked(a_pick(), "", 35, 35))
-    text = page.render(proof)
-    first, second = page.render(proof), text
+    first, second = a_page(), page.render(filmed())
     nonces = {t.partition("'nonce-")[2].partition("'")[0] for t in (first, second)}
     assert len(nonces) == 2  # nobody can know it before
-    seen = Seen(text)
+    seen = Seen(first)
     assert seen.tags.count("iframe") == 1
     assert "script" not in seen.tags
-    assert "unsafe-inline'; script-src 'nonce-" in text
+    assert "unsafe-inline'; script-src 'nonce-" in first
 
 
 @pytest.mark.browser
 def test_the_pick_plays_on_the_page_and_the_evil_does_not(tmp_path, chromium):
     playwright = pytest.importorskip("playwright.sync_api")
     file = tmp_path / "proof.html"
-    proof = replace(hostile(), picked=Picked(a_pick(), "", 35, 35))
     bad = "<script>document.title='evil'</script><p id=there>"
-    text = page.render(proof).replace("<section>", f"{bad}<section>", 1)
+    text = a_page().replace("<section>", f"{bad}<section>", 1)
     file.write_text(text, "utf-8")  # as if escaping had failed
     with playwright.sync_playwright() as play:
         browser = play.chromium.launch(
@@ -201,7 +193,10 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
-    a_clone(tmp_path / "ada")
+    # Nothing of hers moves the arm, which need not pick anything up then.
+    broken = "".join(f"\n{name} = None" for name in capstone.USES[1])
+    mark = '\n\nif __name__ == "__main__":'
+    a_clone(tmp_path / "ada", 1, mark, broken + mark)
     class_ = [Student("Ada -x", "ada", tmp_path / "ada")]
     class_.append(Student("Bob", "bob", tmp_path / "bob"))
     written = list(write_pages(class_, 1, tmp_path / "proof", 1))
@@ -209,7 +204,9 @@ def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
     assert "nothing is begun" in written[1][1]
     text = (tmp_path / "proof" / "ada.html").read_text("utf-8")
     assert "Ada -x: week 1" in text
-    assert "a teacher's kit" in Seen(text).words
+    words = Seen(text).words
+    assert "a teacher's kit" in words
+    assert "None of the functions that move the arm is theirs yet." in words
     assert not (tmp_path / "proof" / "bob.html").exists()
 
 
