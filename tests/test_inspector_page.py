@@ -641,8 +641,9 @@ class TestTwoBrowsers:
 @pytest.fixture(scope="module")
 def again(browser, served, first_page, folder) -> Iterator[tuple[Served, Page]]:
     """The server started once more after its end, without the robot; and its page."""
-    first_page.go(f"{SHARED}&tab=Order")
-    first_page.until(lambda: "tab=Order" in (folder / "view.json").read_text())
+    where = f"{SHARED}&tab=Order"  # whole: it is written down once a second
+    first_page.go(where)
+    first_page.until(lambda: where in (folder / "view.json").read_text("utf-8"))
     assert served.press_ctrl_c() == 0, served.said  # with a page open
     with Served("1", "--port", "0", "--simple", robot=False, memory=folder) as server:
         page = Page(browser, server.url, init=COARSE % 0.3)
