@@ -30,10 +30,10 @@ if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
 sys.path.insert(0, pythons.ROOT)
 from pathlib import Path
 
+from labkit.base.processes import IN_VENV
 from labkit.base.store import alone, replace
 
 ROOT = Path(pythons.ROOT)
-PYTHON_IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
 OFFLINE = re.compile(
     "Temporary failure|Failed to establish|NewConnectionError|Network is unreachable"
     "|dns error|Could not resolve|getaddrinfo"
@@ -55,7 +55,7 @@ def made_with(venv):
     has made and filled is whole too.
     """
     stamped = any(venv.glob(".made*")) or any(venv.glob(".ready-*"))
-    python = venv / PYTHON_IN_VENV
+    python = venv / IN_VENV
     if not python.exists() or not (stamped or recorded(venv, "uv")):
         return None
     return ask(python, "import pip" if stamped else "import pip, mujoco")
@@ -127,7 +127,7 @@ def install(venv, extras, uv):
     """Install the kit, editable, with some extras, at the pinned versions."""
     named = ",".join(extra for extra in extras if extra != "core")
     what = ".[" + named + "]" if named else "."
-    command = [venv / PYTHON_IN_VENV, "-m", "pip", "install"]
+    command = [venv / IN_VENV, "-m", "pip", "install"]
     command += ["--disable-pip-version-check"]
     if uv:
         command = [uv, "pip", "install", "--python", command[0]]

@@ -10,6 +10,8 @@ write when it is checked out. Git has its time; what takes longer is the reposit
 fault.
 """
 
+from __future__ import annotations  # the doctor runs on old Pythons too
+
 import hashlib
 import os
 import stat

@@ -23,10 +23,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from labkit.base import cli, processes
+from labkit.base.git import short_sha
 from robo47.paths import ROOT
 
-IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"
-VENV_PYTHON = ROOT / ".venv" / IN_VENV
+VENV_PYTHON = ROOT / ".venv" / processes.IN_VENV
 OLDEST = (3, 11)
 LEAST_FREE_GB = 1
 _STRENGTH = {
@@ -37,21 +37,19 @@ _STRENGTH = {
 SECONDS = 60
 
 # It runs on bare Pythons, broken installs included: the standard library alone. What
-# can fail is tried by a probe, code for a process of its own that prints a JSON value.
-PYTHON_PROBE = "import json, platform; print(json.dumps(platform.python_version()))"
+# can fail is tried by a probe: code for a process of its own, whose `found` is wanted.
+PYTHON_PROBE = "import platform; found = platform.python_version()"
 VERSIONS_PROBE = """
-import json
 from importlib import metadata
-there = {found.metadata["Name"]: found.version for found in metadata.distributions()}
-print(json.dumps({name: there[name] for name in ("mujoco", "numpy") if name in there}))
+there = {one.metadata["Name"]: one.version for one in metadata.distributions()}
+found = {name: there[name] for name in ("mujoco", "numpy") if name in there}
 """
 MUJOCO_PROBE = """
-import json, mujoco
+import mujoco
 mujoco.mj_forward(m := mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(m))
-print(json.dumps(mujoco.__version__))
+found = mujoco.__version__
 """
 ROBOT_PROBE = """
-import json
 from robo47 import panda
 from robo47.panda import files as menagerie
 from robo47.paths import menagerie_root
@@ -63,26 +61,22 @@ if folder:
     found["files"] = len(record or ())
     found["changed"] = menagerie.changed_files(folder, record or {})[:3]
     found["missing"] = menagerie.missing_files(folder)[:3]
-print(json.dumps(found))
 """
 LESSONS_PROBE = """
-import json
 from labkit.lesson.script import is_kits
 from labkit.lesson.day import all_days
 from robo47.paths import shown
 days = all_days()
 others = [shown(day.source) for day in days if not is_kits(day)]
-print(json.dumps({"days": len(days), "others": others}))
+found = {"days": len(days), "others": others}
 """
 WALL_PROBE = """
-import json
 from labkit.sandbox.wall import wall
-print(json.dumps(wall().name))
+found = wall().name
 """
 GL_PROBE = """
-import json
 from labkit.figures import probe_backends
-print(json.dumps(probe_backends()))
+found = probe_backends()
 """
 
 
@@ -96,7 +90,7 @@ class Line(NamedTuple):
 
 
 def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
-    """Run code that prints one JSON value; return it, or None and the last words.
+    """Run code elsewhere; return its `found`, or None and the last words.
 
     MUJOCO_GL stops MuJoCo's import where it is wrong: only the look at OpenGL gets it.
     """
@@ -104,7 +98,8 @@ def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
     if not gl:
         kept.pop("MUJOCO_GL", None)
     try:
-        command = [python, "-c", code]
+        prints = f"{code}\nimport json; print(json.dumps(found))"
+        command = [python, "-c", prints]
         done = processes.run(command, cwd=ROOT, env=kept, timeout=SECONDS)
     except subprocess.TimeoutExpired:
         return None, f"no answer after {SECONDS} s"
@@ -143,8 +138,7 @@ def check_kit() -> Line:
     """The kit's version and commit, by which somebody else has the same."""
     text = (ROOT / "robo47" / "__init__.py").read_text("utf-8")
     version = text.partition('__version__ = "')[2].partition('"')[0]
-    own = (ROOT / ".git").exists() and shutil.which("git")
-    commit = git("rev-parse", "--short", "HEAD") if own else ""
+    commit = short_sha(ROOT)
     return Line("good", "kit", f"{version} ({commit})" if commit else version)
 
 
@@ -167,7 +161,7 @@ def check_mujoco(python: str) -> Line:
     remedy = "make setup"
     if not installed["mujoco"].startswith("3.") and "numpy" in installed:
         # Version 4 split the package; upgrading in place deletes files of the new half.
-        where = ".venv/" + IN_VENV if python == str(VENV_PYTHON) else "python"
+        where = ".venv/" + processes.IN_VENV if python == str(VENV_PYTHON) else "python"
         remedy = where + " -m pip install --force-reinstall --no-deps"
         remedy += " mujoco mujoco-core mujoco-studio"
     found = "{} does not work: {}".format(installed["mujoco"], why)

@@ -8,7 +8,6 @@ Each pair gets an environment of its own, .venv-matrix/…, made once. A Python 
 not on this machine's PATH is named and left out.
 """
 
-import os
 import re
 import shlex
 import shutil
@@ -37,7 +36,7 @@ def find_python(version: str) -> str | None:
 def environment(python: str, version: str, mujoco: str) -> Path:
     """Return the Python of an environment with that MuJoCo, making it on first use."""
     home = FOLDER / f"python{version}-mujoco{mujoco}"
-    inside = home / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    inside = home / processes.IN_VENV
     ready = home / ".ready"
     if ready.exists():
         return inside
