@@ -11,10 +11,9 @@
 Each function of yours that `make check` does not pass is replaced by the library's.
 """
 
-import argparse
 import sys
 import traceback
-from collections import Counter
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -28,23 +27,9 @@ from robo47.capstone.phases import Result
 from robo47.errors import Robo47Error
 
 CUBES = 20
-HEAD = (
-    f"{'':26}{'place':>8}{'joints':>9}{'line':>8}{'time':>7}{'torque':>8}{'speed':>7}"
-)
-UNITS = f"{'':26}{'mm':>8}{'mrad':>9}{'mm':>8}{'s':>7}{'of max':>8}{'of max':>7}"
-
-
-def parse() -> argparse.Namespace:
-    """Read the command line."""
-    parser = cli.parser(__doc__)
-    cli.add_week(parser)
-    add = parser.add_argument
-    add("--all", action="store_true", help="twenty random cubes")
-    add("--kit", action="store_true", help="the library's functions")
-    add("--ablations", action="store_true", help="mistakes, in a table")
-    add("--clip", type=Path, metavar="FILE", help="a film (.gif, .webp)")
-    add("--picture", type=Path, metavar="FILE", help="a picture (.png)")
-    return parser.parse_args()
+HEAD = f"""
+{"":26}{"place":>8}{"joints":>9}{"line":>8}{"time":>7}{"torque":>8}{"speed":>7}
+{"":26}{"mm":>8}{"mrad":>9}{"mm":>8}{"s":>7}{"of max":>8}{"of max":>7}"""
 
 
 def chosen(week: Week, kit_only: bool) -> Any:
@@ -55,9 +40,9 @@ def chosen(week: Week, kit_only: bool) -> Any:
     with cli.busy("checking your functions"):
         own = own_functions.load(week)
     print(f"yours: {len(own.yours)} of {own.total}")
-    for (day, why), count in Counter((d, w) for d, _, w in own.replaced).items():
+    for day, why in dict.fromkeys((day, why) for day, _, why in own.replaced):
         names = [name for d, name, w in own.replaced if (d, w) == (day, why)]
-        listed = ", ".join(names) if count < 5 else f"{count} functions"
+        listed = ", ".join(names) if len(names) < 5 else f"{len(names)} functions"
         print(cli.wrapped(f"  day {day}, the library's instead of {listed}: {why}"))
     return own.functions
 
@@ -96,7 +81,7 @@ def verdict(failed: int, count: int) -> int:
 
 def all_cubes(capstone: Any, fns: Any) -> int:
     """Pick twenty random cubes."""
-    print(f"\n{HEAD}\n{UNITS}")
+    print(HEAD)
     failed = 0
     for seed in tqdm(range(CUBES), "cubes", leave=False, disable=None):
         result = pick(capstone, fns, *capstone.random_task(seed))
@@ -107,41 +92,50 @@ def all_cubes(capstone: Any, fns: Any) -> int:
 
 def ablations(capstone: Any, fns: Any) -> int:
     """Show what a mistake does: most of them still place the cube."""
-    print(f"\n{HEAD}\n{UNITS}")
+    print(HEAD)
     for name, (changed, speed) in capstone.ablations(fns).items():
         print(row(name, pick(capstone, changed, speed=speed)), flush=True)
     print("Placed is no proof: look at the joints and the line.")
     return cli.EXIT_OK
 
 
+def one_cube(capstone: Any, fns: Any, clip: Path | None, picture: Path | None) -> int:
+    """Pick the cube from where it always is; film and picture where they are wanted."""
+    result = pick(capstone, fns)
+    print()
+    for (name, begins), (_, ends) in pairwise([*result.phases, ("", result.seconds)]):
+        print(f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s")
+    print(f"{HEAD}\n{row('one cube', result)}")
+    print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
+    print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
+    if clip or picture:
+        from labkit.figures.clip import pick_clip, pick_picture
+
+        if picture:
+            print(pick_picture(result, picture))
+        if clip:
+            print(pick_clip(result, clip))
+    return verdict(int(result.failed), 1)
+
+
 def main() -> int:
     """Do what was asked for."""
-    options = parse()
-    named = options.week is not None or options.day is not None
-    week = (
-        chosen_week(options.week, options.day)
-        if named
-        else own_functions.capstone_week()
-    )
+    parser = cli.parser(__doc__)
+    cli.add_week(parser)
+    add = parser.add_argument
+    add("--all", action="store_true", help="twenty random cubes")
+    add("--kit", action="store_true", help="the library's functions")
+    add("--ablations", action="store_true", help="mistakes, in a table")
+    add("--clip", type=Path, metavar="FILE", help="a film (.gif, .webp)")
+    add("--picture", type=Path, metavar="FILE", help="a picture (.png)")
+    options = parser.parse_args()
+    if options.week is None and options.day is None:
+        week = own_functions.capstone_week()
+    else:
+        week = chosen_week(options.week, options.day)
     capstone, fns = own_functions.capstone_of(week), chosen(week, options.kit)
     if options.all:
         return all_cubes(capstone, fns)
     if options.ablations:
         return ablations(capstone, fns)
-    result = pick(capstone, fns)
-    print()
-    for (name, begins), ends in zip(
-        result.phases, [b for _, b in result.phases[1:]] + [result.seconds], strict=True
-    ):
-        print(f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s")
-    print(f"\n{HEAD}\n{UNITS}\n{row('one cube', result)}")
-    print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
-    print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
-    if options.clip or options.picture:
-        from labkit.figures.clip import pick_clip, pick_picture
-
-        if options.picture:
-            print(pick_picture(result, options.picture))
-        if options.clip:
-            print(pick_clip(result, options.clip))
-    return verdict(int(result.failed), 1)
+    return one_cube(capstone, fns, options.clip, options.picture)
