@@ -48,18 +48,15 @@ def output_of(command: str) -> str:
     words = shlex.split(command)
     known = {"python": [sys.executable], "make": ["make", "--no-print-directory"]}
     words[:1] = known[words[0]]
+    # A lab is named as from its week's folder, and runs there.
+    folders = (week.folder for week in weeks() if words[1].startswith("src/"))
+    there = next((path for path in folders if (path / words[1]).is_file()), ROOT)
     variables = {**os.environ, "COLUMNS": "80"}
-    done = processes.run(words, env=variables, cwd=_folder_of(words[1]))
+    done = processes.run(words, env=variables, cwd=there)
     # A check of a wrong file ends with 1, and that is the output that is wanted.
     if done.returncode not in (0, *([1] if "check_day" in command else [])):
         raise Robo47Error(f"`{command}` failed: {done.stderr.strip()[-300:]}")
     return done.stdout
-
-
-def _folder_of(script: str) -> Path:
-    """Return where a command runs: a lab's in its week's folder."""
-    found = (w.folder for w in weeks() if script.startswith("src/"))
-    return next((folder for folder in found if (folder / script).is_file()), ROOT)
 
 
 def wanted(request: str) -> str:

@@ -80,17 +80,14 @@ def news(day: Day, before: str) -> list[str]:
         old = tomllib.loads(text)
     except ValueError:  # their own, broken
         return []
-    return [*_lab(day, old), *_tasks(day, old), *_rows(day, old), *_sheet(day, before)]
+    was = old.get("script", day.script)
+    lab = [] if was == day.script else [f"the lab {was} is called {day.script}"]
+    return [*lab, *_tasks(day, old), *_rows(day, old), *_sheet(day, before)]
 
 
 def said(*arguments: str) -> str:
     """Return what git says of the clone, "" where it fails."""
     return ask(*arguments, may_fail=True)
-
-
-def _lab(day: Day, old: dict[str, Any]) -> list[str]:
-    was = old.get("script", day.script)
-    return [] if was == day.script else [f"the lab {was} is called {day.script}"]
 
 
 def _tasks(day: Day, old: dict[str, Any]) -> list[str]:

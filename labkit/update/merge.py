@@ -125,11 +125,16 @@ def merge(worktree: Path, target: str) -> list[str]:
     how = ("merge", "-q", "--no-ff", "--no-commit", target)
     ask(*NOBODY, *how, at=worktree, may_fail=True)
     mine = {LOG, *(name for day in all_days() for name in day.files.values())}
-    taken = []
-    both = ask("diff", "--name-only", "--diff-filter=U", "-z", at=worktree)
-    for name in filter(None, both.split("\0")):
-        if not _resolve(worktree, name, mine):
-            taken.append(name)
+    both: dict[str, dict[str, str]] = {}  # blobs: "1" of the base, "2" ours, "3" theirs
+    for entry in ask("ls-files", "-uz", at=worktree).split("\0")[:-1]:
+        facts, _, name = entry.partition("\t")
+        _, blob, stage = facts.split()
+        both.setdefault(name, {})[stage] = blob
+    taken = [
+        name
+        for name, blobs in both.items()
+        if not _resolve(worktree, name, blobs, name in mine or "/work/" in name)
+    ]
     _keep_rows(worktree, own)
     ask("add", "-A", at=worktree)
     if ask("rev-parse", "-q", "--verify", "MERGE_HEAD", at=worktree, may_fail=True):
@@ -139,34 +144,28 @@ def merge(worktree: Path, target: str) -> list[str]:
     return taken
 
 
-def _resolve(worktree: Path, name: str, mine: set[str]) -> bool:
+def _resolve(worktree: Path, name: str, blobs: dict[str, str], own: bool) -> bool:
     """Settle a file that both changed; return whether the student's lines stay."""
-    stages = {n: f":{n}:{name}" for n in (1, 2, 3)}
-    there = {
-        n: bool(ask("rev-parse", "-q", "--verify", at_, at=worktree, may_fail=True))
-        for n, at_ in stages.items()
-    }
-    own = name in mine or "/work/" in name
-    if there[2] and (own or not there[3]):
+    if "2" in blobs and (own or "3" not in blobs):
         base, ours, theirs = (
-            _text(worktree, stages[n]) if there[n] else "" for n in (1, 2, 3)
+            _text(worktree, blobs[stage]) if stage in blobs else "" for stage in "123"
         )
-        if base is None or ours is None or theirs is None or not there[3]:
+        if base is None or ours is None or theirs is None or "3" not in blobs:
             # a picture, or what the kit took away
             ask("checkout", "--ours", "--", name, at=worktree, may_fail=True)
         else:
             text = merged(base, ours, theirs, keep_both)
             (worktree / name).write_text(text, "utf-8", newline="\n")
         return True
-    if there[3]:
+    if "3" in blobs:
         ask("checkout", "--theirs", "--", name, at=worktree)
     else:
         (worktree / name).unlink(missing_ok=True)
-    return not there[2]
+    return "2" not in blobs
 
 
 def _text(worktree: Path, blob: str) -> str | None:
-    """Return a text of the index; None for what is none."""
+    """Return a blob's text; None for what is none."""
     done = git.run("show", blob, folder=worktree, seconds=SECONDS, text=False)
     try:
         return None if b"\0" in done.stdout else done.stdout.decode("utf-8")
