@@ -21,9 +21,9 @@ import numpy as np
 import pytest
 
 from labkit import log
-from labkit.author.skeleton import worksheet_of
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.check.tasks import check_tasks
+from labkit.commands.new import worksheet_of
 from labkit.figures import backends
 from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day

@@ -5,7 +5,7 @@ import shutil
 import pytest
 
 from conftest import ROOT, run_copy
-from labkit.author.skeleton import worksheet_of
+from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.lesson.day import all_days, find_day
 

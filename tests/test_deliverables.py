@@ -15,7 +15,7 @@ import pytest
 
 from conftest import write_week
 from labkit import log as metrics
-from labkit.author.skeleton import worksheet_of
+from labkit.commands.new import worksheet_of
 from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.figure import PORTRAIT, FlawError, check_figure, read_png
 from labkit.handin.handin import Handin, read_handin

@@ -17,10 +17,10 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from labkit.author.skeleton import worksheet_of
 from labkit.base import cli, processes
 from labkit.base.exchange import Exchange, Question
 from labkit.commands import docs, notebook
+from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import stacked
