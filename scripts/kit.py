@@ -56,25 +56,26 @@ def run(name):
 
 def explain(kind, error, trace):
     """Say in a few lines what ended a script, where a traceback would not help."""
-    if interrupted(error):
-        end(130, "\nstopped")
-    found = own_bug(kind, error, trace)
-    if found:
-        end(1, *found)
-    explain_gl(kind, error, trace)
-
-
-def interrupted(error):
-    """Return whether Ctrl-C led to it; MuJoCo's import makes an ImportError of that."""
-    while error and not isinstance(error, KeyboardInterrupt):
-        error = error.__cause__ or error.__context__
-    return error is not None
-
-
-def own_bug(kind, error, trace):
-    """Return three lines on a bug in a student's lab, () where it is not theirs."""
     import traceback
 
+    cause = error  # MuJoCo's import makes an ImportError of Ctrl-C
+    while cause and not isinstance(cause, KeyboardInterrupt):
+        cause = cause.__cause__ or cause.__context__
+    if cause:
+        end(130, "\nstopped")
+    frames = traceback.extract_tb(trace)
+    found = own_bug(kind, error, frames)
+    if found:
+        end(1, *found)
+    chosen = os.environ.get("MUJOCO_GL")  # which MuJoCo reads when it is imported
+    if chosen and any("gl_context" in frame.filename for frame in frames):
+        says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
+        end(2, says.format(chosen))
+    sys.__excepthook__(kind, error, trace)
+
+
+def own_bug(kind, error, frames):
+    """Return three lines on a bug in a student's lab, () where it is not theirs."""
     script = getattr(sys.modules.get("__main__"), "__file__", None) or ""
     folder, name = os.path.split(os.path.abspath(script))
     number = name[3 : name.find("_")]
@@ -82,7 +83,7 @@ def own_bug(kind, error, trace):
         return ()
     own = [
         (os.path.basename(frame.filename), frame.lineno, frame.name, frame.line)
-        for frame in traceback.extract_tb(trace)
+        for frame in frames
         if os.path.dirname(os.path.abspath(frame.filename)) == folder
     ]
     if not own:
@@ -98,18 +99,6 @@ def end(code, *lines):
     sys.stderr.write("\n".join(lines) + "\n")
     sys.stderr.flush()
     os._exit(code)
-
-
-def explain_gl(kind, error, trace):
-    """Say in one line that MUJOCO_GL is wrong: MuJoCo reads it when it is imported."""
-    import traceback
-
-    chosen = os.environ.get("MUJOCO_GL")
-    names = [frame.filename for frame in traceback.extract_tb(trace)]
-    if chosen and any("gl_context" in name for name in names):
-        says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
-        end(2, says.format(chosen))
-    sys.__excepthook__(kind, error, trace)
 
 
 sys.excepthook = explain

@@ -133,9 +133,9 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
     listing = ("ls-tree", "-lz", "--full-tree", commit, "--")
     listed = _git(_repository(clone), *listing, *names) if names else ""
     found = {}
-    for entry in (listed or "").split("\0"):
+    for entry in (listed or "").split("\0")[:-1]:
         facts, _, name = entry.partition("\t")
-        mode, kind, blob, size = [*facts.split(), "", "", "", ""][:4]
+        mode, kind, blob, size = facts.split()
         if kind == "blob" and mode.startswith("100"):
             found[name] = (blob, int(size))
     return found

@@ -129,16 +129,12 @@ def worksheet_of(day: Day) -> str:
     asked = "{}. What do you want to ask?\n\n   *(your answer)*\n"
     parts += [asked.format(i + 1) for i in range(day.questions)]
     boxes = [f"I ran `make run DAY={day.number}` and saw `All checks PASSED.`"]
-    boxes += [f"All tasks of `make check DAY={day.number}` pass", *_handed_in(day)]
+    boxes.append(f"All tasks of `make check DAY={day.number}` pass")
+    boxes += [f"My picture is `{day.files['figure']}`"] if day.figure else []
+    boxes.append("The words above are mine")
+    boxes += ["`metrics/metrics.csv` has my rows for the day"] if day.metrics else []
     lines = "".join(f"- [ ] {box}\n" for box in [*boxes, "I committed all of it"])
     return "\n".join([*parts, f"## Checklist\n\n{lines}"])
-
-
-def _handed_in(day: Day) -> list[str]:
-    """Return what the checklist says of the picture and of the log."""
-    found = [f"My picture is `{day.files['figure']}`"] if day.figure else []
-    log = "`metrics/metrics.csv` has my rows for the day"
-    return [*found, "The words above are mine", *([log] if day.metrics else [])]
 
 
 def main() -> int:

@@ -121,19 +121,11 @@ def fetch(root: Path) -> None:
             # The robot first: a record without a robot would be a lie.
             os.replace(staging / files.PANDA, root / files.PANDA)
             os.replace(staging / "PROVENANCE.json", root / "PROVENANCE.json")
-            add_licence(root)
             return
     raise Robo47Error(
         "no source of the Panda answered. The labs run on the kit's embedded twin; "
         "to try again: make robot"
     )
-
-
-def add_licence(root: Path) -> None:
-    """Put the robot's licence beside it: a copy that is handed on has to bring it."""
-    own, text = root / "LICENSE", ROOT / "LICENSE"  # both are Apache 2.0
-    if text.is_file() and not own.exists():
-        shutil.copyfile(text, own)
 
 
 def check_complete(folder: Path) -> None:
@@ -216,7 +208,10 @@ def bring(root: Path) -> None:
             store.write_text(ASKED, str(datetime.date.today()))
             raise
     check_complete(root / files.PANDA)
-    # Somebody else's folder gets no file of ours.
-    if not (files.record_of(root) or os.environ.get("MENAGERIE_ROOT")):
-        add_licence(root)
+    if os.environ.get("MENAGERIE_ROOT"):
+        return  # somebody else's folder gets no file of ours
+    # A copy that is handed on has to bring the licence; both are Apache 2.0.
+    if (ROOT / "LICENSE").is_file() and not (root / "LICENSE").exists():
+        shutil.copyfile(ROOT / "LICENSE", root / "LICENSE")
+    if not files.record_of(root):
         write_record(root, files.describe_copy(root))
