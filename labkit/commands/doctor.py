@@ -112,13 +112,6 @@ def probe(python: str, code: str, gl: bool = False) -> tuple[Any, str]:
         return None, said[-1] if said else f"ended with code {done.returncode}"
 
 
-def kit_python() -> str:
-    """Return the kit's own interpreter where it starts, else this one."""
-    if VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]:
-        return str(VENV_PYTHON)
-    return sys.executable
-
-
 def check_python(python: str) -> Line:
     """Python itself, and whether the kit's environment is there."""
     version = probe(python, PYTHON_PROBE)[0] or platform.python_version()
@@ -249,17 +242,14 @@ def check_git() -> Line:
     if not shutil.which("git"):
         return Line("todo", "git", "not installed", "https://git-scm.com/downloads")
     values = {"user.name": '"Your Name"', "user.email": "you@example.org"}
-    missing = [key for key in values if not git("config", key)]
+    config = ["git", "-C", str(ROOT), "config"]
+    told = {key: processes.run([*config, key]).stdout.strip() for key in values}
+    missing = [key for key in values if not told[key]]
     if not missing:
         return Line("good", "git", "name and e-mail are set")
     each = [f"git config --global {key} {values[key]}" for key in missing]
     found = "does not know your " + " and ".join(missing)
     return Line("todo", "git", found, " && ".join(each))
-
-
-def git(*words: str) -> str:
-    """Return what git says of the clone; "" where it says no."""
-    return processes.run(["git", "-C", str(ROOT), *words]).stdout.strip()
 
 
 def discreet(text: str) -> str:
@@ -273,7 +263,8 @@ def discreet(text: str) -> str:
 
 def examine() -> list[Line]:
     """Return every finding; a check that fails itself is a finding too."""
-    python = kit_python()
+    own = VENV_PYTHON.exists() and probe(str(VENV_PYTHON), PYTHON_PROBE)[0]
+    python = str(VENV_PYTHON) if own else sys.executable
     here = check_python(python)
     checks: list[Callable[[], Line]] = [check_kit, lambda: here, check_platform]
     if here.status == "good":  # else these only say so again
