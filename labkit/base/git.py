@@ -98,7 +98,9 @@ def read_history(
         return History(readable=False)
     entries = (entry.partition("\t") for entry in tree.split("\0"))
     blobs = {name: facts.split()[2] for facts, _, name in entries if name}
-    return History(True, commit, _time(text), _author(text), blobs)
+    author, _ = _signed(text, "author")
+    _, committed = _signed(text, "committer")
+    return History(True, commit, committed, author, blobs)
 
 
 def before(clone: Path, moment: int) -> tuple[str, int]:
@@ -320,19 +322,14 @@ def _git(git: Path | None, *arguments: str, **more: Any) -> Any:
     return done.stdout if done.returncode == 0 else None
 
 
-def _line(commit: str, role: str) -> str:
-    """Return the line of a commit's text on its "author" or "committer"."""
+def _signed(commit: str, role: str) -> tuple[str, int | None]:
+    """Return who a commit's text names as "author" or "committer", and when.
+
+    Without the address; None is a time that cannot be.
+    """
     lines = commit.partition("\n\n")[0].splitlines()
-    return next((line for line in lines if line.startswith(f"{role} ")), f"{role} ")
-
-
-def _time(commit: str) -> int | None:
-    """Return the committer's time of a commit's text; None where it is none."""
-    seconds = _line(commit, "committer").rsplit(" ", 2)[-2]
+    line = next((line for line in lines if line.startswith(f"{role} ")), f"{role} ")
+    name, seconds = line.removeprefix(f"{role} "), line.rsplit(" ", 2)[-2]
     plain = seconds.isdecimal() and len(seconds) < 12
-    return int(seconds) if plain and int(seconds) < YEAR_2100 else None
-
-
-def _author(commit: str) -> str:
-    """Return who a commit's text says wrote it, without the address."""
-    return _line(commit, "author").removeprefix("author ").rpartition("<")[0].strip()
+    when = int(seconds) if plain and int(seconds) < YEAR_2100 else None
+    return name.rpartition("<")[0].strip(), when

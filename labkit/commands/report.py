@@ -49,7 +49,7 @@ def main() -> int:
     checked = {day.number: last_check(day) for day in days} if mine else {}
     write(out / "report.html", page.render(report, heading, number, checked).encode())
     if week is not None:
-        write_week(report, heading, out, week, args.file)
+        write_week(report, heading, out, week, mine)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing,"
@@ -63,7 +63,7 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -> None:
+def write_week(report: Report, heading: str, out: Path, week: Week, mine: bool) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
@@ -71,7 +71,7 @@ def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -
     facts = [facts_of(day, report.series) for day in days_of(week)]
     page = week_page.render(facts, heading)
     write(out / f"report-week{week.number}.html", page.encode())
-    if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
+    if mine:
         for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}: commit it")
 
