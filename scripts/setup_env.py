@@ -12,7 +12,6 @@ behind. Two at once wait for each other. Uses `uv` where it is installed.
 
 # Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
 # annotations) that would keep Python 2.7 or 3.6 from saying that it is too old.
-import argparse
 import errno
 import hashlib
 import os
@@ -30,7 +29,7 @@ if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
 sys.path.insert(0, pythons.ROOT)
 from pathlib import Path
 
-from labkit.base.processes import IN_VENV
+from labkit.base import cli, processes
 from labkit.base.store import alone, replace
 
 ROOT = Path(pythons.ROOT)
@@ -55,7 +54,7 @@ def made_with(venv):
     has made and filled is whole too.
     """
     stamped = any(venv.glob(".made*")) or any(venv.glob(".ready-*"))
-    python = venv / IN_VENV
+    python = venv / processes.IN_VENV
     if not python.exists() or not (stamped or recorded(venv, "uv")):
         return None
     return ask(python, "import pip" if stamped else "import pip, mujoco")
@@ -92,10 +91,8 @@ def write_stamp(path):
 def run(command, doing):
     """Run a quiet command; return its exit code and what it said."""
     say(doing + " ...")
-    done = subprocess.run(
-        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
-    )
-    return done.returncode, done.stdout.decode("utf-8", "replace")
+    done = processes.run(command, cwd=ROOT)
+    return done.returncode, done.stdout + done.stderr
 
 
 def make_venv(venv, python, uv):
@@ -127,7 +124,7 @@ def install(venv, extras, uv):
     """Install the kit, editable, with some extras, at the pinned versions."""
     named = ",".join(extra for extra in extras if extra != "core")
     what = ".[" + named + "]" if named else "."
-    command = [venv / IN_VENV, "-m", "pip", "install"]
+    command = [venv / processes.IN_VENV, "-m", "pip", "install"]
     command += ["--disable-pip-version-check"]
     if uv:
         command = [uv, "pip", "install", "--python", command[0]]
@@ -191,12 +188,7 @@ def bring(venv, extras, anew):
 
 def main():
     """Set up what was asked for."""
-    about, usage = __doc__.split("\n", 1)
-    parser = argparse.ArgumentParser(
-        description=about,
-        epilog=usage,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = cli.parser(__doc__)
     parser.add_argument("extras", nargs="*", default=["core"], help="default: core")
     parser.add_argument("--anew", action="store_true", help="make it from nothing")
     parser.add_argument("--venv", default=".venv", help="its folder; default: .venv")

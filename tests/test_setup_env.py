@@ -42,7 +42,7 @@ def setup(monkeypatch, tmp_path):
     def run(command, doing):
         module.commands.append([str(part) for part in command])
         if "venv" in module.commands[-1]:
-            inside = os.path.join(module.commands[-1][-1], module.IN_VENV)
+            inside = os.path.join(module.commands[-1][-1], module.processes.IN_VENV)
             os.makedirs(os.path.dirname(inside), exist_ok=True)
             open(inside, "w").close()
         for word, answer in module.answers.items():
@@ -98,7 +98,7 @@ def test_an_extra_is_installed_once_and_another_folder_is_another_environment(
 
 def test_an_environment_without_a_stamp_or_a_python_or_pip_is_not_whole(tmp_path):
     real, venv = load(), tmp_path / "v"
-    python = venv / real.IN_VENV
+    python = venv / real.processes.IN_VENV
     assert real.made_with(venv) is None
     python.parent.mkdir(parents=True)
     python.symlink_to(sys.executable)
