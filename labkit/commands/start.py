@@ -70,10 +70,7 @@ def reset(task_id: str) -> int:
     work = day.work
     require_kits(day)
     text = read_script(work)
-    if not text.strip():
-        raise Robo47Error(
-            f"{shown(work)} is empty. Delete it, then: make start DAY={day.number}"
-        )
+    require_begun(day)
     kept = rewrite(work, put_back(text, starter_of(day), task.functions), task_id)
     print(f"task {task_id} is back at its start in {shown(work)}")
     print(f"your file as it was: {shown(kept)}")
