@@ -151,7 +151,7 @@ def install(venv, extras, uv):
 
 
 def provide(venv, anew, uv):
-    """Make the environment if it is not whole; say when its Python is another one."""
+    """Make the environment if it is not whole; return the version of its Python."""
     python, version = find_python()
     has = made_with(venv)
     wanted, folder = "{}.{}".format(*version), venv.name
@@ -159,22 +159,22 @@ def provide(venv, anew, uv):
         if has != version:
             say("{} keeps its Python {}.{}; to change that:".format(folder, *has))
             say("make setup PYTHON=" + python)
-        return
+        return has
     before = "{}.{}".format(*has) if has else recorded(venv, "version")
     if before and not anew:
         say("{} (Python {}) is not whole; making it anew".format(folder, before))
     if before and before != wanted:
         say("{} had Python {}; it gets {} now".format(folder, before, wanted))
     make_venv(venv, python, uv)
+    return version
 
 
 def bring(venv, extras, anew):
     """Bring an environment to what pyproject.toml and constraints.txt say."""
     uv = shutil.which("uv")
-    provide(venv, anew, uv)
+    version = provide(venv, anew, uv)
     stamps = {extra: venv / (".ready-" + extra) for extra in extras}
     missing = [extra for extra in extras if not is_stamped(stamps[extra])]
-    version = made_with(venv)
     lacking = [e for e in missing if e in WITHOUT_WHEELS.get(version, ())]
     if lacking:
         says = "Python {}.{} is too new for ".format(*version) + ", ".join(lacking)

@@ -61,8 +61,7 @@ def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
     if done.returncode != 0:
         says = " ".join((done.stdout + done.stderr).split())[-400:]
         raise Robo47Error(f"the clone could not be set up: {says}")
-    own = ("Scripts", "python.exe") if os.name == "nt" else ("bin", "python")
-    python = str(root.joinpath(".venv", *own))
+    python = str(root / ".venv" / processes.IN_VENV)
     if not robot.is_dir():  # without a network the embedded twin serves
         fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
         processes.run(fetch, env=environment, cwd=root)
