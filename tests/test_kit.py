@@ -30,7 +30,7 @@ def bare():
 SCRIPTS = [
     path
     for path in sorted((ROOT / "scripts").glob("*.py"))
-    if path.stem not in ("kit", "pythons")  # these are imported
+    if path.stem != "kit"  # which is imported
 ]
 
 

@@ -10,7 +10,6 @@ import tomllib
 from types import SimpleNamespace
 
 import pytest
-import pythons
 
 from conftest import ROOT
 
@@ -242,16 +241,18 @@ def said(setup, monkeypatch):
 
 @pytest.fixture
 def old(monkeypatch):
-    """This Python, as if it were too old."""
+    """The script as a module, in a Python as if it were too old."""
+    module = load()
     it = SimpleNamespace(version_info=(3, 9, 2), executable="python3", exit=sys.exit)
-    monkeypatch.setattr(pythons, "sys", it)
+    monkeypatch.setattr(module, "sys", it)
+    return module
 
 
 @pytest.mark.parametrize("found", [None, "/usr/bin/false"])
-def test_an_old_python_is_told_so_and_a_shim_is_none(setup, monkeypatch, old, found):
-    monkeypatch.setattr(pythons.shutil, "which", lambda name: found)
+def test_an_old_python_is_told_so_and_a_shim_is_none(old, monkeypatch, found):
+    monkeypatch.setattr(old.shutil, "which", lambda name: found)
     with pytest.raises(SystemExit, match=r"this is Python 3\.9; the kit needs 3\.11"):
-        pythons.find_python()
+        old.find_python()
 
 
 def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
@@ -259,11 +260,11 @@ def test_anew_replaces_an_environment_that_works(setup, monkeypatch):
     assert "venv" in call(setup, monkeypatch, "--anew")[0]
 
 
-def test_a_newer_python_on_the_path_is_used(setup, monkeypatch, old):
+def test_a_newer_python_on_the_path_is_used(old, monkeypatch):
     paths = {"python3.12": "/usr/bin/python3.12"}
-    monkeypatch.setattr(pythons.shutil, "which", paths.get)
-    monkeypatch.setattr(pythons, "ask", lambda python, imports: (3, 12))
-    assert pythons.find_python() == ("/usr/bin/python3.12", (3, 12))
+    monkeypatch.setattr(old.shutil, "which", paths.get)
+    monkeypatch.setattr(old, "ask", lambda python, imports: (3, 12))
+    assert old.find_python() == ("/usr/bin/python3.12", (3, 12))
 
 
 @pytest.mark.parametrize(
