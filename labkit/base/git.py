@@ -280,14 +280,12 @@ def _is_plain(git: Path) -> bool:
                     return False
     if any(os.path.lexists(git / name) for name in _ELSEWHERE):
         return False
-    configs = (git / name for name in ("config", "config.worktree"))
-    return all(map(_stands_alone, filter(Path.exists, configs)))
-
-
-def _stands_alone(config: Path) -> bool:
-    """Return whether a configuration is of a sane size and includes no other file."""
-    small = config.stat().st_size <= LARGEST_CONFIG
-    return small and b"[include" not in config.read_bytes().lower()
+    configs = filter(Path.exists, (git / "config", git / "config.worktree"))
+    return all(
+        config.stat().st_size <= LARGEST_CONFIG
+        and b"[include" not in config.read_bytes().lower()  # another file
+        for config in configs
+    )
 
 
 def _environment(**more: str) -> dict[str, str]:

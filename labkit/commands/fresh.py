@@ -14,6 +14,7 @@ import datetime
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 
 from labkit.base import cli, store
@@ -30,14 +31,9 @@ from labkit.report.week_labs import Ran, run_labs
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
 
-def stopwatch() -> Callable[[str], None]:
-    """Return what prints a line of progress, with the seconds since now."""
-    begun = time.monotonic()
-
-    def say(what: str) -> None:
-        print(f"{time.monotonic() - begun:5.1f} s  {what}", flush=True)
-
-    return say
+def progress(begun: float, what: str) -> None:
+    """Print a line of progress, with the seconds since it began."""
+    print(f"{time.monotonic() - begun:5.1f} s  {what}", flush=True)
 
 
 def compared(
@@ -78,7 +74,7 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help=quick)
     options = parser.parse_args()
     week = chosen_week(options.week, options.day)
-    sha, say = head_of(), stopwatch()
+    sha, say = head_of(), partial(progress, time.monotonic())
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
         prefix=FOLDER, ignore_cleanup_errors=True

@@ -187,14 +187,13 @@ def main() -> int:
     if options.daily and store.read_text(ASKED) == str(datetime.date.today()):
         return cli.EXIT_OK
     root = menagerie_root()
-    if options.show or options.verify:
-        if files.panda_folder() is None:
-            raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
-        if options.verify:
-            return verify(root)
-    else:
+    if not (options.show or options.verify):
         with store.alone("robot"):
             bring(root)
+    elif files.panda_folder() is None:
+        raise Robo47Error(f"no Panda at {shown(root)}; first: make robot")
+    if options.verify:
+        return verify(root)
     show(files.read_provenance())
     return cli.EXIT_OK
 

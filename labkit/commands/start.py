@@ -7,6 +7,7 @@
 A file that is there is never overwritten, and a reset keeps your old text beside it.
 """
 
+from itertools import count
 from pathlib import Path
 
 from labkit.base import cli
@@ -87,10 +88,8 @@ def rewrite(work: Path, text: str, why: str) -> Path:
 
 def free_name(work: Path, task_id: str) -> Path:
     """Return a name beside the student's file that nothing has yet."""
-    number = 1
-    while work.with_suffix(f".before-{task_id}-{number}.txt").exists():
-        number += 1
-    return work.with_suffix(f".before-{task_id}-{number}.txt")
+    names = (work.with_suffix(f".before-{task_id}-{n}.txt") for n in count(1))
+    return next(name for name in names if not name.exists())
 
 
 def main() -> int:
