@@ -12,15 +12,14 @@ from typing import Any
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
+
 
 @dataclass(frozen=True)
-class Change:
-    """A mistake with one argument; in its texts {name} is the argument's."""
+class Change(Mistake):
+    """A mistake with one argument, which `redo` takes; {name} in its texts is its."""
 
-    slug: str
-    says: str  # as in a `Mistake`
-    change: Callable[[Any], Any]  # from the argument to what is used in its place
-    redone: str = "the right one with that {name}"  # as in a `Mistake`
+    redone: str = "the right one with that {name}"
     hidden: str = ""  # why the lab cannot show it, "" where it can
 
     def called(self, slug: str) -> "Change":

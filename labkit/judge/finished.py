@@ -5,6 +5,7 @@ Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -39,15 +40,9 @@ def _in_last_row(T: Array) -> Array:
     return out
 
 
-def _corner_zero(T: Array) -> Array:
+def _below(T: Array, row: float) -> Array:
     out = T.copy()
-    out[..., 3, 3] = 0.0
-    return out
-
-
-def _ones_below(T: Array) -> Array:
-    out = T.copy()
-    out[..., 3, :] = 1.0
+    out[..., 3, :] = row
     return out
 
 
@@ -156,8 +151,8 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         "inverse-returned": rigid_inverse,
         "T-transposed": np.matrix_transpose,
         "t-in-last-row": _in_last_row,
-        "corner-zero": _corner_zero,
-        "ones-below": _ones_below,
+        "corner-zero": partial(_below, row=0.0),
+        "ones-below": partial(_below, row=1.0),
         "t-lost": _parts(t=np.zeros_like),
         "R-lost": _parts(R=_unturned),
         "t-negated": _parts(t=np.negative),

@@ -44,26 +44,22 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
-    verdict = _judge(asked, source, names)
-    if verdict.status == "passed" or verdict.mistake in NO_CALL:
-        return verdict
-    found = failing_call(asked, names)
-    measured = verdict.measured + found.whole
-    return replace(verdict, call=found.says, measured=measured)
+    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
+        verdict = _judge(asked, source, names)
+        if verdict.status == "passed" or verdict.mistake in NO_CALL:
+            return verdict
+        call, whole = failing_call(asked, names)
+        return replace(verdict, call=call, measured=verdict.measured + whole)
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if size := problems.of_another_size(asked):
-        return Verdict("wrong", *size)
-    if state := problems.kept_state(asked, source):
-        return Verdict("wrong", *state)
-    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
-        if asked.ask.accept:
-            return _judge_accepted(asked, S, names)
-        return _judge_values(asked, S, names)
+    if found := problems.of_another_size(asked) or problems.kept_state(asked, source):
+        return Verdict("wrong", *found)
+    judge_these = _judge_accepted if asked.ask.accept else _judge_values
+    return judge_these(asked, S, names)
 
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
@@ -86,13 +82,12 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
-    rest = replace(asked, main=good, probes=[])
     S = problems.read(replies(good), asked.ask, "") if good else found
-    if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
+    if isinstance(S, Finding) or asked.ask.accept:
         return found
-    with np.errstate(all="ignore"):
-        T = right_answers(asked.ask, good)
-        return _both(found, _case(rest, S, T, names), S, T)
+    T = right_answers(asked.ask, good)
+    rest = replace(asked, main=good, probes=[])
+    return _both(found, _case(rest, S, T, names), S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
@@ -335,7 +330,7 @@ def _not_finite(S: Parts, given: Sequence[str]) -> Finding | None:
 
 def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
     """Return that the answer does not depend on the input, though it should."""
-    if len(S) < 2 or difference(S, np.broadcast_to(S[0], S.shape)).max() > 1e-8:
+    if len(S) < 2 or difference(S, S[0]).max() > 1e-8:
         return None
     off = f"(Off by up to {kind.apart(S, T)}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]

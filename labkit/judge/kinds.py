@@ -5,9 +5,9 @@ module has numbers, vectors, rotations and poses; the others have all else. Arra
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -46,6 +46,8 @@ class Kind:
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
+    # What wrong shapes come from; where none is known, an axis too many is told.
+    misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
 
     @property
     def expected(self) -> str:
@@ -89,8 +91,8 @@ class Kind:
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
-        thicker = got in ((*self.shape, 1), (1, *self.shape))
-        return "it has one axis too many" if thicker else ""
+        thicker = got in ((*self.shape, 1), (1, *self.shape)) and not self.misfits
+        return "it has one axis too many" if thicker else self.misfits.get(got, "")
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
@@ -214,20 +216,17 @@ class Rotation(Kind):
 
     shape: tuple[int, ...] = (3, 3)
     expected = "a 3x3 matrix"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        known: dict[tuple[int, ...], str] = {
-            (2, 2): "it is a rotation in space, so z is there too",
-            (4, 4): "only the rotation is asked for",
-        }
-        return known.get(got, "")
+    misfits: ClassVar = {
+        (2, 2): "it is a rotation in space, so z is there too",
+        (4, 4): "only the rotation is asked for",
+    }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return OF_A_ROTATION
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         if rigid(S) and rigid(T):
-            return say_degrees(float(degrees(S, T).max()))
+            return say_degrees(degrees(S, T))
         return super().apart(S, T)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
@@ -251,13 +250,10 @@ class Pose(Kind):
     # What its rotation does when it is transposed.
     wrong_way: str = "turns the other way"
     expected = "a 4x4 matrix"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        known: dict[tuple[int, ...], str] = {
-            (3, 4): "the bottom row (0, 0, 0, 1) is missing",
-            (3, 3): "this is the rotation alone",
-        }
-        return known.get(got, "")
+    misfits: ClassVar = {
+        (3, 4): "the bottom row (0, 0, 0, 1) is missing",
+        (3, 3): "this is the rotation alone",
+    }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return of_a_pose(self.wrong_way)
@@ -266,10 +262,7 @@ class Pose(Kind):
         if not (rigid(S) and rigid(T)):
             return super().apart(S, T)
         (R_S, t_S), (R_T, t_T) = split(S), split(T)
-        parts = (
-            say_mm(float(millimetres(t_S, t_T).max())),
-            say_degrees(float(degrees(R_S, R_T).max())),
-        )
+        parts = say_mm(millimetres(t_S, t_T)), say_degrees(degrees(R_S, R_T))
         return " and ".join(p for p in parts if p != "0") or "0"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
@@ -313,7 +306,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     return Finding(
         "rotation-off",
         "R is a rotation, but not the right one: "
-        f"{'' if often else 'up to '}{say_degrees(float(off_by.max()))} off{often}.",
+        f"{'' if often else 'up to '}{say_degrees(off_by)} off{often}.",
     )
 
 
@@ -326,7 +319,7 @@ def _pose_wrong(S: Array, T: Array) -> Finding:
             "bottom-row",
             f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
         )
-    t_off = say_mm(float(millimetres(t, t_true).max()))
+    t_off = say_mm(millimetres(t, t_true))
     if difference(R, R_true).max() <= NEAR and t_off != "0":
         return Finding(
             "translation-off",

@@ -109,8 +109,7 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        slugs = ("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
-        return general(*slugs)
+        return general("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

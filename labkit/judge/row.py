@@ -171,7 +171,7 @@ class Row:
             at = self.arguments.index(name)
             for one in changes:
 
-                def code(*args: Any, change: Code = one.change) -> Any:
+                def code(*args: Any, change: Code = one.redo) -> Any:
                     return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
 
                 text = (one.slug, one.says, one.redone)
