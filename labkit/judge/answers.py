@@ -249,20 +249,6 @@ def _say(values: Array, unit: str, least: float) -> str:
     return f"{value:.{digits}f} {unit}"
 
 
-def say_value(value: float, unit: str, scale: float, entry: str) -> str:
-    """Return a number with its unit; "0" for what rounding leaves.
-
-    Args:
-        value: not negative.
-        unit: "" for none.
-        scale: what such a number is like.
-        entry: what to add where it is one entry of many.
-    """
-    if value < MATCHES * scale:
-        return "0"
-    return f"{value:.3g}{f' {unit}' if unit else ''}{entry}"
-
-
 def say_factor(factor: float) -> str:
     """Return a factor as people write it: "1000", "-1", "pi / 180"."""
     named = {np.pi / 180: "pi / 180", 180 / np.pi: "180 / pi", 2 * np.pi: "2 pi"}

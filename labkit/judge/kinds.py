@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from labkit.judge.answers import (
+    MATCHES,
     RIGID,
     degrees,
     difference,
@@ -23,7 +24,6 @@ from labkit.judge.answers import (
     say_factor,
     say_mm,
     say_range,
-    say_value,
 )
 from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.matrices import split
@@ -103,8 +103,11 @@ class Kind:
         off = gap(S, T)
         scale = np.broadcast_to(self.scale, off.shape)
         at = np.unravel_index(np.argmax(off / scale), off.shape)
+        if off[at] < MATCHES * scale[at]:
+            return "0"
+        unit = f" {self.unit}" if self.unit else ""
         entry = " in one entry" if self.shape else ""
-        return say_value(float(off[at]), self.unit, float(scale[at]), entry)
+        return f"{off[at]:.3g}{unit}{entry}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -146,15 +149,13 @@ class Vector(Kind):
         off = np.abs(S - T).max(axis=0) > NEAR * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return None
-        where = " and ".join(self.name(int(i)) for i in np.flatnonzero(off))
+        counted = [f"[{i}], counted from 0" for i in range(len(off))]
+        names = [f"{name}'s" for name in self.names] or counted
+        where = " and ".join(names[i] for i in np.flatnonzero(off))
         return Finding(
             "few-entries-off",
             f"All entries are right but {where}: up to {self.apart(S, T)} off.",
         )
-
-    def name(self, i: int) -> str:
-        """Return what entry i is called."""
-        return f"{self.names[i]}'s" if self.names else f"[{i}], counted from 0"
 
 
 def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:

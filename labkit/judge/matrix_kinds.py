@@ -52,13 +52,12 @@ class Jacobian(Matrix):
         return general("rows-swapped", "all-signs", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
-        bad = np.flatnonzero(wrong.any(axis=0))
-        rows = wrong.any(axis=1)
-        halves = [i for i, half in enumerate((rows[:3], rows[3:])) if half.any()]
-        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
         if found := one_factor(self, S, T):
             return found
+        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        bad = np.flatnonzero(wrong.any(axis=0))
+        halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
+        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
         if len(bad) == 1:
             says = f"Every column is right except joint {bad[0] + 1}'s"
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:

@@ -188,16 +188,13 @@ class Row:
             but: slugs that make no difference here.
         """
 
-        def ways() -> Iterator[Way]:
-            for one in mistakes:
-                if one.slug not in but:
+        for one in mistakes:
+            if one.slug not in but:
 
-                    def code(*args: Any, redo: Code = one.redo) -> Any:
-                        return redo(self.truth(*args))
+                def code(*args: Any, redo: Code = one.redo) -> Any:
+                    return redo(self.truth(*args))
 
-                    yield Way("wrong", one.slug, one.says, code, one.redone)
-
-        self._entries.append(ways)
+                self._keep(Way("wrong", one.slug, one.says, code, one.redone))
 
     def reached_by(
         self,
@@ -291,15 +288,13 @@ class Row:
         if "accept" in more:
             more["accept"] = self._accept
         else:
-            kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
             asked = (InTurn if self._truth else AtOnce)(self.truth)
-            more["truth"] = _Answered(self.truth, asked, kinds, self._fault)
+            more["truth"] = _Answered(self.truth, asked, self)
+        more |= {"mistakes": self._mistakes, "near": self.near}
+        return Ask(self._draw, self.kind, **more)
 
-        def named() -> list[Mistake]:  # made when an answer is wrong
-            ways = self.named
-            return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
-
-        return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
+    def _mistakes(self) -> list[Mistake]:
+        return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]
 
     def _accept(self, *args: Any) -> Any:
         try:
@@ -365,18 +360,18 @@ class _Answered(InTurn):
     """The truth: where it has no answer to a question, its author is told."""
 
     asked: InTurn  # the same function
-    kinds: Sequence[Any]
-    fault: Code
+    row: Row
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
+        row, kinds = self.row, self.row.ask.kinds
         try:
             answers = self.asked.each(columns)
         except ValueError as error:
-            raise self.fault("truth", error.__cause__ or error) from None
+            raise row._fault("truth", error.__cause__ or error) from None
         parts = [a if isinstance(a, tuple) else (a,) for a in answers]
         for shapes in {tuple(map(np.shape, some)) for some in parts}:
-            for got, kind in zip(shapes, self.kinds, strict=False):
-                if len(shapes) != len(self.kinds) or not kind.fits(got):
+            for got, kind in zip(shapes, kinds, strict=False):
+                if len(shapes) != len(kinds) or not kind.fits(got):
                     says = f"returns shape {got}, and its kind is {kind.expected}"
-                    raise self.fault("truth", None, says)
+                    raise row._fault("truth", None, says)
         return answers
