@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -197,10 +198,9 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    if found := redone(ask, case.arguments, S, T) or _nothing_there(ask, S):
+    found = redone(ask, case.arguments, S, T) or _nothing_there(ask, S)
+    if found := found or _not_finite(case, S, T):
         return found
-    if found := _not_finite(S, case.given):
-        return _and_the_finite(found, case, S, T)
     i = worst_part(ask.kinds, S, T, ask.near)
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
@@ -211,16 +211,20 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
 
 
-def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
+def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return that some answers are NaN, and what is wrong with the others."""
     good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
-    S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
+    if good.all():
+        return None
+    says = f"NaN or infinity comes out for {np.sum(~good)} of {len(good)} inputs"
+    found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
+    S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
-    given = [one for one, is_good in zip(case.given, good, strict=True) if is_good]
+    given = list(compress(case.given, good))
     rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
     return _both(found, rest, S, T)
 
@@ -297,13 +301,10 @@ def redone(
     if T is None:
         return None
     for i, kind in enumerate(ask.kinds):
-        right = [part for j, part in enumerate(T) if j != i]
-        others = [part for j, part in enumerate(S) if j != i]
-        if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
+        if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
             continue
         mine, its = (S[i],), (T[i],)
-        found = _named(kind.general(), its, [kind], mine, its, ask.near)
-        if found:
+        if found := _named(kind.general(), its, [kind], mine, its, ask.near):
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)
     return None
@@ -317,15 +318,6 @@ def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
         "Every entry is 0, whatever the input: was the array made, but never filled? "
         "(MuJoCo's own results look so before mj_forward.)",
     )
-
-
-def _not_finite(S: Parts, given: Sequence[str]) -> Finding | None:
-    finite = [np.isfinite(part).reshape(len(part), -1).all(axis=1) for part in S]
-    bad = ~np.all(finite, axis=0)
-    if not bad.any():
-        return None
-    says = f"NaN or infinity comes out for {bad.sum()} of {len(bad)} inputs"
-    return Finding("not-finite", f"{says}{_first(bad, given, 'first for')}.")
 
 
 def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
