@@ -17,21 +17,13 @@ from robo47.checks import Array
 Change = Callable[[Array], Any]
 
 
-def _same(part: Array) -> Array:
-    return part
-
-
-def _parts(R: Change = _same, t: Change = _same) -> Change:
+def _parts(R: Change = np.asarray, t: Change = np.asarray) -> Change:
     """Return the change that a pose undergoes when its parts do."""
     return lambda T: pose(R(split(T)[0]), t(split(T)[1]))
 
 
 def _mirrored(R: Array) -> Array:
     return R * [1.0, 1.0, -1.0]
-
-
-def _unturned(R: Array) -> Array:
-    return np.broadcast_to(np.eye(3), R.shape)
 
 
 def _in_last_row(T: Array) -> Array:
@@ -154,7 +146,7 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         "corner-zero": partial(_below, row=0.0),
         "ones-below": partial(_below, row=1.0),
         "t-lost": _parts(t=np.zeros_like),
-        "R-lost": _parts(R=_unturned),
+        "R-lost": _parts(R=lambda R: np.broadcast_to(np.eye(3), R.shape)),
         "t-negated": _parts(t=np.negative),
         "left-handed": _parts(R=_mirrored),
         "millimetres": _parts(t=lambda t: 1000.0 * t),
