@@ -107,7 +107,8 @@ OF_A_ROTATION = [
     ),
     *general("whole-numbers"),
 ]
-_OF_A_POSE = """
+_OF_A_POSE = _mistakes(
+    """
     R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
       right one with R transposed
     inverse-returned: this is the inverse of what was asked for: it {wrong_way} => its
@@ -129,16 +130,8 @@ _OF_A_POSE = """
       the right one with that axis reversed
     millimetres: the rotation is right, but the translation is in millimetres => the
       right one in millimetres
-    """
-
-
-def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
-    """Return mistakes made with a finished pose.
-
-    Args:
-        wrong_way: what its R does when transposed: "maps the world to the hand".
-    """
-    redo: dict[str, Change] = {
+    """,
+    {
         "R-transposed": _parts(R=np.matrix_transpose),
         "inverse-returned": rigid_inverse,
         "T-transposed": np.matrix_transpose,
@@ -150,6 +143,15 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
         "t-negated": _parts(t=np.negative),
         "left-handed": _parts(R=_mirrored),
         "millimetres": _parts(t=lambda t: 1000.0 * t),
-    }
-    mistakes = _mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo)
-    return [*mistakes, *general("whole-numbers")]
+    },
+)
+
+
+def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
+    """Return mistakes made with a finished pose.
+
+    Args:
+        wrong_way: what its R does when transposed: "maps the world to the hand".
+    """
+    said = [replace(m, says=m.says.format(wrong_way=wrong_way)) for m in _OF_A_POSE]
+    return [*said, *general("whole-numbers")]

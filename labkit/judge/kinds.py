@@ -79,11 +79,12 @@ class Kind:
         return found
 
     def _misfit(self, got: tuple[int, ...]) -> Finding:
-        text = f"It returns shape {got}; expected is {self.expected}"
-        if None not in self.shape and str(self.shape) not in text.partition(";")[2]:
-            text += f", shape {self.shape}"
-        reason = self.why_shape(got)
-        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+        expected = self.expected
+        if None not in self.shape and str(self.shape) not in expected:
+            expected += f", shape {self.shape}"
+        if reason := self.why_shape(got):
+            expected += f": {reason}"
+        return Finding("shape", f"It returns shape {got}; expected is {expected}.")
 
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
@@ -189,19 +190,17 @@ def few_entries(
     rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
     if not len(rows):
         return None
-    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
-    if last and len(rows) > 1:
+    sides = {"row": rows, "column": columns}
+    one = {side: at[0] for side, at in sides.items() if len(set(at)) == 1}
+    if ignored in one.values() and len(rows) > 1:
         return None
-    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
     if len(rows) <= 2:
         where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
         where += ", counted from 0"
-    elif one_row:
-        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
-    elif one_column:
-        name = names[1][columns[0]] if names[1] else ""
-        where = name or f"column {columns[0]}, counted from 0"
+    elif one:
+        side, k = next(iter(one.items()))
+        names = getattr(kind, f"{side}s", ())
+        where = names[k] if names else f"{side} {k}, counted from 0"
     else:
         return None
     return Finding(
