@@ -300,21 +300,12 @@ class Row:
         try:
             return self.more["accept"](*args)
         except Exception as error:
-            raise self._fault("accept", error) from None
+            says = f"accept {_stops_with(error)}, and any answer"
+            raise self._fault(says) from None
 
-    def _fault(
-        self, what: str, error: BaseException | None, says: str = ""
-    ) -> Robo47Error:
-        """Return an author's error: file, line and what to do."""
-        if error is not None:
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            where = f"{shown(Path(last.filename))}, line {last.lineno}"
-            says = f"stops with {type(error).__name__}: {error} ({where}). It has to "
-            says += "take all that @row.inputs yields" + ", and any answer" * (
-                what == "accept"
-            )
+    def _fault(self, says: str) -> Robo47Error:
         file = shown(self._day.own / f"{self.function}.py")
-        return Robo47Error(f"{file}: its {what} {says}")
+        return Robo47Error(f"{file}: its {says}")
 
     def _keep(self, way: Way) -> Code:
         self._entries.append(lambda: [way])
@@ -334,6 +325,14 @@ class Row:
                 setattr(lab, small, right)
 
         return code
+
+
+def _stops_with(error: BaseException) -> str:
+    """Return what an author's function stops with, where, and what it has to do."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{shown(Path(last.filename))}, line {last.lineno}"
+    says = f"stops with {type(error).__name__}: {error} ({where}). It has to take all "
+    return f"{says}that @row.inputs yields"
 
 
 def row_of(day: Day, function: str) -> Row:
@@ -367,11 +366,12 @@ class _Answered(InTurn):
         try:
             answers = self.asked.each(columns)
         except ValueError as error:
-            raise row._fault("truth", error.__cause__ or error) from None
+            says = f"truth {_stops_with(error.__cause__ or error)}"
+            raise row._fault(says) from None
         parts = [a if isinstance(a, tuple) else (a,) for a in answers]
         for shapes in {tuple(map(np.shape, some)) for some in parts}:
             for got, kind in zip(shapes, kinds, strict=False):
                 if len(shapes) != len(kinds) or not kind.fits(got):
-                    says = f"returns shape {got}, and its kind is {kind.expected}"
-                    raise row._fault("truth", None, says)
+                    says = f"truth returns shape {got}, and its kind is {kind.expected}"
+                    raise row._fault(says)
         return answers
