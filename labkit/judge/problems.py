@@ -237,8 +237,9 @@ def flat(answer: Any) -> Array | None:
     """Return all numbers of one answer, (n,); None where it is none."""
     if answer is None:
         return None
+    some = answer if isinstance(answer, tuple) else (answer,)
     try:
-        return np.concatenate([part.ravel() for part in parts(answer)])
+        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
     except (TypeError, ValueError):
         return None
 
