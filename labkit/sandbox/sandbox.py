@@ -1,10 +1,10 @@
 """Run a student's functions in a process of their own and bring back plain arrays.
 
-The process stands behind the wall that this machine has (`labkit.sandbox.wall`), with
-no file of the kit or the student in sight, within limits of time and memory. Replies
-come on a private channel, each behind a secret made for that run. A function that hangs
-or ends the interpreter costs its own task, and those that build on it; the rest is
-asked again in a fresh process.
+The process stands behind the wall that this machine has (`labkit.sandbox.process`),
+with no file of the kit or the student in sight, within limits of time and memory.
+Replies come on a private channel, each behind a secret made for that run. A function
+that hangs or ends the interpreter costs its own task, and those that build on it; the
+rest is asked again in a fresh process.
 
 What this machine does is nobody's mistake. A process that a signal ended is tried once
 more, and only the same again is the student's doing; where Linux says that it killed
