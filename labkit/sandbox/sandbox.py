@@ -33,7 +33,7 @@ from labkit.base.exchange import (
 )
 from labkit.lesson.day import Limits
 from labkit.sandbox import messages
-from labkit.sandbox.messages import Robots
+from labkit.sandbox.messages import USUAL, Robots
 from labkit.sandbox.process import Process
 from robo47.errors import FaultError
 
@@ -73,7 +73,7 @@ class Sandbox:
         library: Mapping[str, str] | None = None,
         needs: Mapping[str, Iterable[str]] | None = None,
         added: str = "",
-        limits: Limits | None = None,
+        limits: Limits = USUAL,
     ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
@@ -95,7 +95,6 @@ class Sandbox:
             Robo47Error: there is no such file, or it is no script.
         """
         robots = messages.robots_of([exchange.question for exchange in exchanges])
-        limits = limits or Limits()
         more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
         request = messages.request(
             script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
@@ -133,7 +132,7 @@ class Sandbox:
         robots: Robots = (),
         library: Mapping[str, str] | None = None,
         added: str = "",
-        limits: Limits | None = None,
+        limits: Limits = USUAL,
         *,
         brief: bool = False,
     ) -> "Session":
@@ -148,7 +147,6 @@ class Sandbox:
         Raises:
             LoadError: the file does not load.
         """
-        limits = limits or Limits()
         request = messages.request(
             script, robots, library, added, limits, keep=False, cpu_seconds=SESSION_CPU
         )
