@@ -329,10 +329,8 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
         says = f"It returns the identity, whatever it is given. {off}"
         return Finding("always-the-identity", says)
-    says = (
-        f"The answer is the same, whatever the input: it does not depend on it. {off}"
-    )
-    return Finding("ignores-its-input", says)
+    says = "The answer is the same, whatever the input: it does not depend on it."
+    return Finding("ignores-its-input", f"{says} {off}")
 
 
 def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:

@@ -46,6 +46,8 @@ class Kind:
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
+    # Mistakes made with a finished answer, by their names in `finished`.
+    usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
     # What wrong shapes come from; where none is known, an axis too many is told.
     misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
 
@@ -97,7 +99,7 @@ class Kind:
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
-        return general("all-signs", "whole-numbers")
+        return general(*self.usual)
 
     def apart(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst, in words; "0" for rounding."""

@@ -27,7 +27,7 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return general(*["transposed"] * square, "all-signs", "whole-numbers")
+        return general(*["transposed"] * square, *self.usual)
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -49,7 +49,7 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("rows-swapped", "all-signs", "whole-numbers")
+        return general("rows-swapped", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
@@ -108,7 +108,7 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
+        return general("inverse", "sigma-for-variance", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

@@ -26,8 +26,7 @@ class _Halves(Kind):
         return f"six numbers ({'; '.join(self.halves)})"
 
     def general(self) -> Sequence[Mistake]:
-        slugs = ("halves-swapped", "all-signs", "whole-numbers")
-        return general(*slugs, halves=self.halves)
+        return general("halves-swapped", *self.usual, halves=self.halves)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
@@ -107,9 +106,7 @@ class Count(Scalar):
 
     empty = False
     expected = "a whole number"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return ()
+    usual = ()
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
@@ -123,14 +120,12 @@ class Mask(Kind):
     """True or False, one or many. `Mask((8,))`."""
 
     empty = False
+    usual = ("inverted",)
 
     @property
     def expected(self) -> str:  # noqa: D102
         where = f", in shape {self.shape},".replace("None", "any")
         return f"True or False{where if self.shape else ''}"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("inverted")
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         return f"{np.mean(S != T):.0%} of them"
@@ -172,9 +167,7 @@ class Pixels(Kind):
     unit: str = "px"
     scale: float | Array = 100.0
     expected = "a pixel (x, y) per point"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("row-first", "whole-numbers")
+    usual = ("row-first", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up

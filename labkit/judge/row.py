@@ -87,16 +87,15 @@ class Row:
         """
         if unknown := set(more) - {one.name for one in fields(Ask)}:
             raise TypeError(f"a Row has no {min(unknown)}")
-        self.kind, self.near, self.alike, self.more = kind, near, list(alike), more
-        self._truth = truth
-        self._draw: Inputs | None = None
+        self.more = {"kind": kind, "near": near, **more}
+        self.alike, self._truth = list(alike), truth
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
     # What a day's file says.
 
     def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
-        self._draw = draw
+        self.more["inputs"] = draw
         return draw
 
     def wrong(
@@ -274,7 +273,7 @@ class Row:
     @cached_property
     def ask(self) -> Ask:
         """What the judge asks."""
-        if self._draw is None:
+        if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
         more["held_out"] = [
@@ -290,8 +289,7 @@ class Row:
         else:
             asked = (InTurn if self._truth else AtOnce)(self.truth)
             more["truth"] = _Answered(self.truth, asked, self)
-        more |= {"mistakes": self._mistakes, "near": self.near}
-        return Ask(self._draw, self.kind, **more)
+        return Ask(mistakes=self._mistakes, **more)
 
     def _mistakes(self) -> list[Mistake]:
         return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]
