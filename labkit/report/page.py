@@ -9,7 +9,7 @@ from labkit.base.text import count
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
-from labkit.report.series import Report, Series, value_of
+from labkit.report.series import Report, Series, failures_of, value_of
 
 RECENT = 20  # runs listed under a plot
 LISTED = 200  # lines listed that need a look
@@ -103,12 +103,13 @@ def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
 
 def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
-    best = "best" if series.wanted.limit else "lowest"
+    best = "best" if series.bounds else "lowest"
+    limits = ", ".join(f"{sign} {bound:g}" for sign, bound in series.bounds)
     facts = [
         ("latest", plot.number(series.latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
-        ("threshold", escape(series.limits)),
+        ("threshold", escape(limits or "–")),
     ]
     if series.kits:
         facts.append(("the kit's", plot.number(series.kit)))
@@ -117,23 +118,16 @@ def _card(series: Series) -> str:
     terms = "".join(
         f"<dt>{name}</dt><dd{role.get(name, '')}>{value}</dd>" for name, value in facts
     )
+    failed = failures_of(series.rows[-1]) if series.rows else ""
+    failed = failed and f'<p class="fail">{failed}</p>'
     check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
         f'<article class="card"><div class="top"><div><h3>{check}</h3>'
         f'<span class="muted">{metric}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
-        f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}"
+        f"<dl>{terms}</dl>{failed}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
     )
-
-
-def _failures(series: Series) -> str:
-    """Return in how many trials the latest run failed, or nothing."""
-    latest = series.rows[-1] if series.rows else None
-    if latest is None or not latest["n_failures"]:
-        return ""
-    trials = latest["n_trials"] or "?"
-    return f'<p class="fail">failed in {latest["n_failures"]} of {trials} trials</p>'
 
 
 def _text(cell: object) -> str:
@@ -143,7 +137,7 @@ def _text(cell: object) -> str:
 def _recent(rows: list[Row], whose: str = "") -> str:
     if not rows:
         return ""
-    shown = list(reversed(rows[-RECENT:]))
+    shown = reversed(rows[-RECENT:])
     body = ("<tr>" + "".join(_run_cells(row)) + "</tr>" for row in shown)
     title = count(len(rows), "run") + whose
     if len(rows) > RECENT:

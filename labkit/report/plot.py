@@ -8,7 +8,7 @@ import math
 from html import escape
 
 from labkit.log.rows import Row
-from labkit.report.series import Series, float_of, value_of
+from labkit.report.series import Series, failures_of, float_of, value_of
 
 WIDTH, HEIGHT = 360, 170
 LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
@@ -77,9 +77,9 @@ class _Axis:
     def __init__(self, series: Series) -> None:
         self.log = series.is_log
         self.has_zero = False
-        shown = [_drawable(v) for v in series.values if v > 0 or not self.log]
-        bounds = (series.wanted.min, series.wanted.max)
-        shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
+        shown = [_drawable(v) for v in series.values]
+        shown += [bound for _, bound in series.bounds]
+        shown = [v for v in shown if v > 0 or not self.log]
         low, high = min(shown), max(shown)
         if self.log:
             low, high = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -128,8 +128,8 @@ def _drawable(value: float) -> float:
 
 def _threshold(series: Series, axis: _Axis) -> list[str]:
     parts = []
-    for sign, bound in (("<", series.wanted.max), (">", series.wanted.min)):
-        if bound is None or (axis.log and bound <= 0):
+    for sign, bound in series.bounds:
+        if axis.log and bound <= 0:
             continue
         y = axis.y(bound)
         dashes = ' stroke-dasharray="5 4"'
@@ -150,8 +150,8 @@ def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
     """Return a run's dot; hollow where the axis cannot show its value."""
     role = series.wanted.judge(row) if series.wanted.limit else "line"
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
-    if row["n_failures"]:
-        tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
+    if failed := failures_of(row):
+        tip += f", {failed}"
     paint = f'fill="var(--{role})"'
     if not _finite(row) or (axis.log and float_of(row) <= 0):
         paint = f'fill="var(--card)" stroke="var(--{role})" stroke-width="1.5"'
