@@ -39,7 +39,7 @@ AT_THE_TABLE = Camera(
 )
 ARM = 9  # numbers of qpos: seven joints and two fingers; the cube's seven follow
 TABLE, CUBE = (0.80, 0.74, 0.66, 1.0), (0.85, 0.35, 0.10, 1.0)
-MOMENTS = ("descend", "lift", "put down")  # whose ends a picture shows
+MOMENTS = ("close", "carry", "open")  # whose beginnings a picture shows
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
 Shot = tuple[Scene, Caption]
 
@@ -106,8 +106,9 @@ def save_clip(
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(made)
             return len(made)
-        size = tuple(max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
-        some = [frame.resize(size, Image.Resampling.LANCZOS) for frame in some]  # type: ignore[arg-type]
+        width, height = (max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
+        lanczos = Image.Resampling.LANCZOS
+        some = [frame.resize((width, height), lanczos) for frame in some]
 
 
 def kind_of(path: Path) -> str:
@@ -148,7 +149,9 @@ def pick_clip(result: Result, path: Path) -> str:
 
 def pick_picture(result: Result, path: Path) -> str:
     """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
-    whole = [client.draw(_scene(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    begins = dict(result.phases)
+    rows = np.searchsorted(result.t, [begins[name] for name in MOMENTS])
+    whole = [client.draw(_scene(q, PICTURE_SIZE)) for q in result.qpos[rows]]
     quarter = PICTURE_SIZE[0] // 4
     middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
@@ -164,15 +167,6 @@ def phase(result: Result, row: int) -> Caption:
     t = float(result.t[row])
     name = [name for name, begins in result.phases if begins <= t][-1]
     return f"{name}, {t:.1f} s", None
-
-
-def moments(result: Result) -> list[Array]:
-    """Return everything's configuration at the ends of three phases, (16,) each."""
-    names = [name for name, _ in result.phases]
-    ends = [begins for _, begins in result.phases[1:]] + [result.seconds]
-    times = [ends[names.index(name)] for name in MOMENTS]
-    return [result.qpos[min(int(np.searchsorted(result.t, t)), len(result.t) - 1)]
-            for t in times]  # fmt: skip
 
 
 def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:
