@@ -93,8 +93,10 @@ def extras(day: Day) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     try:
         for cell in tomllib.loads(path.read_text("utf-8"))["cells"]:
-            words, lines = cell["text"], cell.get("code", "")
-            found.setdefault(str(cell["after"]), []).extend(drawing(words, lines))
+            after = found.setdefault(str(cell["after"]), [])
+            after.append(text(cell["text"]))
+            if lines := cell.get("code"):  # which may not draw: "run all" goes on
+                after.append(code(lines, ' tags=["raises-exception"]'))
     except (ValueError, KeyError, TypeError) as error:
         raise Robo47Error(
             f"{shown(path)}: {type(error).__name__}: {error}; expected [[cells]] with "
@@ -111,12 +113,6 @@ def text(words: str) -> str:
 def code(lines: str, tags: str = "") -> str:
     """Return a cell of code, without the markers of a task's gap."""
     return f"# %%{tags}\n{textwrap.dedent(MARKER.sub('', lines)).strip()}"
-
-
-def drawing(words: str, lines: str) -> list[str]:
-    """Return two cells; where nothing draws, "run all" goes on with the next."""
-    cells = [text(words)]
-    return [*cells, code(lines, ' tags=["raises-exception"]')] if lines else cells
 
 
 def head(day: Day, tree: ast.Module, starter: bool = False) -> list[str]:

@@ -8,8 +8,6 @@ are the rows that the labs record, judged by the limits of the manifest; they ar
 added to your log.
 """
 
-from collections.abc import Sequence
-
 from tqdm import tqdm
 
 from labkit.base import cli
@@ -56,15 +54,6 @@ def tell_failure(ran: Ran) -> str:
     return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
 
 
-def verdict(labs: Sequence[Ran], failed: int) -> int:
-    """Print one line on all of it; return the exit code."""
-    counted = count(len(labs), "lab")
-    if failed:
-        return cli.conclude(False, f"{failed} of {counted} did not pass")
-    numbers = count(sum(len(ran.day.metrics) for ran in labs), "number")
-    return cli.conclude(True, f"{counted}, {numbers} within their limits")
-
-
 def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
@@ -81,4 +70,8 @@ def main() -> int:
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
         print(tell_failure(ran))
-    return verdict(labs, len(failed))
+    counted = count(len(labs), "lab")
+    if failed:
+        return cli.conclude(False, f"{len(failed)} of {counted} did not pass")
+    numbers = count(sum(len(day.metrics) for day in days), "number")
+    return cli.conclude(True, f"{counted}, {numbers} within their limits")
