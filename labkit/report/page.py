@@ -1,6 +1,6 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from html import escape
 from itertools import groupby
 
@@ -23,8 +23,7 @@ STATUS = {
     "unsigned": ("•", "no file named"),
     "borrowed": ("•", "partly borrowed"),
 }
-COLUMNS = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
-HEADS = {"git_sha": "commit", "n_failures": "failures"}  # where another word says more
+COLUMNS = ("date", "value", "commit", "failures", "config", "method", "notes")
 AGAIN = ("stale", "unsigned", "borrowed")  # worth nothing until a run of one's own
 NOTHING = (
     '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
@@ -138,24 +137,21 @@ def _recent(rows: list[Row], whose: str = "") -> str:
     if not rows:
         return ""
     shown = reversed(rows[-RECENT:])
-    body = ("<tr>" + "".join(_run_cells(row)) + "</tr>" for row in shown)
     title = count(len(rows), "run") + whose
     if len(rows) > RECENT:
         title = f"The latest {RECENT} of {title}"
-    head = "".join(f"<th>{HEADS.get(name, name)}</th>" for name in COLUMNS)
-    return html.folded(title, html.table(head, body, "scroll"))
+    head = "".join(f"<th>{name}</th>" for name in COLUMNS)
+    return html.folded(title, html.table(head, map(_run, shown), "scroll"))
 
 
-def _run_cells(row: Row) -> Iterator[str]:
-    for name in COLUMNS:
-        value = row[name]
-        text = "" if value is None else _clipped(str(value))
-        if name == "n_failures" and value is not None:
-            text = f"{value} of {'?' if row['n_trials'] is None else row['n_trials']}"
-        if name == "value":
-            text = plot.number(value_of(row))
-        kind = ' class="note"' if name == "notes" else ""
-        yield f"<td{kind}>{escape(text)}</td>"
+def _run(row: Row) -> str:
+    of = "?" if row["n_trials"] is None else row["n_trials"]
+    failures = "" if row["n_failures"] is None else f"{row['n_failures']} of {of}"
+    value = plot.number(value_of(row))
+    cells = (row["date"], value, row["git_sha"], failures, row["config"], row["method"])
+    inner = "".join(f"<td>{escape(_clipped(str(cell)))}</td>" for cell in cells)
+    notes = escape(_clipped(str(row["notes"])))
+    return f'<tr>{inner}<td class="note">{notes}</td></tr>'
 
 
 def _look(lines: list[Line]) -> str:

@@ -41,7 +41,7 @@ def draw(series: Series) -> str:
     parts += [_dot(series, axis, x, row, radius) for x, row in places[:-1]]
     x, last = places[-1]
     halo = 'fill="var(--line)" fill-opacity=".2"'
-    parts.append(_circle(x, _y(axis, last), 8, halo, ""))
+    parts.append(_circle(x, axis.y(float_of(last)), 8, halo, ""))
     parts.append(_dot(series, axis, x, last, 4))
     label = escape(f"{series.wanted.check} {series.wanted.metric}, run by run")
     return (
@@ -92,7 +92,9 @@ class _Axis:
         self.low, self.high = low, high
 
     def y(self, value: float) -> float:
-        """Return a value's height; on a log axis zero and below sit on the floor."""
+        """Return a value's height: NaN at the top, what has no logarithm on the floor."""
+        if not math.isfinite(value):
+            return TOP
         if self.log:
             value = math.log10(value) if value > 0 else self.low
         share = (_drawable(value) - self.low) / (self.high - self.low)
@@ -135,15 +137,10 @@ def _threshold(series: Series, axis: _Axis) -> list[str]:
         dashes = ' stroke-dasharray="5 4"'
         parts.append(_line([(LEFT, y), (RIGHT, y)], "limit", dashes))
         label_y = y + 12 if y < TOP + 12 else y - 4
-        first, last = (abs(_y(axis, series.rows[i]) - y) for i in (0, -1))
+        first, last = (abs(axis.y(float_of(series.rows[i])) - y) for i in (0, -1))
         x, anchor = (LEFT, "start") if first > last else (RIGHT, "end")
         parts.append(_label(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
     return parts
-
-
-def _y(axis: _Axis, row: Row) -> float:
-    """Return a run's height: at the top where its value is no number."""
-    return axis.y(float_of(row)) if _finite(row) else TOP
 
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
@@ -155,7 +152,7 @@ def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
     paint = f'fill="var(--{role})"'
     if not _finite(row) or (axis.log and float_of(row) <= 0):
         paint = f'fill="var(--card)" stroke="var(--{role})" stroke-width="1.5"'
-    return _circle(x, _y(axis, row), radius, paint, tip)
+    return _circle(x, axis.y(float_of(row)), radius, paint, tip)
 
 
 def _under_axis(places: list[tuple[float, Row]]) -> list[str]:

@@ -96,22 +96,18 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
         None where there are no two commits, or no git.
     """
     files = day.files
-    own = [files[name] for name in ("script", "figure") if name in files]
-    begun = _times(root, own)
-    if not begun:
-        return None
-    times = list(begun)
-    if "worksheet" in files:  # its first commits are the kit's own
-        times += [t for t in _times(root, [files["worksheet"]]) if t > min(begun)]
+    times = _times(root, *[files[it] for it in ("script", "figure") if it in files])
+    if times and "worksheet" in files:
+        begun = min(times)  # the worksheet's first commits are the kit's own
+        times += [t for t in _times(root, files["worksheet"]) if t > begun]
     return round((max(times) - min(times)) / 60) if len(times) > 1 else None
 
 
-def _times(root: Path, paths: Sequence[str]) -> list[int]:
+def _times(root: Path, *paths: str) -> list[int]:
     """Return when files were committed, seconds since 1970."""
+    log = ("log", "--format=%ct", "--", *paths)
     try:
-        done = run(
-            "log", "--format=%ct", "--", *paths, folder=root, seconds=GIT_SECONDS
-        )
+        done = run(*log, folder=root, seconds=GIT_SECONDS)
     except GitError:
         return []
     return [int(word) for word in done.stdout.split() if word.isdecimal()]
