@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from labkit.lesson.day import Day, Metric
 from labkit.lesson.marks import Writers, mark_of
@@ -11,19 +10,18 @@ from labkit.log.rows import Row
 from labkit.log.scan import Line
 
 Key = tuple[int | None, str, str]  # day, check, metric
+SOMEBODY = Writers()  # whose files nobody knows
 
 
+@dataclass
 class Series:
     """The runs of one number, oldest first, and what they must reach."""
 
-    def __init__(
-        self, day: int | None, wanted: Metric, writers: Writers | None = None
-    ) -> None:
-        """Begin without runs; a number that nobody asks for has no limit."""
-        self.day, self.wanted = day, wanted
-        self.writers = writers or Writers()
-        self.rows: list[Row] = []  # all but
-        self.kits: list[Row] = []  # the kit's own
+    day: int | None
+    wanted: Metric  # without a limit where nobody asks for the number
+    writers: Writers = SOMEBODY
+    rows: list[Row] = field(default_factory=list)  # all but
+    kits: list[Row] = field(default_factory=list)  # the kit's own
 
     def add(self, row: Row) -> None:
         """Add a run, under the name of who made it."""
@@ -32,9 +30,7 @@ class Series:
 
     def signed(self) -> "Series":
         """Return the series of the runs that say which file made them."""
-        some = copy(self)
-        some.rows = [row for row in self.rows if mark_of(row)]
-        return some
+        return replace(self, rows=[row for row in self.rows if mark_of(row)])
 
     @property
     def key(self) -> Key:
@@ -116,7 +112,7 @@ class Report:
 
 
 def series_of(
-    day: Day, rows: Iterable[Row], writers: Writers | None = None
+    day: Day, rows: Iterable[Row], writers: Writers = SOMEBODY
 ) -> list[Series]:
     """Return the runs of all numbers that a day asks for, in the manifest's order.
 
