@@ -46,14 +46,6 @@ def as_table(lines: list[Line]) -> str:
     return "\n".join(row.rstrip() for row in rows)
 
 
-def tell_failure(ran: Ran) -> str:
-    """Return which lab did not pass, why, and how to see it."""
-    number = ran.day.number
-    again = f"make run DAY={number}" if ran.mine else f"make day{number}"
-    why = ran.why or "a number is missing or beyond its limit"
-    return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
-
-
 def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
@@ -69,7 +61,11 @@ def main() -> int:
     print(as_table([line for ran in labs for line in lines_of(ran)]))
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
-        print(tell_failure(ran))
+        number = ran.day.number
+        again = f"make run DAY={number}" if ran.mine else f"make day{number}"
+        why = ran.why or "a number is missing or beyond its limit"
+        says = f"day {number} did not pass: {why}. See: {again}"
+        print(cli.wrapped(says, "  "))
     counted = count(len(labs), "lab")
     if failed:
         return cli.conclude(False, f"{len(failed)} of {counted} did not pass")

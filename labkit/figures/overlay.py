@@ -26,12 +26,11 @@ def draw_frames(
     """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
     size = picture.width * SMOOTH, picture.height * SMOOTH
     layer = Layer(size)
-    seen = {
-        name: camera.project(axis_ends(T, length), size)
-        for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True)
-    }
-    for ends in seen.values():
-        layer.triad(ends)
+    seen = {}
+    for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True):
+        origin, tips = T[:3, 3], T[:3, 3] + length * T[:3, :3].T
+        seen[name] = camera.project(np.vstack([origin, tips]), size)
+        layer.triad(seen[name])
     layer.labels(seen)  # over the triads: a leader ends at its origin
     first, *_, last = [*seen.values()] * 2
     for ends in (first, last):
@@ -47,12 +46,6 @@ def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
         AXIS * SECOND ** int((np.linalg.norm(origins[:i] - p, axis=1) < 1e-3).sum())
         for i, p in enumerate(origins)
     ]
-
-
-def axis_ends(T_world_frame: Array, length: float = AXIS) -> Array:
-    """Return a frame's origin and the tips of its axes in the world, (4, 3), metres."""
-    origin, R = T_world_frame[:3, 3], T_world_frame[:3, :3]
-    return np.vstack([origin, origin + length * R.T])
 
 
 def spread(wanted: Array, gap: float) -> Array:
