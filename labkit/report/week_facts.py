@@ -63,13 +63,12 @@ class OwnDay(DayFacts):
         return [self.states.get(task.id) == "passed" for task in tasks]
 
 
-def facts_of(day: Day, series: Sequence[Series], root: Path = ROOT) -> OwnDay:
+def facts_of(day: Day, series: Sequence[Series]) -> OwnDay:
     """Return how a day went.
 
     Args:
         day: from its manifest.
         series: the log's rows of all that the day asks for.
-        root: the clone.
     """
     known = memory.known(day)
     ids = {task.id for task in day.tasks}
@@ -78,9 +77,9 @@ def facts_of(day: Day, series: Sequence[Series], root: Path = ROOT) -> OwnDay:
         day,
         known,
         [by[metric].signed() for metric in day.metrics],
-        minutes_of(day, root),
-        sum(n for task, n in store.hints_given(root).items() if task in ids),
-        [m for m in memory.mistakes_met(memory.journal(root), known) if m.task in ids],
+        minutes_of(day),
+        sum(n for task, n in store.hints_given().items() if task in ids),
+        [m for m in memory.mistakes_met(memory.journal(), known) if m.task in ids],
         writers_of(day).borrowed,
     )
 
