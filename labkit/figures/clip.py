@@ -18,7 +18,7 @@ from tqdm import tqdm
 from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
-from labkit.figures.sheet import with_line
+from labkit.figures.sheet import INK, with_line
 from robo47 import scenes, se3
 from robo47.capstone.phases import Result
 from robo47.checks import Array
@@ -29,7 +29,7 @@ SIZE, SECONDS = (480, 420), 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
-GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
+GOOD, BAD = (0, 102, 75), (179, 38, 30)
 PICK_SIZE, PICTURE_SIZE, FRAMES = (420, 340), (1200, 800), 60
 AT_THE_TABLE = Camera(
     lookat=(0.33, 0.0, 0.36),
@@ -44,9 +44,8 @@ Caption = tuple[str, bool | None]  # words; whether they are good news, None for
 Shot = tuple[Scene, Caption]
 
 
-def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
+def there_and_back(start: Array, end: Array, count: int) -> Array:
     """Return a soft move from (nq,) to (nq,) and back without a jump, (count, nq)."""
-    start, end = np.asarray(q_from, dtype=float), np.asarray(q_to, dtype=float)
     s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
     return start + s[:, None] * (end - start)
 

@@ -50,15 +50,15 @@ def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
 
 def spread(wanted: Array, gap: float) -> Array:
     """Return increasing numbers at least `gap` apart, near increasing ones, (n,)."""
-    # Without their gaps the numbers only have to increase: average where they do not.
-    slack = wanted - gap * np.arange(len(wanted))
-    blocks: list[list[float]] = []
-    for value in slack:
-        blocks.append([value])
-        while len(blocks) > 1 and np.mean(blocks[-2]) > np.mean(blocks[-1]):
-            blocks[-2:] = [blocks[-2] + blocks[-1]]
-    level = np.concatenate([np.full(len(block), np.mean(block)) for block in blocks])
-    return level + gap * np.arange(len(wanted))
+    # Without their gaps the numbers only have to increase: average where they do not,
+    # by the max-min formula of isotonic regression.
+    n = len(wanted)
+    slack = wanted - gap * np.arange(n)
+    level = [
+        max(min(slack[j:k].mean() for k in range(i + 1, n + 1)) for j in range(i + 1))
+        for i in range(n)
+    ]
+    return np.array(level) + gap * np.arange(n)
 
 
 class Layer:
@@ -133,7 +133,7 @@ class Layer:
         low, high, margin = min(x.values()), max(x.values()), 0.14 * self.size[0]
         left = [name for name in seen if x[name] < (low + high) / 2]
         right = [name for name in seen if name not in left]
-        for names in filter(None, (left, right)):
+        for names in (left, right):
             names.sort(key=lambda name: seen[name][0, 1])
             wanted = np.array([float(seen[name][0, 1]) for name in names])
             apart = spread(wanted, 1.5 * self.text_height)
