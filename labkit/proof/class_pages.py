@@ -5,11 +5,12 @@ import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 from labkit.base import processes
 from labkit.base.text import visible
-from labkit.grade.roster import Student, file_names
+from labkit.grade.roster import Student
 from labkit.sandbox.wall import wall
 from robo47.paths import ROOT
 
@@ -25,20 +26,18 @@ def write_pages(
         Each student, and why there is no page; "" where there is.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    files = file_names(student.folder for student in students)
-
-    def make(student: Student) -> str:
-        return student.problem or _page(student, week, folder / files[student.folder])
-
     with ThreadPoolExecutor(at_once) as pool:
-        yield from zip(students, pool.map(make, students), strict=True)
+        found = pool.map(partial(_page, week, folder), students)
+        yield from zip(students, found, strict=True)
 
 
-def _page(student: Student, week: int, file: Path) -> str:
+def _page(week: int, folder: Path, student: Student) -> str:
     """Write a student's page; return why there is none, or ""."""
+    if student.problem:
+        return student.problem
     command = [sys.executable, str(ROOT / "scripts" / "proof.py"), "--week", str(week)]
     command += ["--of", str(student.path), f"--name={student.name}"]
-    command += ["--out", f"{file}.html"]
+    command += ["--out", str(folder / f"{student.file}.html")]
     promised = {**os.environ, "ROBO47_WALL": wall().name}
     try:
         done = processes.run(command, env=promised, timeout=SECONDS)
