@@ -47,6 +47,7 @@ from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
+KIT = ("--kit", "--ki")  # as argparse understands it
 OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
@@ -68,6 +69,13 @@ def parse() -> argparse.Namespace:
         help="2026-09-04T18:00, or a day, which means its end; minutes since the last "
         "commit count to it; default: when grading began",
     )
+    add_how(parser)
+    return parser.parse_args()
+
+
+def add_how(parser: argparse.ArgumentParser) -> None:
+    """Add how to grade, and what to write besides."""
+    add = parser.add_argument
     cores, at_once = os.cpu_count() or 1, "submissions at a time; default: one per core"
     add("--processes", type=positive, default=cores, metavar="N", help=at_once)
     drawn = "of the fresh inputs, the same for everybody; default: drawn once"
@@ -87,7 +95,6 @@ def parse() -> argparse.Namespace:
     add("--anonymous", action="store_true", help="write a table without names, too")
     trusted = "grade with your own rights where no wall stands, or as root"
     add("--i-know-them", action="store_true", help=trusted)
-    return parser.parse_args()
 
 
 def file(text: str) -> Path:
@@ -185,7 +192,7 @@ def with_kit(tag: str) -> int:
     """Run the same command with the kit as it was at a tag; return its exit code."""
     folder = kit_at(tag)
     words = sys.argv[1:]
-    at = next(i for i, word in enumerate(words) if word.partition("=")[0] == "--kit")
+    at = next(i for i, word in enumerate(words) if word.partition("=")[0] in KIT)
     del words[at : at + (1 if "=" in words[at] else 2)]
     command = [sys.executable, str(folder / "scripts" / "grade_class.py"), *words]
     places = {"PYTHONPATH": str(folder), "MENAGERIE_ROOT": str(menagerie_root())}
@@ -258,7 +265,7 @@ def grade_days(
                 f"{count[state]} {state}" for state in ROLES if count[state]
             )
             print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
-            courses.append(course.lean())
+            courses.append(course)
     return courses
 
 

@@ -2,7 +2,7 @@
 
 from array import array
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -58,24 +58,20 @@ class Classroom:
         graded: dict[str, Graded] = {}
         runs: dict[str, list[array[int]]] = {}
         starter, now = starter_of(self.day), 0
-        due = self.journal.reference if self.journal.deadline else None
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
-            graded[one.folder] = self._graded(one, package, result)
-            text = f"{one.name}\n\n{graded[one.folder].result.text}"
+            found = self._graded(one, package, result)
+            text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
+            # without the text, so that a week takes the memory of a day
+            graded[one.folder] = replace(found, result=replace(found.result, text=""))
             bar.update()
 
         def changed() -> Iterator[tuple[Student, Package]]:
             for student in self.students:
-                try:
-                    package = collect(student, self.day, self.journal.seed, due)
-                except (OSError, GitError, MemoryError) as error:
-                    why = visible(error) or type(error).__name__
-                    note(student, Package(self.day.number, ""), FaultError(why))
-                    continue
+                package, known = self._known(student)
                 runs[student.folder] = _runs(package, self.day, starter)
-                if known := self._known(student.folder, package):
+                if known:
                     note(student, package, known)
                 else:
                     yield student, package
@@ -88,11 +84,18 @@ class Classroom:
                 note(student, package, result)
         return self._course([graded[one.folder] for one in self.students], runs, now)
 
-    def _known(self, folder: str, package: Package) -> Result | None:
-        """Return the result that stays, or None for who is to be graded."""
+    def _known(self, student: Student) -> tuple[Package, Result | FaultError | None]:
+        """Return what is handed in, and its result; None for who is to be graded."""
+        due = self.journal.reference if self.journal.deadline else None
+        try:
+            package = collect(student, self.day, self.journal.seed, due)
+        except (OSError, GitError, MemoryError) as error:
+            fault = FaultError(visible(error) or type(error).__name__)
+            return Package(self.day.number, ""), fault
         kept = self.frozen or bool(self.again)
-        known = self.journal.find(folder, package, frozen=kept)
-        return None if self.again is None or folder in self.again else known
+        known = self.journal.find(student.folder, package, frozen=kept)
+        anew = self.again is None or student.folder in self.again
+        return package, None if anew else known
 
     def _graded(
         self, student: Student, package: Package, result: Result | FaultError

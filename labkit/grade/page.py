@@ -79,31 +79,20 @@ def _mistakes(course: Course) -> str:
     found = course.mistakes()
     if not found:
         return ""
-    most = len(found[0][1])
-    rows = [
-        Row(
-            f"{mark.id}  {mark.mistake}",
-            count(len(who), "student"),
-            [("line", len(who))],
-            most,
-        )
-        for mark, who in found[:CHARTED]
-    ]
-    words = [
-        html.folded(
-            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, "
-            f"{count(len(who), 'student')}",
-            f'<p class="says">{escape(mark.message)}</p>'
-            f'<p class="muted">{", ".join(map(escape, who))}</p>',
-        )
-        for mark, who in found
-    ]
+    most, rows, words = len(found[0][1]), [], []
+    for mark, who in found:
+        students, parts = count(len(who), "student"), [("line", len(who))]
+        rows.append(Row(f"{mark.id}  {mark.mistake}", students, parts, most))
+        head = f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, {students}"
+        says = f'<p class="says">{escape(mark.message)}</p>'
+        names = f'<p class="muted">{", ".join(map(escape, who))}</p>'
+        words.append(html.folded(head, says, names))
     if others := words[CHARTED:]:
         words[CHARTED:] = [html.folded("the others", *others)]
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if others else ""
     counted = '<p class="muted">Counted where they were made, once per student</p>'
-    bars = chart(rows, "students by mistake, the most common first")
+    bars = chart(rows[:CHARTED], "students by mistake, the most common first")
     return html.section(
         "What to explain again tomorrow",
         '<div class="two">',

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from labkit.base import store
 from labkit.base.text import visible
 from labkit.grade.course import Course, Graded, by_student, percent
 from labkit.grade.result import Mark
@@ -216,12 +217,7 @@ def write(path: Path, content: bytes) -> None:
         if path.is_file() and path.read_bytes() == content:
             return
         path.parent.mkdir(parents=True, exist_ok=True)
-        partial = path.with_name(path.name + ".new")
-        with partial.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        partial.replace(path)
+        store.replace(path, content)
     except OSError as error:
         raise Robo47Error(
             f"{shown(path)} cannot be written: {error.strerror or error}. Close it "
