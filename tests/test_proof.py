@@ -10,13 +10,13 @@ import pytest
 
 pytest.importorskip("viser", reason="the extra view")
 
+from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from labkit.lesson.marks import Writers, file_mark
 from labkit.lesson.week import find_week
 from labkit.proof import facts, page
-from labkit.proof.class_pages import write_pages
 from labkit.proof.pick import Picked, pick
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
@@ -195,16 +195,18 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     assert found == Picked(None, "make_T hangs", 1, found.total)
 
 
-def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
+def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
     # Nothing of hers moves the arm, which need not pick anything up then.
     broken = "".join(f"\n{name} = None" for name in capstone.USES[1])
     mark = '\n\nif __name__ == "__main__":'
     a_clone(tmp_path / "ada", 1, mark, broken + mark)
     class_ = [Student("Ada -x", "ada", tmp_path / "ada", file="ada")]
     class_.append(Student("Bob", "bob", tmp_path / "bob", file="bob"))
-    written = list(write_pages(class_, 1, tmp_path / "proof", 1))
-    assert written[0][1] == ""
-    assert "nothing is begun" in written[1][1]
+    grade.prove(class_, 1, tmp_path / "proof", 1)
+    says, *without = capsys.readouterr().out.splitlines()
+    assert says.startswith("pages to show: 1 in ")
+    assert without[0].startswith("Bob: ")
+    assert "nothing is begun" in " ".join(without)
     text = (tmp_path / "proof" / "ada.html").read_text("utf-8")
     assert "Ada -x: week 1" in text
     words = Seen(text).words

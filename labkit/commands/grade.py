@@ -28,10 +28,13 @@ import os
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, git, store
+from labkit.base import cli, git, processes, store
+from labkit.base.text import visible
 from labkit.grade import engine, week_page
 from labkit.grade.classroom import Classroom, pull, write_all
 from labkit.grade.course import Course, percent
@@ -42,12 +45,12 @@ from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
 from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
-from labkit.proof.class_pages import write_pages
 from labkit.sandbox.wall import refusal, wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
 KIT = ("--kit", "--ki")  # as argparse understands it
+PROOF_SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
 OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
@@ -271,11 +274,28 @@ def grade_days(
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:
     """Write each student's page to show; say who has none, and why."""
-    pages = write_pages(students, week, folder, at_once)
-    without = [(student, why) for student, why in pages if why]
+    folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(at_once) as pool:
+        whys = list(pool.map(partial(write_proof, week, folder), students))
+    without = [both for both in zip(students, whys, strict=True) if both[1]]
     print(f"pages to show: {len(students) - len(without):,} in {shown(folder)}")
     for student, why in without:
         print(cli.wrapped(f"{student.name}: {why}", "  "))
+
+
+def write_proof(week: int, folder: Path, student: Student) -> str:
+    """Write a student's page in a process of its own; return why there is none."""
+    if student.problem:
+        return student.problem
+    command = [sys.executable, str(ROOT / "scripts" / "proof.py"), "--week", str(week)]
+    command += ["--of", str(student.path), f"--name={student.name}"]
+    command += ["--out", str(folder / f"{student.file}.html")]
+    promised = {**os.environ, "ROBO47_WALL": wall().name}
+    try:
+        done = processes.run(command, env=promised, timeout=PROOF_SECONDS)
+    except subprocess.TimeoutExpired:
+        return f"it took more than {PROOF_SECONDS:.0f} s"
+    return visible(done.stderr.strip().rpartition("\n")[2]) if done.returncode else ""
 
 
 def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:
