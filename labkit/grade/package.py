@@ -12,14 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import (
-    History,
-    before,
-    blob,
-    files_of,
-    read_history,
-    short_sha,
-)
+from labkit.base.git import History, before, blob, files_of, read_history, short_sha
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import (
