@@ -10,10 +10,9 @@ arm picks the cube up with the functions that pass. One file, opened from disk.
 """
 
 import importlib.util
-import tempfile
 import time
-from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from labkit.base import cli, store
 from labkit.base.git import GitError, read_history
@@ -23,7 +22,7 @@ from labkit.grade.roster import Student
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import Week
 from labkit.proof import page
-from labkit.proof.facts import facts_of
+from labkit.proof.facts import RunDay, facts_of
 from labkit.proof.pick import pick
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -70,14 +69,13 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
     days, history = days_of(week), read_history(clone, (), own=own)
     name = visible(name or history.author, 80) or "somebody whom git does not know"
     student = Student(name, clone.name, clone)
-    with ExitStack() as stack:
-        sandbox = stack.enter_context(Sandbox())
-        folders, known = [], []
-        for day in days:
-            kept = tempfile.TemporaryDirectory(prefix="robo47-grade-")
-            folders.append(Path(stack.enter_context(kept)).resolve())
+    with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:
+        folders = [Path(top).resolve() / str(day.number) for day in days]
+        known: list[RunDay] = []
+        for day, folder in zip(days, folders, strict=True):
+            folder.mkdir()
             with cli.busy(f"day {day.number}"):
-                known.append(facts_of(day, student, folders[-1], sandbox, own=own))
+                known.append(facts_of(day, student, folder, sandbox, own=own))
             theirs = f"{len(known[-1].own)} of {known[-1].functions} functions theirs"
             print(f"  day {day.number}: {theirs}", flush=True)
         if all("not begun" in one.states.values() for one in known):

@@ -185,10 +185,8 @@ def _entry(head: str, says: str = "") -> str:
 def _name(graded: Graded) -> str:
     """Return a student's name, which leads to their feedback."""
     student = graded.student
-    name = escape(student.name)
-    if student.file:
-        address = quote(f"feedback/{student.file}.txt".encode())
-        name = f'<a href="{address}">{name}</a>'
+    address = quote(f"feedback/{student.file}.txt".encode())
+    name = f'<a href="{address}">{escape(student.name)}</a>'
     folder = visible(printable(student.folder), 120)
     if student.name == folder:
         return name
