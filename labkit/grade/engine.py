@@ -130,10 +130,9 @@ def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
         )
     grader = None
     try:
-        try:
+        with contextlib.suppress(queue.Empty):
             grader = _idle.get_nowait()
-        except queue.Empty:
-            grader = Grader()
+        grader = grader or Grader()
         return grader.grade(package)
     except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
         raise FaultError(f"no process for it: {error}") from None
@@ -145,11 +144,9 @@ def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
 @atexit.register
 def close_graders() -> None:
     """End the idle grading processes."""
-    while True:
-        try:
+    with contextlib.suppress(queue.Empty):
+        while True:
             _idle.get_nowait().close()
-        except queue.Empty:
-            return
 
 
 @dataclass(frozen=True)
@@ -243,7 +240,6 @@ def grade_all(
 def _finished(
     under_way: dict[Future[Any], tuple[Student, Package]], engine: Engine
 ) -> Iterator[tuple[Student, Package, Result | FaultError]]:
-    """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
     while not (done := wait(under_way, PATIENCE, FIRST_COMPLETED).done):
         if time.monotonic() >= silent:

@@ -207,7 +207,6 @@ def _ago(minutes: int | None, deadline: bool) -> str:
 
 
 def _alike(course: Course) -> str:
-    """Return the similar submissions, as a hint."""
     by_folder = {g.student.folder: g for g in course.class_}
     rows = []
     for group in course.alike[:MOST]:
@@ -231,7 +230,6 @@ def _refused(course: Course) -> str:
 
 
 def _everyone(course: Course) -> str:
-    """Return everyone's tasks and deliverables, a mark each."""
     first = course.class_[0].result
     names = ["tasks", *(mark.id for mark in (*first.tasks, *first.items)), "commit is"]
     head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)

@@ -119,7 +119,6 @@ def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, 
 
 
 def _who(student: Student) -> dict[str, Cell]:
-    """Return the first cells of a student's row: who it is."""
     folder = plain(printable(student.folder))
     return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
 
