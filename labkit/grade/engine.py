@@ -190,6 +190,7 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
     """
     try:
         from distributed import Client
+        from distributed.comm import parse_address, parse_host_port
         from distributed.scheduler import KilledWorker
         from distributed.security import Security
     except ImportError:
@@ -198,6 +199,8 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
     if address.startswith("tls:") and not known.get("ssl_context"):
         raise Robo47Error(NO_CERTIFICATES)
     try:
+        # first, since half a client takes 20 s to end, with a traceback
+        parse_host_port(parse_address(address)[1])
         client = Client(address, timeout=REACHING, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
