@@ -175,8 +175,7 @@ def main() -> int:
     if platform:
         known(platform, students)
     admit(options)
-    notes: dict[str, str] = {}
-    courses = grade_days(days, students, out, options, notes)
+    courses, notes = grade_days(days, students, out, options)
     if several:
         write(out, of_days(courses))
         write(out.parent / "class.html", week_page.render(courses).encode("utf-8"))
@@ -225,12 +224,8 @@ def kit_at(tag: str) -> Path:
 
 
 def grade_days(
-    days: list[Day],
-    students: list[Student],
-    out: Path,
-    options: argparse.Namespace,
-    notes: dict[str, str],
-) -> list[Course]:
+    days: list[Day], students: list[Student], out: Path, options: argparse.Namespace
+) -> tuple[list[Course], dict[str, str]]:
     """Grade each day: its table, its page, the students' files; say how it went.
 
     Args:
@@ -238,9 +233,12 @@ def grade_days(
         students: from the roster.
         out: the table; of several days that of all, with a folder for each beside it.
         options: the command line.
-        notes: filled with who could not be pulled, and why, by folder.
+
+    Returns:
+        The days, and who could not be pulled, and why, by folder.
     """
     courses: list[Course] = []
+    notes: dict[str, str] = {}
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:
@@ -256,7 +254,7 @@ def grade_days(
                     options.seed = journal.seed  # one for all days
                     drawn = f"fresh inputs for everybody: --seed {journal.seed}"
                     print(f"kit: {version()}; {drawn}")
-                    notes |= pull(students) if options.pull else {}
+                    notes = pull(students) if options.pull else {}
                 again = options.again and options.again.split(",")
                 again = () if again is None else (again or None)
                 how = (again, options.frozen, options.keep, notes)
@@ -269,7 +267,7 @@ def grade_days(
             )
             print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
             courses.append(course)
-    return courses
+    return courses, notes
 
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:

@@ -1,6 +1,5 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
-from array import array
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -19,6 +18,7 @@ from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
+from labkit.grade.similar import Runs
 from labkit.lesson.day import Day
 from labkit.lesson.script import read_script, starter_of
 from labkit.sandbox.messages import file_of
@@ -56,7 +56,7 @@ class Classroom:
             Robo47Error: no worker is left, or a file cannot be written.
         """
         graded: dict[str, Graded] = {}
-        runs: dict[str, list[array[int]]] = {}
+        runs: dict[str, list[Runs]] = {}
         starter, now = starter_of(self.day), 0
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
@@ -115,10 +115,7 @@ class Classroom:
         return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(
-        self,
-        everybody: Sequence[Graded],
-        runs: Mapping[str, list["array[int]"]],
-        now: int,
+        self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
     ) -> Course:
         alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
@@ -157,14 +154,14 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _runs_of_kit(day: Day) -> "array[int]":
+def _runs_of_kit(day: Day) -> Runs:
     """Return the runs of a day's solution and of the library's modules that hold it."""
     files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
     return similar.runs_of(texts.encode(), starter_of(day))
 
 
-def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
+def _runs(package: Package, day: Day, starter: str) -> list[Runs]:
     """Return what `similar` compares of each file, the script's first."""
     files = package.modules()
     names = sorted(files, key=lambda name: name != day.script)

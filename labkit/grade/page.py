@@ -34,7 +34,7 @@ _REFUSED = "A task needs nothing but its arguments. Most of these are accidents:
 
 def render(course: Course) -> str:
     """Return the whole page."""
-    page = html.page(
+    return html.page(
         f"Day {course.day.number}: {escape(course.day.title)}",
         _about(course),
         _tiles(course),
@@ -46,7 +46,6 @@ def render(course: Course) -> str:
         _everyone(course),
         style=STYLE,
     )
-    return printable(page)
 
 
 def _about(course: Course) -> str:

@@ -111,15 +111,14 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
     )
     path, problem = root / folder, ""
     try:
-        is_link = path.is_symlink()
-    except (OSError, ValueError) as error:  # too long for a name, or a NUL
-        path, problem, is_link = root, f"no name of a folder here: {error}", False
-    if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
-        path, problem = root, f"{folder!r} is no name of a folder"
-    elif is_link:
-        problem = "the folder is a link, which is not followed"
-    elif url.startswith("-") or "\0" in url:
-        problem = f"{url!r} is no git URL"
+        if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
+            path, problem = root, f"{folder!r} is no name of a folder"
+        elif path.is_symlink():
+            problem = "the folder is a link, which is not followed"
+        elif url.startswith("-") or "\0" in url:
+            problem = f"{url!r} is no git URL"
+    except OSError as error:  # too long for a name
+        path, problem = root, f"no name of a folder here: {error}"
     name = cells.get("name") or cells.get("student", "")
     name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")
     shows = (visible(problem), visible(id, 120), cells)

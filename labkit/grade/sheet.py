@@ -119,8 +119,8 @@ def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, 
 
 
 def _who(student: Student) -> dict[str, Cell]:
-    folder = plain(printable(student.folder))
-    return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
+    who = {"id": student.id, "name": student.name, "folder": student.folder}
+    return {column: plain(text) for column, text in who.items()}
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ from labkit.base.text import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
 from labkit.grade.course import Course, Graded, by_student, percent
-from labkit.grade.sheet import printable
 
 ROLES = {  # colours of the states, in the order to list them
     "done": "pass",
@@ -40,7 +39,7 @@ def render(courses: Sequence[Course]) -> str:
             f"<th>name</th><th class=n>per cent</th>{head}", rows, "card scroll all"
         ),
     )
-    return printable(html.page(title, about, _days(courses), everybody, style=STYLE))
+    return html.page(title, about, _days(courses), everybody, style=STYLE)
 
 
 def _days(courses: Sequence[Course]) -> str:
