@@ -237,8 +237,7 @@ def grade_days(
     Returns:
         The days, and who could not be pulled, and why, by folder.
     """
-    courses: list[Course] = []
-    notes: dict[str, str] = {}
+    courses, notes = list[Course](), dict[str, str]()
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:

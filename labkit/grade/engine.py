@@ -42,14 +42,6 @@ PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 REACHING = 10.0  # seconds for a Dask scheduler to answer
 PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
-NO_DASK = (
-    "--dask needs the package distributed: python3 scripts/setup_env.py grade "
-    "(make grade does it)"
-)
-NO_CERTIFICATES = (
-    "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
-    "docs/cluster.md says how"
-)
 # For one package. The sandbox stops a file after 100 s of its own, so only a machine
 # under load gets here.
 SECONDS = 240.0
@@ -194,10 +186,16 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
         from distributed.scheduler import KilledWorker
         from distributed.security import Security
     except ImportError:
-        raise Robo47Error(NO_DASK) from None
+        raise Robo47Error(
+            "--dask needs the package distributed: python3 scripts/setup_env.py grade "
+            "(make grade does it)"
+        ) from None
     known = Security().get_connection_args("client")
     if address.startswith("tls:") and not known.get("ssl_context"):
-        raise Robo47Error(NO_CERTIFICATES)
+        raise Robo47Error(
+            "tls:// needs Dask to know your certificates (ca-file, client cert and "
+            "key); docs/cluster.md says how"
+        )
     try:
         # first, since half a client takes 20 s to end, with a traceback
         parse_host_port(parse_address(address)[1])
