@@ -101,12 +101,12 @@ def mujoco_screws(model: mujoco.MjModel, qpos: Array) -> Array:
     Returns:
         Screws (omega; v) in world axes, (n, njnt, 6).
     """
-    data, screws = mujoco.MjData(model), np.empty((len(qpos), model.njnt, 6))
-    for S, q in zip(screws, qpos, strict=True):
-        data.qpos[:] = q
+
+    def read(data: mujoco.MjData) -> Array:
         mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point of it
-        S[:] = np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
-    return screws
+        return np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
+
+    return _ask(model, read, qpos=qpos)
 
 
 def mujoco_rotation(axis: Array, theta: float) -> Array:
@@ -132,14 +132,10 @@ def worst_difference(
     """
     if ours.keys() != truth.keys():
         raise ValueError(f"not the same frames: {sorted(ours.keys() ^ truth.keys())}")
-    worst = Worst(-1.0, "", qpos[:0])
-    for frame, T in ours.items():
-        error = np.abs(T - truth[frame]).max(axis=(1, 2))
-        error = np.where(np.isnan(error), np.inf, error)  # nothing is worse than NaN
-        i = int(np.argmax(error))
-        if error[i] > worst.error:
-            worst = Worst(float(error[i]), frame, qpos[i].copy())
-    return worst
+    off = [np.abs(T - truth[frame]).max(axis=(1, 2)) for frame, T in ours.items()]
+    error = np.nan_to_num(off, nan=np.inf, posinf=np.inf)  # nothing is worse than NaN
+    frame, i = np.unravel_index(np.argmax(error), error.shape)
+    return Worst(float(error[frame, i]), list(ours)[frame], qpos[i].copy())
 
 
 def verify_fk(model: mujoco.MjModel, n: int, seed: int) -> Worst:
