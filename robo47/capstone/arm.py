@@ -53,9 +53,9 @@ class Arm:
         body = model.body("hand")
         T_link7_hand = fns.link_T(body.pos.copy(), body.quat.copy())
         T_hand_tcp = fns.make_T(np.eye(3), model.site("tcp").pos.copy())
-        self.T_link7_tcp = T_link7_hand @ T_hand_tcp
         T_zero = self.links(np.zeros(7))
-        self.screws, self.M_tcp = fns.joint_screws(T_zero), T_zero[6] @ self.T_link7_tcp
+        self.screws = fns.joint_screws(T_zero)
+        self.M_tcp = T_zero[6] @ (T_link7_hand @ T_hand_tcp)
         self.limits, self.tau_max = simulate.limits(model)
         dofs = simulate.addresses(model)[1]
         self.armature = model.dof_armature[dofs].copy()

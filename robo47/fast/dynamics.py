@@ -17,6 +17,7 @@ a link's mass, which a turn and a move change in few operations. Units: radians,
 kilograms, N m.
 """
 
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -61,11 +62,7 @@ def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> A
     Raises:
         ValueError: as `mass_matrix`.
     """
-    down = arm.gravity.tolist()
-
-    def torques(links: Sequence[Link], *motion: Array) -> Array:
-        return _torques(links, down, *motion)
-
+    torques = functools.partial(_torques, arm.gravity.tolist())
     return _for_all(torques, arm, (len(arm.masses),), q, qd, qdd)
 
 
@@ -156,10 +153,10 @@ def _both_sides(R: Array, Q: list[Vector]) -> list[Vector]:
 
 
 def _torques(
-    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
+    down: Vector, links: Sequence[Link], cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> Array:
     """Return the torques, (n, count): the links' wrenches added up from the tip."""
-    wrenches = _wrenches(links, down, cos, sin, qd, qdd)
+    wrenches = _wrenches(down, links, cos, sin, qd, qdd)
     tau = np.empty_like(qd)
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
@@ -172,7 +169,7 @@ def _torques(
 
 
 def _wrenches(
-    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
+    down: Vector, links: Sequence[Link], cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> list[tuple[Vector, Vector]]:
     """Return what each link's motion takes: velocities added up from the base."""
     wrenches = []

@@ -57,10 +57,8 @@ def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
     limited = model.jnt_limited.astype(bool)
     low = np.where(limited, model.jnt_range[:, 0], -reach)
     high = np.where(limited, model.jnt_range[:, 1], reach)
-    q = np.empty((n, model.nq))
-    q[:, model.jnt_qposadr] = np.random.default_rng(seed).uniform(
-        low, high, (n, model.njnt)
-    )
+    q, rng = np.empty((n, model.nq)), np.random.default_rng(seed)
+    q[:, model.jnt_qposadr] = rng.uniform(low, high, (n, model.njnt))
     return q
 
 
