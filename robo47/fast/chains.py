@@ -193,12 +193,18 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         if not np.isfinite(q).all():
             bad = start + int(np.argmin(np.isfinite(q).all(axis=0)))
             raise ValueError(f"configuration {bad} holds NaN or infinity: {flat[bad]}")
-        nodes = plan.nodes(chunk_of(q))
-        for name, node in plan.frames.items():
-            T = poses[name][part]
-            T.reshape(-1, 16)[:, :12] = rows_of(nodes[node], len(T)).T  # in one pass
-            T[:, 3, 3] = 1.0
+        # A call, so that its frames are let go before the next chunk fills the cache.
+        _write(plan, q, [T[part] for T in poses.values()])
     return {name: T.reshape(*qpos.shape[:-1], 4, 4) for name, T in poses.items()}
+
+
+def _write(plan: Plan, q: Array, poses: list[Array]) -> None:
+    """Write the frames' poses at q, (nq, n), into arrays that are zero, (n, 4, 4)."""
+    nodes = plan.nodes(chunk_of(q))
+    for T, node in zip(poses, plan.frames.values(), strict=True):
+        rows = rows_of(nodes[node], len(T))
+        T.reshape(-1, 16)[:, :12] = rows.T  # one pass over the output
+        T[:, 3, 3] = 1.0
 
 
 def in_chunks(

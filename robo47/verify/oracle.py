@@ -99,12 +99,12 @@ def mujoco_screws(model: mujoco.MjModel, qpos: Array) -> Array:
     Returns:
         Screws (omega; v) in world axes, (n, njnt, 6).
     """
-
-    def read(data: mujoco.MjData) -> Array:
+    data, screws = mujoco.MjData(model), np.empty((len(qpos), model.njnt, 6))
+    for S, q in zip(screws, qpos, strict=True):
+        data.qpos[:] = q
         mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point of it
-        return np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
-
-    return _ask(model, read, qpos=qpos)
+        S[:] = np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)])
+    return screws
 
 
 def mujoco_rotation(axis: Array, theta: float) -> Array:
