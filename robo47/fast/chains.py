@@ -221,8 +221,8 @@ def in_chunks(
     out = np.empty((len(flat[0]), math.prod(shape)))
     for start in range(0, len(out), CHUNK):
         part = slice(start, start + CHUNK)
-        found = work(*(np.ascontiguousarray(rows[part].T) for rows in flat))
-        out[part] = found.reshape(out.shape[1], -1).T
+        columns = (np.ascontiguousarray(rows[part].T) for rows in flat)
+        out[part] = work(*columns).reshape(out.shape[1], -1).T
     return out.reshape(*given[0].shape[:-1], *shape)
 
 
