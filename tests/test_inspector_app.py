@@ -92,7 +92,7 @@ class File:
 
     def see(self, q):
         self.asked.append(q)
-        return nothing(q, "nothing to see")
+        return nothing("nothing to see")
 
 
 @pytest.fixture(scope="module")
@@ -342,7 +342,7 @@ def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
 def hear(page, poses, problem=""):
     """Have the page hear what a student's function said where the arm is."""
     q = page.arm.q.copy()
-    seen = compare(GHOST, q, poses, problem, page.arm.poses_at(q))
+    seen = compare(GHOST, poses, problem, page.arm.poses_at(q))
     on_loop(page.server, lambda: page.hear(seen))
 
 

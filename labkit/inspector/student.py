@@ -116,10 +116,10 @@ class Student:
         """Return what the ghost's function gives at q, (nq,), beside MuJoCo's."""
         if not self.there:
             says = f"No {shown(self.script)} yet: make start DAY={self.day.number}. "
-            return Seen(q, says + "Shown is the kit's library.", "quiet")
+            return Seen(says + "Shown is the kit's library.", "quiet")
         ghost = self.ghost
         if ghost is None or self._asker is None:
-            return nothing(q, self.problem)
+            return nothing(self.problem)
         try:
             poses, why = self._poses(ghost.frames, ghost.questions(self.arm.model, q))
             if not poses and ghost.whole is not None:
@@ -128,8 +128,8 @@ class Student:
                 poses, why = self._poses(end, [alone])
                 why = why or several
         except Exception as error:  # the day's: the page goes on
-            return nothing(q, f"not asked: {type(error).__name__}: {error}")
-        return compare(ghost, q, poses, self.problem or why, self.arm.poses_at(q))
+            return nothing(f"not asked: {type(error).__name__}: {error}")
+        return compare(ghost, poses, self.problem or why, self.arm.poses_at(q))
 
     def _poses(
         self, frames: Sequence[str], some: Sequence[tuple[Any, ...]]
