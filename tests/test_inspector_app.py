@@ -251,13 +251,15 @@ def test_nothing_is_made_anew_under_somebodys_hand(page, say):
     assert set(page.widgets()) == before
 
 
+@pytest.mark.filterwarnings("error:Attempted to remove")
 def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     say(tab("Noisy"))
     noisy, before = Noisy.last, set(page.widgets())
     noisy.ghost.pose({"link1": np.eye(4)})
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
-    on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
+    for _ in range(2):  # the fine ones may be as many as the simple ones
+        on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
     assert page.tab is noisy
     assert set(page.widgets()) == before
     assert len(noisy.ghost.meshes) == 1
