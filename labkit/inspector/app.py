@@ -65,7 +65,7 @@ class Inspector:
         self.student = student
         self.version, self.unchecked = 0, False  # of the file that is asked
         self.seen: Seen | None = None
-        self.asks, self.checks = Jobs(lambda _: None), Jobs(lambda _: None)
+        self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]

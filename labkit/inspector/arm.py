@@ -87,17 +87,12 @@ class Arm:
         ours = self.by_library[full] if T is None else T
         return float(np.abs(self.by_mujoco[full] - ours).max())
 
-    def limits(self, joint: str) -> tuple[float, float]:
-        """Return a joint's lowest and highest value, radians or metres."""
-        low, high = self.model.joint(joint).range
-        return float(low), float(high)
-
     def out_of_limits(self) -> list[str]:
         """Return one sentence for every joint that is outside its range."""
+        joints = zip(self.joints, self.q, self.model.jnt_range, strict=True)
         return [
             f"{joint} = {q:.4f} is outside [{low:.4f}, {high:.4f}]"
-            for joint, q in zip(self.joints, self.q, strict=True)
-            for low, high in [self.limits(joint)]
+            for joint, q, (low, high) in joints
             if not low - SOFT <= q <= high + SOFT
         ]
 

@@ -1,6 +1,7 @@
 """Meshes in the scene: the arm, the student's, a tab's ghost or its own robot."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache, partial
 from itertools import count
 from typing import TYPE_CHECKING
@@ -29,22 +30,17 @@ def place(node: viser.SceneNodeHandle, T: Array) -> None:
     node.wxyz, node.position = se3.R_to_quat(T[:3, :3]), T[:3, 3]
 
 
+@dataclass
 class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
-    def __init__(
-        self,
-        server: viser.ViserServer,
-        path: str,
-        colour: tuple[int, int, int] | None = None,
-        opacity: float | None = None,
-    ) -> None:
-        """Begin bare; without a colour the meshes have their own, or are solid."""
-        self.server, self.path = server, path
-        self.colour, self.opacity = colour, opacity
-        self.bodies: dict[str, viser.FrameHandle] = {}
-        self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
-        self.posed: Mapping[str, Array | None] = {}
+    server: viser.ViserServer
+    path: str
+    colour: tuple[int, int, int] | None = None  # None: the meshes have their own
+    opacity: float | None = None  # None: they are solid
+    bodies: dict[str, viser.FrameHandle] = field(default_factory=dict)
+    meshes: list[tuple[viser.MeshHandle, Shape]] = field(default_factory=list)
+    posed: Mapping[str, Array | None] = field(default_factory=dict)
 
     def put_on(self, made: Sequence[Shape]) -> None:
         """Replace its meshes."""
