@@ -22,8 +22,9 @@ from labkit.inspector.meshes import Robot
 from labkit.inspector.serve import on_loop
 from labkit.inspector.shapes import Shape
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
-from labkit.lesson.day import day_numbers, find_day
+from labkit.lesson.day import Day, day_numbers, find_day
 from robo47 import panda
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 SECONDS = 20
@@ -465,6 +466,20 @@ def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
         settle(page)
         assert page.kind.title == title
         assert "stopped with" not in contents(page)
+
+
+@pytest.mark.parametrize(
+    ("brings", "says"),
+    [
+        ({"TABS": Noisy}, "inspector.py: TABS is no list"),
+        ({"TABS": [Noisy, int]}, "<class 'int'> in TABS is not a class of"),
+        ({"GHOST": "fk"}, "inspector.py: GHOST is not a labkit.inspector.ghost.Ghost"),
+    ],
+)
+def test_what_a_day_brings_and_is_no_tab_is_refused(monkeypatch, brings, says):
+    monkeypatch.setattr(Day, "module", lambda *_: SimpleNamespace(**brings))
+    with pytest.raises(Robo47Error, match=says):
+        day_tabs(find_day(1))
 
 
 def test_an_image_of_depths_goes_from_black_to_white():

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 Step = Callable[[float], bool | None]
@@ -21,8 +21,8 @@ class Animation:
     changed: Ended  # is called when it starts, and when it stops
     # Is called before each step, on another thread: it may wait.
     work: Callable[[float], Any] | None = None
-    task: asyncio.Task[None] | None = field(default=None, init=False)
-    slow: float = field(default=1.0, init=False)  # times slower than real time
+    task: asyncio.Task[None] | None = None
+    slow: float = 1.0  # how many times slower than real time it runs
 
     @property
     def running(self) -> bool:

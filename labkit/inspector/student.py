@@ -37,12 +37,12 @@ class Student:
     sandbox: Sandbox  # where the file runs
     script: Path  # the file, there or not
     seconds: float = 2.0  # for one call; who takes longer is asked again after a save
-    version: int = field(default=0, init=False)  # of the file: another after each save
-    problem: str = field(default="", init=False)  # why it is not asked, in a sentence
+    version: int = 0  # of the file: another one after each save
+    problem: str = ""  # why the file is not asked, in a sentence
     # A session answers one thread at a time.
-    _lock: AbstractContextManager[Any] = field(default_factory=RLock, init=False)
-    _asker: Session | None = field(default=None, init=False)
-    _stamp: tuple[int, ...] | None = field(default=(), init=False)  # never looked
+    _lock: AbstractContextManager[Any] = field(default_factory=RLock)
+    _asker: Session | None = None
+    _stamp: tuple[int, ...] | None = ()  # never looked
 
     @property
     def there(self) -> bool:
