@@ -163,9 +163,9 @@ class Labels:
         first: dict[int, str] = {}
         at = np.asarray(points, dtype=np.float64)
         for i, text in enumerate(self.texts):
-            near = [k for k in first if np.linalg.norm(at[k] - at[i]) < APART]
-            key = near[0] if near else i
-            first[key] = f"{first[key]} {text}" if near else text
+            near = (k for k in first if np.linalg.norm(at[k] - at[i]) < APART)
+            key = next(near, i)
+            first[key] = f"{first[key]} {text}" if key in first else text
         for i, handle in enumerate(self.handles):
             handle.visible = i in first
             handle.text, handle.position = first.get(i, ""), at[i]
