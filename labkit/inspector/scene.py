@@ -80,7 +80,7 @@ class ArmScene:
         bodies = () if self.hidden else self.skin.bodies
         self.skin.pose({name: self.arm.by_mujoco[f"body:{name}"] for name in bodies})
         for name, triad in self.triads.items():
-            triad.place(self.arm.by_library[self.arm.names[name]])
+            triad.place(self.arm.by_library[name])
 
     def hide(self, hidden: bool = True) -> None:
         """Draw no arm and no frames, or draw them again."""
@@ -158,14 +158,13 @@ class Pointed:
 
     def show(self) -> None:
         """Name what was clicked, where it is now; or nothing."""
-        self.label.visible = self.line.visible = bool(self.body)
+        joint = int(self.model.body_jntadr[self.body])
+        self.label.visible, self.line.visible = bool(self.body), joint >= 0
         if not self.body:
             return
         self._pose()
         name = self.model.body(self.body).name
         self.label.position = self.data.xpos[self.body]
-        joint = int(self.model.body_jntadr[self.body])
-        self.line.visible = joint >= 0
         if joint < 0:
             self.label.text = f"{name}: no joint of its own"
             return
