@@ -87,6 +87,36 @@ def append(path: Path, text: str, sync: bool) -> None:
     )
 
 
+def unsaved_rows(path: Path) -> int:
+    """Return how many refused rows wait beside the log."""
+    try:
+        return Path(f"{path}{UNSAVED}").read_bytes().count(b"\n")
+    except OSError:
+        return 0
+
+
+def restore(path: Path) -> int:
+    """Append the rows kept in `<log>.unsaved` and empty it; return how many.
+
+    Raises:
+        Robo47Error: the log still cannot take them; they stay where they are.
+    """
+    count = unsaved_rows(path)
+    if not count:
+        return 0
+    kept = Path(f"{path}{UNSAVED}")
+    try:
+        with locked(kept) as fd:
+            text = read_at(fd, 0, os.fstat(fd).st_size).decode()
+            append(path, text.removesuffix("\n"), sync=True)
+            os.ftruncate(fd, 0)
+            if os.name != "nt":  # there an open file cannot be removed
+                kept.unlink()
+    except (CannotAppendError, OSError) as error:
+        raise Robo47Error(f"{error}\n  the rows are still in {shown(kept)}") from None
+    return text.count("\n")
+
+
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[int]:
     """Open a file, made if absent, to read and append; nobody else may append."""

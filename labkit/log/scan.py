@@ -6,10 +6,12 @@ One line is one row, so a quote that is never closed costs its own line only.
 import contextlib
 import csv
 import os
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
+from labkit.base import git
 from labkit.base.text import count
 from labkit.log.logfile import CUT
 from labkit.log.rows import BOM, COLUMNS, HEAD, Row, decode, line_end, wrong_header
@@ -96,6 +98,29 @@ def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
     for number, raw in enumerate(file, 2):
         if raw.strip(b"\0 \t\r\n"):
             yield _line(number, raw, cut)
+
+
+def came_back(path: Path) -> set[str]:
+    """Return lines that a commit took out and a merge brought back.
+
+    A union merge keeps both sides' lines: a row that one branch deleted or edited
+    returns as it was. Only git's history shows that.
+
+    Returns:
+        Those lines. None outside git, or where git is not installed.
+    """
+    how = ("--no-merges", "--format=", "--patch", "--unified=0", "--no-color")
+    asked, where = ("log", *how, "--", path.name), path.resolve().parent
+    try:
+        history = git.run(*asked, folder=where, seconds=git.SECONDS).stdout
+        now = set(path.read_bytes().decode("utf-8", "replace").split("\n"))
+    except (OSError, git.GitError):
+        return set()
+    balance: Counter[str] = Counter()
+    for line in history.split("\n"):
+        if line.startswith(("+", "-")) and not line.startswith(("+++ ", "--- ")):
+            balance[line[1:]] += 1 if line[0] == "+" else -1
+    return {line for line, n in balance.items() if n <= 0 and line.strip()} & now
 
 
 def _line(number: int, raw: bytes, cut: set[str]) -> Line:
