@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from conftest import write_week
-from labkit.lesson.day import Metric, all_days
+from labkit.lesson.day import all_days
+from labkit.lesson.marks import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan

@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike
 from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
-from labkit.lesson.day import Metric, day_of
-from labkit.lesson.marks import file_mark
+from labkit.lesson.day import day_of
+from labkit.lesson.marks import Metric, file_mark
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 

@@ -97,6 +97,17 @@ def find_week(number: int, root: Path = ROOT) -> Week:
     return found[number]
 
 
+def manifests(root: Path = ROOT) -> dict[int, Path]:
+    """Return the manifests of a clone's days by number, in order."""
+    found: dict[int, Path] = {}
+    for week in weeks(root):
+        for number, path in week.manifests.items():
+            other = found.setdefault(number, path)
+            if other != path:
+                raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
+    return dict(sorted(found.items()))
+
+
 def load_week(folder: Path) -> Week:
     """Return the week of a folder.
 

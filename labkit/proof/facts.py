@@ -15,7 +15,7 @@ from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import Handin
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
-from labkit.lesson.marks import writers_with
+from labkit.lesson.script import writers_of
 from labkit.report.series import Series, series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
@@ -100,7 +100,7 @@ def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> RunDay:
 
 def _numbers(day: Day, handin: Handin) -> list[Series]:
     """Return the runs of a day's numbers that are in the log."""
-    writers = writers_with(day, handin.files.get(day.files["script"]))
+    writers = writers_of(day, handin.files.get(day.files["script"], b""))
     try:
         return series_of(day, rows_of(day, handin), writers)
     except Robo47Error:  # no log that can be read

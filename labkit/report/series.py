@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import Writers, mark_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import Metric, Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 
