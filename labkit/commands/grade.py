@@ -43,7 +43,7 @@ from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
 from labkit.proof.class_pages import write_pages
-from labkit.sandbox.wall import refusal, wall
+from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
@@ -119,7 +119,7 @@ def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
     says = "each worker's own; without one it refuses" if options.dask else wall().says
     print(f"wall: {says}", flush=True)
-    why = "" if options.dask or options.i_know_them else refusal()
+    why = "" if options.dask or options.i_know_them else engine.refusal()
     if why:
         raise Robo47Error(
             f"{why}, use a container (docs/teaching.md), or add --i-know-them"

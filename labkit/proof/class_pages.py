@@ -10,7 +10,7 @@ from pathlib import Path
 from labkit.base import processes
 from labkit.base.text import visible
 from labkit.grade.roster import Student, file_names
-from labkit.sandbox.wall import wall
+from labkit.sandbox.process import wall
 from robo47.paths import ROOT
 
 SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
