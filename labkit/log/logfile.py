@@ -255,17 +255,13 @@ def _keep(path: Path, text: str) -> str:
     kept = Path(f"{path}{UNSAVED}")
     rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
     them = "them" if "\n" in text else "it"
-    try:
+    later = f"to add {them} later:\n  {command('--restore', path)}"
+    with contextlib.suppress(OSError):
         for _ in range(TRIES):
             with locked(kept) as fd:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
-                    return (
-                        f"{rows}  kept in {shown(kept)}; to add {them} later:"
-                        f"\n  {command('--restore', path)}"
-                    )
-    except OSError:
-        pass
+                    return f"{rows}  kept in {shown(kept)}; {later}"
     return f"{rows}  kept nowhere but here: copy {them}"
 
 
