@@ -41,20 +41,19 @@ def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
         Robo47Error: no file, or a first line that is not the header.
     """
     name = Path(path)
-    with contextlib.ExitStack() as stack:
-        try:
-            if name.exists() and not name.is_file():
-                raise OSError("it is no regular file")  # a pipe would wait for ever
-            file = stack.enter_context(name.open("rb"))
-        except FileNotFoundError:
-            raise Robo47Error(
-                f"{shown(name)} does not exist. `make day1` writes the first row, or"
-                " bring it back: git checkout metrics/metrics.csv"
-            ) from None
-        except OSError as error:
-            raise Robo47Error(
-                f"{shown(name)} cannot be read: {error.strerror or error}. Fix that."
-            ) from None
+    try:
+        if name.exists() and not name.is_file():
+            raise OSError("it is no regular file")  # a pipe would wait for ever
+        file = name.open("rb")
+    except FileNotFoundError:
+        raise Robo47Error(
+            f"{shown(name)} does not exist. `make day1` writes the first row, or"
+            " bring it back: git checkout metrics/metrics.csv"
+        ) from None
+    except OSError as error:
+        why = error.strerror or error
+        raise Robo47Error(f"{shown(name)} cannot be read: {why}. Fix that.") from None
+    with file:
         yield from scan_file(file, path)
 
 
