@@ -9,7 +9,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from labkit.lesson.day import Metric, find_day
+from labkit.lesson.day import find_day
+from labkit.lesson.marks import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan

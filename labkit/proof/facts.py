@@ -14,7 +14,8 @@ from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
-from labkit.lesson.marks import marks_of, writers_with
+from labkit.lesson.marks import marks_of
+from labkit.lesson.script import writers_of
 from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
@@ -53,7 +54,7 @@ def facts_of(
     unpack(package, folder)
     handin, item = package.handin, package.commit_item
     script = handin.files.get(day.files["script"])
-    writers = writers_with(day, script)
+    writers = writers_of(day, script or b"")
     try:
         numbers = series_of(day, rows_of(day, handin), writers)
     except Robo47Error:  # no log that can be read

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import Writers, mark_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import Metric, Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 
