@@ -1,6 +1,7 @@
 """The house: who may import whom, and how far a reader follows a check through it."""
 
 import ast
+import graphlib
 import re
 
 import pytest
@@ -41,8 +42,10 @@ def room(name):
     return parts[0] if parts[0] != "labkit" else ".".join(parts[:2])
 
 
-def imported(path):
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+def imported(path, whole=True):
+    """Yield what a module imports, `whole` also in its functions and for hints."""
+    tree = ast.parse(path.read_text("utf-8"))
+    for node in ast.walk(tree) if whole else tree.body:
         if isinstance(node, ast.ImportFrom) and node.module and not node.level:
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Import):
@@ -70,6 +73,24 @@ def test_every_arrow_points_down():
             if there in FLOORS and FLOORS.index(there) > here and name not in FACES:
                 up.append(f"{name}: {other}")
     assert up == []
+
+
+def test_no_files_import_each_other_in_a_circle():
+    names = {}
+    for path in MODULES:
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        names[".".join(parts).removesuffix(".__init__")] = path
+    needs = {
+        name: {
+            other if other in names else other.rpartition(".")[0]
+            for other in imported(path, whole=False)
+        }
+        for name, path in names.items()
+    }
+    graphlib.TopologicalSorter(needs).prepare()  # a CycleError says which
+    needs["robo47.se3"].add("labkit.check.tasks")
+    with pytest.raises(graphlib.CycleError):
+        graphlib.TopologicalSorter(needs).prepare()
 
 
 @pytest.mark.kit
