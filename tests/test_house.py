@@ -112,6 +112,11 @@ def test_a_check_that_names_a_mistake_is_short_to_follow(
     found = re.search(r"(\d+) files, (\d+) switches", done.stderr)
     assert int(found[1]) <= files
     assert int(found[2]) <= switches
+    if task == "1.4":
+        guide = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+        steps = guide.partition("## How `make check")[2].partition("\n## ")[0]
+        told = set(re.findall(r"`(\S+\.py)`", steps))
+        assert told == set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
 
 
 @pytest.mark.kit
