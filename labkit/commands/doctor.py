@@ -71,7 +71,7 @@ others = [shown(day.source) for day in days if not is_kits(day)]
 found = {"days": len(days), "others": others}
 """
 WALL_PROBE = """
-from labkit.sandbox.wall import wall
+from labkit.sandbox.process import wall
 found = wall().name
 """
 GL_PROBE = """

@@ -13,7 +13,7 @@ from tqdm import tqdm
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
-from labkit.lesson.marks import writers_of
+from labkit.lesson.script import writers_of
 from labkit.report.week_labs import Ran, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
@@ -61,9 +61,10 @@ def main() -> int:
     print(as_table([line for ran in labs for line in lines_of(ran)]))
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
+        number = ran.day.number
+        again = f"make run DAY={number}" if ran.mine else f"make day{number}"
         why = ran.why or "a number is missing or beyond its limit"
-        again = f"run DAY={ran.day.number}" if ran.mine else f"day{ran.day.number}"
-        says = f"day {ran.day.number} did not pass: {why}. See: make {again}"
+        says = f"day {number} did not pass: {why}. See: {again}"
         print(cli.wrapped(says, "  "))
     counted = count(len(labs), "lab")
     if failed:
