@@ -50,8 +50,8 @@ def main() -> int:
     parser.add_argument("out", type=Path, help="a folder outside the clone")
     out = parser.parse_args().out.resolve()
     empty(out)
-    for name in ask("ls-files", "-z").split("\0"):
-        if name and not LEFT_OUT.match(name) and (ROOT / name).is_file():
+    for name in ask("ls-files", "-z").split("\0")[:-1]:
+        if not LEFT_OUT.match(name) and (ROOT / name).is_file():
             target = out / name
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, target)
@@ -80,8 +80,8 @@ def empty(out: Path) -> None:
         raise Robo47Error(f"{shown(out)} is there and is no edition; choose another")
     if ask("status", "--porcelain", "--untracked-files=no", at=out):
         raise Robo47Error(f"{shown(out)} has changes; commit or take them back first")
-    for name in ask("ls-files", "-z", at=out).split("\0"):
-        (out / name).unlink(missing_ok=True) if name else None
+    for name in ask("ls-files", "-z", at=out).split("\0")[:-1]:
+        (out / name).unlink(missing_ok=True)
 
 
 def shorten(out: Path) -> None:
