@@ -41,7 +41,7 @@ if sys.platform == "win32":
 else:
     import resource
 
-IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"  # its Python
+IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"  # a venv's Python
 END_SECONDS = 5.0  # for a killed process to be gone
 # How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
 # bubblewrap, as that tells it.
