@@ -5,22 +5,20 @@ A day's file picks those that make a difference, or gives them a name of its own
     row.of_argument("q", DEGREES, REVERSED.called("joints-in-reverse"))
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
+
 
 @dataclass(frozen=True)
-class Change:
-    """A mistake with one argument; in its texts {name} is the argument's."""
+class Change(Mistake):
+    """A mistake with one argument, which `redo` takes; {name} in its texts is its."""
 
-    slug: str
-    says: str  # as in a `Mistake`
-    change: Callable[[Any], Any]  # from the argument to what is used in its place
-    redone: str = "the right one with that {name}"  # as in a `Mistake`
+    redone: str = "the right one with that {name}"
     hidden: str = ""  # why the lab cannot show it, "" where it can
 
     def called(self, slug: str) -> "Change":
@@ -28,24 +26,23 @@ class Change:
         return replace(self, slug=slug)
 
 
-def _only(some: slice) -> Callable[[Any], Any]:
-    """Return what keeps some entries and makes the others 0."""
-
-    def change(x: Any) -> Any:
-        kept = np.zeros_like(x)
-        kept[some] = x[some]
-        return kept
-
-    return change
+def _only(some: slice, x: Any) -> Any:
+    """Return x with some entries kept and 0 for the others."""
+    kept = np.zeros_like(x)
+    kept[some] = x[some]
+    return kept
 
 
-def _if_over(small: float, x: Any) -> Any:
-    return x * (abs(x) >= small)
+def _rounded(x: Any, decimals: int) -> Any:
+    """Round as Python does: it and NumPy differ at a tie, such as 0.785."""
+    return np.vectorize(lambda one: round(float(one), decimals), [float])(x)
 
 
 # Angles.
 DEGREES = Change(
-    "degrees", "{name} comes in radians, and is used as degrees", np.rad2deg
+    "degrees",
+    "{name} is converted to degrees; sine and cosine take radians, as it comes",
+    np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
@@ -71,16 +68,17 @@ ROUNDED = tuple(
     Change(
         "angle-rounded",
         f"{{name}} is rounded to {decimals} decimals before it is used",
-        partial(np.round, decimals=decimals),
+        partial(how, decimals=decimals),
     )
     for decimals in range(4)
+    for how in (np.round, _rounded)
 )
 SMALL_LEFT_OUT = tuple(  # any bound between two angles that are asked does it
     Change(
         "small-angle-ignored",
         "a small {name} is taken for 0; the formula is exact for small ones too, and "
         "needs no case of its own",
-        partial(_if_over, small),
+        lambda x, small=small: x * (abs(x) >= small),
         hidden="the lab draws hardly any angle so small",
     )
     for small in (1e-3, 1e-2)
@@ -106,7 +104,7 @@ LEFT_OUT = Change(
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint is given the first, {name}[0]: the index never moves on",
+    "every joint is given the first, {name}[0]; each has its own",
     lambda x: np.repeat(x[:1], len(x), axis=0),
     "the right one with {name}[0] everywhere",
 )
@@ -137,22 +135,22 @@ OF_ALL_JOINTS = (
     Change(
         "last-joint-missing",
         "the last joint does not count: the loop ends one too early",
-        _only(slice(-1)),
+        partial(_only, slice(-1)),
     ),
     Change(
         "first-joint-missing",
         "the first joint does not count: the loop starts one too late",
-        _only(slice(1, None)),
+        partial(_only, slice(1, None)),
     ),
     Change(
         "first-joint-only",
         "only the first joint counts (does return stand inside the loop?)",
-        _only(slice(1)),
+        partial(_only, slice(1)),
     ),
     Change(
         "last-joint-only",
         "only the last joint counts: what the others do is overwritten",
-        _only(slice(-1, None)),
+        partial(_only, slice(-1, None)),
     ),
     *ONE_OFF,
 )
