@@ -46,27 +46,24 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
     """
     match reply.kind:
         case "stopped":
-            says = f"{function} did not return: {reply.error}."
-            return Verdict("wrong", "stopped", says)
+            slug, says = "stopped", f"{function} did not return: {reply.error}."
         case "unsendable":
-            return Verdict("wrong", "not-an-array", f"{function}: {reply.error}.")
+            slug, says = "not-an-array", f"{function}: {reply.error}."
         case "huge":
-            says = f"I{reply.error[1:]}; nothing here comes near that. Is something "
-            says += "divided by almost zero?"
-            return Verdict("wrong", "huge-numbers", says)
+            slug, says = "huge-numbers", f"I{reply.error[1:]}; nothing here comes near "
+            says += "that. Is something divided by almost zero?"
         case "missing":
-            says = f"The file has no function {function}."
+            slug, says = "missing", f"The file has no function {function}."
             says += f" To put its gap back: make start RESET={task}." if task else ""
-            return Verdict("wrong", "missing", says)
+        case "BdbQuit":
+            slug, says = "breakpoint", f"It stops in the debugger (line {reply.line}): "
+            says += "take breakpoint() out."
+        case "RefusedError":
+            return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "waits":
             stopped = reply.error.removeprefix("task ")
             says = f"Not asked: it builds on task {stopped}, which did not return."
             return Verdict("todo", "waits", says, follows=stopped)
-        case "BdbQuit":
-            says = f"It stops in the debugger (line {reply.line}): take breakpoint()"
-            return Verdict("wrong", "breakpoint", f"{says} out.")
-        case "RefusedError":
-            return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "NotImplementedError":
             named = re.search(r"task (\d+\.\d+)", reply.error)
             if named and named[1] != task:
@@ -74,7 +71,9 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
                 return Verdict("todo", "waits", says, follows=named[1])
             says = f"Not written yet: {reply.error or 'the task is still to do.'}"
             return Verdict("todo", "unwritten", says)
-    return None
+        case _:
+            return None
+    return Verdict("wrong", slug, says)
 
 
 def stops_with(reply: Reply, often: str = "") -> str:
