@@ -150,10 +150,8 @@ class Vector(Kind):
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
-        return Finding(
-            "few-entries-off",
-            f"All entries are right but {where}: up to {self.apart(S, T)} off.",
-        )
+        says = f"All entries are right but {where}: up to {self.apart(S, T)} off."
+        return Finding("few-entries-off", says)
 
 
 def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
@@ -267,10 +265,8 @@ class Pose(Kind):
             return found
         (R, t), (R_true, t_true) = split(S), split(T)
         if (off := _bottom(S)).max() > NEAR:
-            numbers = ", ".join(f"{x:.3g}" for x in S[np.argmax(off), 3])
-            says = (
-                f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose."
-            )
+            row = ", ".join(f"{x:.3g}" for x in S[np.argmax(off), 3])
+            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
             return Finding("bottom-row", says)
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= NEAR and t_off != "0":
