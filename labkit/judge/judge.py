@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Exchange, Question
+from labkit.base.exchange import Exchange
 from labkit.judge import near_miss, problems
 from labkit.judge.answers import (
     InTurn,
@@ -21,7 +21,6 @@ from labkit.judge.answers import (
     largest,
     matches,
     off_by,
-    own,
     parts,
     plain,
     worst_part,
@@ -146,24 +145,19 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
-    assert ask.accept is not None
     fresh = problems.read(replies(asked.fresh), ask, "")
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
-    questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
-    wrong: list[tuple[Question, Finding]] = []
-    for question, answer in zip(questions, problems.answers(asked), strict=True):
-        if why := ask.accept(*map(own, question.args), answer):
-            found = why if isinstance(why, Finding) else Finding("not-accepted", why)
-            wrong.append((question, found))
+    wrong = list(problems.refused(asked))
     if not wrong:
         return _second_look(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
-    question, found = wrong[0]
-    given = in_words(question, names)
+    first, found = wrong[0]
+    given = in_words(first.question, names)
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f"For {often} of {len(questions)} inputs{_first([1], [given], 'first for')}"
+    where = f"For {often} of {len(asked.main) + len(asked.fresh)} inputs"
+    where += _first([1], [given], "first for")
     return Verdict("wrong", found.slug, f"{found.message} ({where}.)")
 
 

@@ -17,6 +17,7 @@ from labkit.judge.answers import (
     gaps,
     own,
     parts,
+    plain,
     typed,
     worst_part,
 )
@@ -155,12 +156,17 @@ def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
-def answers(asked: Asked) -> Iterator[Any]:
-    """Yield the answers that `read` has read, none of them filled up, for `accept`."""
-    columns = _columns(replies([*asked.main, *asked.fresh]), asked.ask.kinds)
-    for row in zip(*columns, strict=True):
-        parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
-        yield parts[0] if len(parts) == 1 else tuple(parts)
+def refused(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
+    """Yield the calls that a function with many right answers got wrong, and why."""
+    if not (accept := asked.ask.accept):
+        return
+    for one in (*asked.main, *asked.fresh):
+        S = read(replies([one]), asked.ask, "")
+        if isinstance(S, Finding):
+            continue
+        answer = plain(tuple(part[0] for part in S))
+        if why := accept(*map(own, one.question.args), answer):
+            yield one, why if isinstance(why, Finding) else Finding("not-accepted", why)
 
 
 def of_another_size(asked: Asked) -> Finding | None:
@@ -282,7 +288,12 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
             continue
         if found := _broken(some, names) or _wrong(asked, some, held, names):
             return found
-    return _refused(asked, names) or ("", ())
+    for one, _ in refused(asked):
+        assert one.reply
+        yours = (f"yours: {_matrix(one.reply.value)}",)
+        says = f"{typed(one.question, names)} is such a call."
+        return says, _given(one.question, names) + yours
+    return "", ()
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -322,19 +333,6 @@ def _wrong(
     for word, one in (("yours", S), ("right", T)):
         whole += [f"{word}: {_matrix(values[i])}" for values in one]
     return says, tuple(whole)
-
-
-def _refused(asked: Asked, names: Sequence[str]) -> Failing | None:
-    """Return the first call that a function with many right answers got wrong."""
-    ask = asked.ask
-    for one in [*asked.main, *asked.fresh] if ask.accept else []:
-        if not one.reply or isinstance(read([one.reply], ask, ""), Finding):
-            continue
-        if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
-            yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
-            says = f"{typed(one.question, names)} is such a call."
-            return says, _given(one.question, names) + yours
-    return None
 
 
 def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
