@@ -53,7 +53,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
-    S = problems.read(replies(asked.main), asked.ask, source)
+    S = problems.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
     if found := problems.of_another_size(asked) or problems.kept_state(asked, source):
@@ -82,7 +82,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
-    S = problems.read(replies(good), asked.ask, "") if good else found
+    S = problems.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
     T = right_answers(asked.ask, good)
@@ -114,7 +114,7 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
-        S = problems.read(replies(asked.fresh), ask, "")
+        S = problems.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
             gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
@@ -134,7 +134,7 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     """Return whether answers to held-out questions give the mistake away."""
-    S = problems.read(replies(exchanges), ask, "")
+    S = problems.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
@@ -145,7 +145,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
-    fresh = problems.read(replies(asked.fresh), ask, "")
+    fresh = problems.read(asked.fresh, ask)
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
     wrong = list(problems.refused(asked))

@@ -2,7 +2,7 @@
 
 import linecache
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -131,28 +131,29 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why
 
 
-def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
+def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
     """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
 
     Args:
-        replies: one per question.
+        exchanges: the questions, with their replies.
         ask: the function's row.
         source: the student's file, for the slips that show in it.
     """
-    if broken := [reply for reply in replies if reply.kind]:
+    replied = replies(exchanges)
+    if broken := [reply for reply in replied if reply.kind]:
         text = f"{broken[0].kind}: {broken[0].error}"
         for slip in ask.slips:
             if re.search(slip.error, text) and re.search(slip.source, source):
                 return Finding(slip.slug, slip.says)
-        often = f", in {len(broken)} of {len(replies)} calls"
+        often = f", in {len(broken)} of {len(replied)} calls"
         return Finding("raises", stops_with(broken[0], often))
-    if nothing := sum(reply.value is None for reply in replies):
+    if nothing := sum(reply.value is None for reply in replied):
         says = "It returns nothing (None): the result is worked out, but not handed "
         says += "back."
-        if nothing < len(replies):
-            says = f"It returns None for {nothing} of {len(replies)} inputs."
+        if nothing < len(replied):
+            says = f"It returns None for {nothing} of {len(replied)} inputs."
         return Finding("nothing-returned", says)
-    columns = _columns(replies, ask.kinds)
+    columns = _columns(replied, ask.kinds)
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
@@ -161,7 +162,7 @@ def refused(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
     if not (accept := asked.ask.accept):
         return
     for one in (*asked.main, *asked.fresh):
-        S = read(replies([one]), asked.ask, "")
+        S = read([one], asked.ask)
         if isinstance(S, Finding):
             continue
         answer = plain(tuple(part[0] for part in S))
@@ -314,7 +315,7 @@ def _wrong(
     ask = asked.ask
     if not exchanges or not (ask.truth or held):
         return None
-    S = read(replies(exchanges), ask, "")
+    S = read(exchanges, ask)
     if isinstance(S, Finding):
         return None
     T = right_answers(ask, exchanges, held)
