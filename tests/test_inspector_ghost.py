@@ -22,7 +22,7 @@ TRUTH = {
 
 
 def said(**wrong):
-    return compare(GHOST, np.zeros(7), {**TRUTH, **wrong}, "", TRUTH)
+    return compare(GHOST, {**TRUTH, **wrong}, "", TRUTH)
 
 
 def test_the_right_poses_are_said_to_agree_in_the_students_name():
@@ -64,14 +64,14 @@ def test_a_matrix_without_a_rotation_is_drawn_as_the_nearest_one_and_said():
 
 def test_without_the_last_frame_the_reason_is_said_and_nothing_agrees():
     some = {"link0": TRUTH["link0"]}
-    apart = compare(GHOST, np.zeros(7), some, "my_fk stops with X.", TRUTH)
+    apart = compare(GHOST, some, "my_fk stops with X.", TRUTH)
     assert apart.kind == "bad"
     assert apart.sentence == "my_fk stops with X."
 
 
 def test_an_end_alone_agrees_here_and_not_everywhere():
     end, why = {"ee": TRUTH["ee"]}, "Only ee is drawn: no path."
-    apart = compare(GHOST, np.zeros(7), end, why, TRUTH)
+    apart = compare(GHOST, end, why, TRUTH)
     assert apart.kind == "good"
     assert "agrees with MuJoCo here" in apart.sentence
     assert "Only ee is drawn" in apart.sentence

@@ -7,7 +7,6 @@ can share one server and one page: a page takes seconds to load.
 import importlib.util
 import io
 import re
-import shutil
 import time
 import urllib.parse
 import urllib.request
@@ -26,7 +25,6 @@ from robo47.checks import Array
 
 pytestmark = [pytest.mark.browser, pytest.mark.kit]
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -48,17 +46,16 @@ SHOWN = 6e-7  # a matrix is shown with 6 decimals
 
 
 @pytest.fixture(scope="module")
-def browser(tmp_path_factory) -> Iterator[Any]:
+def browser(chromium) -> Iterator[Any]:
     for module in ("viser", "playwright"):
         found = importlib.util.find_spec(module) is not None
         need(found, f"{module}: python3 scripts/setup_env.py view browser")
-    need(CHROMIUM is not None, "Chromium: apt install chromium")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield chromium
-        chromium.close()
+        made = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+        yield made
+        made.close()
 
 
 @pytest.fixture(scope="module")

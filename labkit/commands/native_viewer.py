@@ -14,10 +14,12 @@ import numpy as np
 
 from labkit.base import cli
 from labkit.figures.scene import Camera
-from robo47 import panda
+from robo47 import panda, simulate
 
 FRAME_SECONDS = 1 / 60
 PROBE_SECONDS = 20
+# Both of MuJoCo's would leave a small window no room for the arm.
+NO_PANELS = {"show_left_ui": False, "show_right_ui": False}
 # What MuJoCo's viewer needs: a GLFW window with an OpenGL context.
 _PROBE = (
     "import glfw, sys; glfw.init() or sys.exit(1); "
@@ -63,11 +65,9 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
     Args:
         model: the Panda, any entry, with its servos.
     """
-    data, joints = mujoco.MjData(model), len(panda.READY_Q)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)  # opens the fingers
-    data.qpos[:joints] = panda.READY_Q
-    data.ctrl[:joints] = panda.READY_Q  # with qpos alone the arm would sag at once
-    mujoco.mj_forward(model, data)
+    data = simulate.start(model, panda.READY_Q)
+    _, _, motors = simulate.addresses(model)
+    data.ctrl[motors] = panda.READY_Q  # else the arm would sag at once
     return data
 
 
@@ -79,27 +79,22 @@ def show() -> int:
     """
     import mujoco.viewer
 
-    model = panda.load("scene", meshes=True)
-    data = at_ready(model)
+    model, camera = panda.load("scene", meshes=True), Camera(distance=2.6)
+    data, steps = at_ready(model), round(FRAME_SECONDS / model.opt.timestep)
     model.vis.scale.framelength *= 0.6  # the default triads hide the arm
     model.vis.scale.framewidth *= 0.4
     print("window: the arm at ready; Shift+Tab shows its sliders, under Control")
     print("        (Tab shows the options). Close it, or Ctrl-C here, to end")
     try:
-        # Both of MuJoCo's panels would leave a small window no room for the arm.
-        with mujoco.viewer.launch_passive(
-            model, data, show_left_ui=False, show_right_ui=False
-        ) as viewer:
+        with mujoco.viewer.launch_passive(model, data, **NO_PANELS) as viewer:
             viewer.opt.frame = int(mujoco.mjtFrame.mjFRAME_BODY)
             viewer.opt.label = int(mujoco.mjtLabel.mjLABEL_BODY)
-            camera = Camera(distance=2.6)
             viewer.cam.lookat[:], viewer.cam.distance = camera.lookat, camera.distance
-            viewer.cam.azimuth = float(np.degrees(camera.azimuth))
-            viewer.cam.elevation = float(np.degrees(camera.elevation))
+            angles = np.degrees([camera.azimuth, camera.elevation])
+            viewer.cam.azimuth, viewer.cam.elevation = angles
             while viewer.is_running():
                 start = time.perf_counter()
                 with viewer.lock():
-                    steps = round(FRAME_SECONDS / model.opt.timestep)
                     mujoco.mj_step(model, data, nstep=steps)
                 viewer.sync()
                 time.sleep(max(0.0, start + FRAME_SECONDS - time.perf_counter()))

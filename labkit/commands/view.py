@@ -18,20 +18,30 @@ from pathlib import Path
 from typing import NoReturn
 
 import mujoco
+import numpy as np
 
 from labkit.base import cli
 from labkit.commands import native_viewer
 from labkit.handin.figure import PORTRAIT
 from labkit.inspector.arm import Arm
+from labkit.inspector.ghost import Seen
+from labkit.inspector.student import AGAIN, Student
+from labkit.inspector.tab import day_tabs
 from labkit.judge.ask import model_of
 from labkit.lesson.day import Day, chosen_day
+from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import shown
 
 DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
+BARE, FRAMES = "panda_nohand", 40
+REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # of a clip: there and back
+# Whether a clip says good news, by their kind.
+GOOD = {"": None, "good": True, "bad": False, "quiet": False}
 
 
 def web(day: Day, entry: str, start: str | None, port: int, simple: bool) -> NoReturn:
@@ -85,7 +95,7 @@ def screenshot(path: Path, start: str) -> int:
         ) from None
     from PIL import PngImagePlugin
 
-    arm = Arm(panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"])
+    arm = Arm(panda.load(BARE), panda.END_FRAME[BARE])
     picture = draw(arm.named_q[start], start)
     about = PngImagePlugin.PngInfo()
     about.add_text(PORTRAIT, start)
@@ -96,19 +106,51 @@ def screenshot(path: Path, start: str) -> int:
 
 
 def clip(path: Path, day: Day, file: Path | None) -> int:
-    """Write a clip of the arm with the student's own beside it; overwrite nothing."""
+    """Write a .gif or .webp of the arm with the student's own; overwrite nothing.
+
+    That is of the file in work/ unless one is given, and red wherever it differs.
+    """
     if path.exists():
         raise Robo47Error(f"{shown(path)} is there already; name another file")
     try:
-        from labkit.commands.film import film
+        from labkit.figures import clip as clips
     except ModuleNotFoundError as missing:
         raise Robo47Error(
             f"a clip needs {missing.name}, which is not installed yet: "
             'make view ARGS="--clip arm.gif" (or: python3 scripts/setup_env.py view)'
         ) from None
-    size = film(path, day, file)
+    clips.kind_of(path)
+    if file and not file.is_file():
+        raise Robo47Error(f"{file} is not there")
+    qs = clips.there_and_back(panda.READY_Q, REACH_Q, FRAMES)
+    shots = [
+        (clips.arm_scene(q, seen.drawn), (seen.sentence.rstrip("."), GOOD[seen.kind]))
+        for q, seen in zip(qs, seen_at(qs, day, file or day.work), strict=True)
+    ]
+    size = clips.save_clip(clips.drawn(shots), path)
     print(f"wrote {shown(path)}, {size / 1000:.0f} kB")
     return cli.EXIT_OK
+
+
+def seen_at(qs: Array, day: Day, script: Path) -> list[Seen]:
+    """Return what a student's file gives at configurations, (n, 7), beside MuJoCo's.
+
+    Where the day has no such function, or there is no file, all that is said is so.
+    """
+    ghost = day_tabs(day).ghost
+    if ghost is None or not script.is_file():
+        why = f"{shown(script)} is not there"
+        if ghost is None:
+            why = f"day {day.number} has no other. Live: make view"
+        return [Seen(f"MuJoCo's arm; {why}", "")] * len(qs)
+    arm = Arm(panda.load(BARE), panda.END_FRAME[BARE])
+    with Sandbox() as sandbox:
+        student = Student(day, arm, ghost, sandbox, script, CALL_SECONDS)
+        student.look()
+        found = [student.see(q) for q in qs]
+    if student.problem:
+        raise Robo47Error(student.problem.removesuffix(AGAIN))
+    return found
 
 
 def port(text: str) -> int:

@@ -1,4 +1,4 @@
-"""The class as one HTML file that needs nothing else: no script, no font, no net."""
+"""A class as one HTML file, a day or several: no script, no font, no net is needed."""
 
 import time
 from collections import Counter
@@ -9,11 +9,12 @@ from urllib.parse import quote
 from labkit.base import html
 from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
 
 CHARTED = 15  # mistakes in the chart
+COMMON = 3  # of each of several days, the most common
 MOST = 100  # groups that are listed
 STATES = {  # heading of a list of people
     "stuck": "Who is stuck",
@@ -22,6 +23,15 @@ STATES = {  # heading of a list of people
     "not started": "Not started",
     "under way": "Under way, without a mistake so far",
 }
+ROLES = {  # colours of the states, in the order to list them
+    "done": "pass",
+    "under way": "line",
+    "stuck": "fail",
+    "does not load": "broken",
+    "not started": "none",
+    "ungraded": "dark",
+}
+NUMBERS = "td.n, th.n { text-align: right; }\n"
 _ALIKE = (
     "A hint of where to look, not a "
     "verdict: friends who learn together and a good book also write alike. The "
@@ -33,8 +43,8 @@ _REFUSED = "A task needs nothing but its arguments. Most of these are accidents:
 
 
 def render(course: Course) -> str:
-    """Return the whole page."""
-    page = html.page(
+    """Return the page of a day."""
+    return html.page(
         f"Day {course.day.number}: {escape(course.day.title)}",
         _about(course),
         _tiles(course),
@@ -46,7 +56,6 @@ def render(course: Course) -> str:
         _everyone(course),
         style=STYLE,
     )
-    return printable(page)
 
 
 def _about(course: Course) -> str:
@@ -79,31 +88,20 @@ def _mistakes(course: Course) -> str:
     found = course.mistakes()
     if not found:
         return ""
-    most = len(found[0][1])
-    rows = [
-        Row(
-            f"{mark.id}  {mark.mistake}",
-            count(len(who), "student"),
-            [("line", len(who))],
-            most,
-        )
-        for mark, who in found[:CHARTED]
-    ]
-    words = [
-        html.folded(
-            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, "
-            f"{count(len(who), 'student')}",
-            f'<p class="says">{escape(mark.message)}</p>'
-            f'<p class="muted">{", ".join(map(escape, who))}</p>',
-        )
-        for mark, who in found
-    ]
+    most, rows, words = len(found[0][1]), [], []
+    for mark, who in found:
+        students, parts = count(len(who), "student"), [("line", len(who))]
+        rows.append(Row(f"{mark.id}  {mark.mistake}", students, parts, most))
+        head = f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, {students}"
+        says = f'<p class="says">{escape(mark.message)}</p>'
+        names = f'<p class="muted">{", ".join(map(escape, who))}</p>'
+        words.append(html.folded(head, says, names))
     if others := words[CHARTED:]:
         words[CHARTED:] = [html.folded("the others", *others)]
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if others else ""
     counted = '<p class="muted">Counted where they were made, once per student</p>'
-    bars = chart(rows, "students by mistake, the most common first")
+    bars = chart(rows[:CHARTED], "students by mistake, the most common first")
     return html.section(
         "What to explain again tomorrow",
         '<div class="two">',
@@ -157,11 +155,10 @@ def _people(course: Course, state: str) -> str:
         return (*what, -(10**9 if graded.minutes is None else graded.minutes))
 
     some = sorted((g for g in course.class_ if g.state == state), key=place)
-    rows = [_person(graded, course.deadline) for graded in some]
-    return _listed(STATES[state], len(some), rows)
+    return _listed(STATES[state], len(some), list(map(_person, some)))
 
 
-def _person(graded: Graded, deadline: bool) -> str:
+def _person(graded: Graded) -> str:
     mistake = graded.result.first_mistake
     badge, says = "", graded.error
     if mistake:
@@ -171,7 +168,7 @@ def _person(graded: Graded, deadline: bool) -> str:
         says = mistake.message
     elif stop := graded.result.stopped_at:
         badge = f'<span class="badge none">{escape(stop.id)}</span>'
-    commit = f'<span class="muted">{_ago(graded.minutes, deadline)}</span>'
+    commit = f'<span class="muted">{_ago(graded)}</span>'
     return _entry(f"<b>{_name(graded)}</b>{badge}{commit}", says)
 
 
@@ -196,31 +193,26 @@ def _entry(head: str, says: str = "") -> str:
 def _name(graded: Graded) -> str:
     """Return a student's name, which leads to their feedback."""
     student = graded.student
-    name = escape(student.name)
-    if student.file:
-        address = quote(f"feedback/{student.file}.txt".encode())
-        name = f'<a href="{address}">{name}</a>'
+    address = quote(f"feedback/{student.file}.txt".encode())
+    name = f'<a href="{address}">{escape(student.name)}</a>'
     folder = visible(printable(student.folder), 120)
     if student.name == folder:
         return name
     return f'{name} <span class="muted">{escape(folder)}</span>'
 
 
-def _ago(minutes: int | None, deadline: bool) -> str:
-    if minutes is None:
+def _ago(graded: Graded) -> str:
+    if graded.minutes is None:
         return "no commit"
-    size = abs(minutes)
-    for unit, length in (("d", 1440), ("h", 60), ("min", 1)):
-        if size >= 2 * length or length == 1:
-            when = f"{size // length} {unit}"
-            break
-    side = "after" if minutes < 0 else "before"
-    moment = "the deadline" if deadline else "grading"
-    return f"last commit {when} {side} {moment}, they say"
+    size = abs(graded.minutes)
+    units = (("d", 1440), ("h", 60), ("min", 1))
+    unit, length = next((u for u in units if size >= 2 * u[1]), units[-1])
+    side = "after" if graded.minutes < 0 else "before"
+    moment = "grading" if graded.late is None else "the deadline"
+    return f"last commit {size // length} {unit} {side} {moment}, they say"
 
 
 def _alike(course: Course) -> str:
-    """Return the similar submissions, as a hint."""
     by_folder = {g.student.folder: g for g in course.class_}
     rows = []
     for group in course.alike[:MOST]:
@@ -244,11 +236,10 @@ def _refused(course: Course) -> str:
 
 
 def _everyone(course: Course) -> str:
-    """Return everyone's tasks and deliverables, a mark each."""
     first = course.class_[0].result
     names = ["tasks", *(mark.id for mark in (*first.tasks, *first.items)), "commit is"]
     head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)
-    body = (_line(graded, course.deadline) for graded in course.class_)
+    body = map(_line, course.class_)
     return html.section(
         "Everyone",
         '<p class="muted wider">The table is wider than the '
@@ -257,15 +248,72 @@ def _everyone(course: Course) -> str:
     )
 
 
-def _line(graded: Graded, deadline: bool) -> str:
-    result = graded.result
+def _line(graded: Graded) -> str:
+    result, (late, _) = graded.result, graded.late_by
     cells = [f'<td class="mark">{result.score[0]}/{len(result.tasks)}</td>']
     for mark in (*result.tasks, *result.items):
         role, sign, word = STATUS[mark.shown]
         tip = escape(f"{mark.id}: {mark.mistake or word}")
         cells.append(f'<td class="mark {role}" title="{tip}">{sign}</td>')
-    when = "–" if graded.minutes is None or not deadline else "in time"
-    if deadline and graded.minutes is not None and graded.minutes < 0:
+    when = "–" if late is None else "in time"
+    if late:
         when = '<span class="fail">late</span>'
     cells.append(f'<td class="mark">{when}</td>')
     return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"
+
+
+def render_days(courses: Sequence[Course]) -> str:
+    """Return the page of several days, with links to the pages of each."""
+    title = f"Days {courses[0].day.number} to {courses[-1].day.number}"
+    class_ = by_student(courses)
+    done = sum(all(one.state == "done" for one in days) for days in class_)
+    about = f"{count(len(class_), 'student')}; {done:,} passed every task"
+    head = "".join(f"<th class=n>{_link(course)}</th>" for course in courses)
+    rows = [
+        f"<tr><td>{escape(days[0].student.name)}</td>"
+        f"<td class=n>{percent(*days) or '?'}</td>{''.join(map(_cell, days))}</tr>"
+        for days in class_
+    ]
+    everybody = html.section(
+        "Everybody <small>tasks that pass, by day</small>",
+        html.table(
+            f"<th>name</th><th class=n>per cent</th>{head}", rows, "card scroll all"
+        ),
+    )
+    return html.page(title, about, _days(courses), everybody, style=STYLE + NUMBERS)
+
+
+def _days(courses: Sequence[Course]) -> str:
+    bars, mistakes = [], ""
+    for course in courses:
+        counts, size = course.counts, len(course.class_)
+        parts = [(role, counts[where]) for where, role in ROLES.items()]
+        words = f"{counts['done']:,} of {size:,} done"
+        bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
+        common = ", ".join(
+            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
+            for mark, who in course.mistakes()[:COMMON]
+        )
+        head = f'<div class="head">{_link(course, "Day ")}</div>'
+        mistakes += f"<li>{head}<p>{common or 'none'}</p></li>"
+    marks = legend((role, escape(where)) for where, role in ROLES.items())
+    about = "students by how they stand, day by day"
+    return html.section(
+        "The days",
+        '<div class="two">',
+        html.card("How far the class is", marks, chart(bars, about)),
+        html.card("Which mistakes were common", f"<ul>{mistakes}</ul>"),
+        "</div>",
+    )
+
+
+def _link(course: Course, what: str = "") -> str:
+    number = course.day.number
+    return f'<a href="day{number}/class.html">{what}{number}</a>'
+
+
+def _cell(one: Graded) -> str:
+    passed, all_ = one.result.score[0], len(one.result.tasks)
+    words = f"{passed} of {all_}" if percent(one) else "?"
+    role = ROLES[one.state] if one.state != "under way" else ""
+    return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

@@ -3,35 +3,26 @@
 import asyncio
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 Step = Callable[[float], bool | None]
+Ended = Callable[[Exception | None], None]  # is given what stopped it
 LATE = 0.25  # seconds; a loop that is further behind lets them go
 
 
+@dataclass
 class Animation:
     """Calls a step at a steady rate on the server's event loop."""
 
-    def __init__(
-        self,
-        step: Step,
-        hz: float,
-        changed: Callable[[Exception | None], None],
-        work: Callable[[float], Any] | None = None,
-    ) -> None:
-        """Prepare; nothing runs yet.
-
-        Args:
-            step: is given the seconds since the start; returning False ends the loop.
-            hz: calls a second. 30 is enough for the eye; let a step do several
-                `mj_step` of its own.
-            changed: called when it starts, and when it stops with what stopped it.
-            work: is called before each step, on another thread: it may wait.
-        """
-        self.step, self.period, self.changed = step, 1.0 / hz, changed
-        self.work = work
-        self.task: asyncio.Task[None] | None = None
-        self.slow = 1.0  # how many times slower than real time it runs
+    step: Step  # is given the seconds since the start; returning False ends the loop
+    # Calls a second. 30 is enough for the eye; let a step do several `mj_step`.
+    hz: float
+    changed: Ended  # is called when it starts, and when it stops
+    # Is called before each step, on another thread: it may wait.
+    work: Callable[[float], Any] | None = None
+    task: asyncio.Task[None] | None = None
+    slow: float = 1.0  # how many times slower than real time it runs
 
     @property
     def running(self) -> bool:
@@ -57,18 +48,18 @@ class Animation:
 
     async def _run(self) -> None:
         start, calls, stopped = time.perf_counter(), 0, None
-        began = start
+        began, period = start, 1.0 / self.hz
         try:
             while True:
                 if self.work is not None:
-                    await asyncio.to_thread(self.work, calls * self.period)
-                if self.step(calls * self.period) is False:
+                    await asyncio.to_thread(self.work, calls * period)
+                if self.step(calls * period) is False:
                     break
                 calls += 1
-                ahead = start + calls * self.period - time.perf_counter()
+                ahead = start + calls * period - time.perf_counter()
                 if ahead < -LATE:  # the machine is too slow: slow motion, no jump
                     start -= ahead
-                self.slow = (time.perf_counter() - began) / (calls * self.period)
+                self.slow = (time.perf_counter() - began) / (calls * period)
                 await asyncio.sleep(max(ahead, 0.001))
         except Exception as error:
             stopped = error
@@ -76,14 +67,13 @@ class Animation:
         self.changed(stopped)
 
 
+@dataclass
 class Jobs:
     """Calls on another thread, one after the other; of those that wait the newest."""
 
-    def __init__(self, ended: Callable[[Exception | None], None]) -> None:
-        """Begin without any; `ended` is called after each, with what stopped it."""
-        self.ended = ended
-        self.next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
-        self.task: asyncio.Task[None] | None = None
+    ended: Ended = lambda error: None  # is called after each
+    next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
+    task: asyncio.Task[None] | None = None
 
     def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do this next; call it from a callback.

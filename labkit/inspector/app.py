@@ -7,7 +7,7 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeVar
 
@@ -65,7 +65,7 @@ class Inspector:
         self.student = student
         self.version, self.unchecked = 0, False  # of the file that is asked
         self.seen: Seen | None = None
-        self.asks, self.checks = Jobs(lambda _: None), Jobs(lambda _: None)
+        self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
@@ -75,7 +75,7 @@ class Inspector:
         self.page: Page | None = None  # what it made its widgets with
         self.open_tab(Joints.title)
         self.listen(self.frame, lambda _: self.light_frame())
-        self.listen(self.solid, lambda solid: self.scene.look(opaque=solid))
+        self.listen(self.solid, lambda _: self.look())
         self.update()
 
     def lay_out(self, gui: viser.GuiApi, about: str) -> None:
@@ -138,6 +138,7 @@ class Inspector:
         """Put the meshes of the arm's model on it, and on the ghosts, too."""
         with self.server.atomic():
             self.scene.dress(meshes, ghosts)
+            self.look()
             self.pointed.watch(model)
             if ghosts and self.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
@@ -155,14 +156,15 @@ class Inspector:
         self.limits.content = words.limits(self.arm)
         self.state.content = words.state(self.address, self.heard_words)
 
+    def look(self) -> None:
+        """Make the arm solid, or see-through and green where the student's agrees."""
+        agrees = self.seen is not None and self.seen.kind == "good"
+        self.scene.look(self.solid.value, agrees)
+
     def first(self) -> str:
         """Return what to show before viser does, as HTML."""
         some = (self.yours, self.tasks, self.proof, self.limits)
         return "".join(part.content for part in some)
-
-    def explain(self, colours: Mapping[str, tuple[int, int, int]]) -> None:
-        """Say what the colours in the scene mean: {what is drawn: its colour}."""
-        self.legend.content = words.legend(colours)
 
     @property
     def address(self) -> str:
@@ -216,13 +218,13 @@ class Inspector:
             self.leave()
             self.frame.visible, self.solid.visible = not kind.wide, True
             self.row.content = words.tab_row(self.kinds, title)
-            self.explain(COLOURS if self.day.ghost else {})
             self.scene.hide(False)
             self.scene.light(self.frame.value, None)
             self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
+            page.legend(COLOURS if self.day.ghost else {})
             self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
         self.schedule()
@@ -276,7 +278,7 @@ class Inspector:
         end = self.day.ghost.frames[-1] if self.day.ghost else END
         with self.server.atomic():
             self.scene.show_ghost(seen.drawn, end)
-            self.scene.look(agrees=seen.kind == "good")
+            self.look()
             self.show()
         if self.unchecked:
             self.unchecked = False

@@ -4,7 +4,6 @@ Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
 `robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.
 """
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import mujoco
@@ -63,7 +62,8 @@ class Arm:
         self.by_mujoco = {
             name: T[0] for name, T in mujoco_poses(self.model, self.q[None]).items()
         }
-        self.by_library = fk_all(self.model, self.q)
+        by_hand = fk_all(self.model, self.q)
+        self.by_library = {name: by_hand[full] for name, full in self.names.items()}
 
     def pose(self, name: str) -> Array:
         """Return MuJoCo's T_world_NAME, (4, 4); the name is a key of `names`."""
@@ -78,26 +78,16 @@ class Arm:
         """Return a configuration within the limits, to the sliders' four decimals."""
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
-    def difference(self, name: str, T: Array | None = None) -> float:
-        """Return a frame's largest difference of any entry between MuJoCo's pose and T.
-
-        T is (4, 4); the library's unless given.
-        """
-        full = self.names[name]
-        ours = self.by_library[full] if T is None else T
-        return float(np.abs(self.by_mujoco[full] - ours).max())
-
-    def limits(self, joint: str) -> tuple[float, float]:
-        """Return a joint's lowest and highest value, radians or metres."""
-        low, high = self.model.joint(joint).range
-        return float(low), float(high)
+    def difference(self, name: str, T: Array) -> float:
+        """Return the largest difference of any entry between MuJoCo's pose and T."""
+        return float(np.abs(self.pose(name) - T).max())
 
     def out_of_limits(self) -> list[str]:
         """Return one sentence for every joint that is outside its range."""
+        joints = zip(self.joints, self.q, self.model.jnt_range, strict=True)
         return [
             f"{joint} = {q:.4f} is outside [{low:.4f}, {high:.4f}]"
-            for joint, q in zip(self.joints, self.q, strict=True)
-            for low, high in [self.limits(joint)]
+            for joint, q, (low, high) in joints
             if not low - SOFT <= q <= high + SOFT
         ]
 
@@ -107,29 +97,26 @@ class Arm:
         As the lab has it: one factor per link (what the file says of it) and one per
         joint (what q adds).
         """
-        steps: list[Step] = []
-
-        def add(
-            link: str, joint: str, name: str, q: float, T: Array, elsewhere: Array
-        ) -> None:
-            so_far = steps[-1].after if steps else np.eye(4)
-            moves = elsewhere != T
-            steps.append(Step(link, joint, name, q, so_far, T, so_far @ T, moves))
-
-        previous = "world"
+        steps, before, previous = [], np.eye(4), "world"
         for link in self.chain.links:
             name, T = link.name.partition(":")[2], link.T_parent_link
             if link is self.chain.links[-1]:  # the last body leads on to the frame
                 name, T = END, T @ self.chain.T_link_frame
-            add(name, "", f"T_{previous}_{name}", 0.0, T, T)
-            previous = name
+            factors = [("", f"T_{previous}_{name}", 0.0, T, T)]
             for joint in link.joints:
                 one = Link(link.name, np.eye(4), (joint,))
-                alone = replace(self.chain, links=(one,), T_link_frame=np.eye(4))
-                q, says = self.q.copy(), f"T(q of {joint.name})"
+                alone = Chain(self.chain.frame, (one,), nq=self.chain.nq)
+                says, at = f"T(q of {joint.name})", float(self.q[joint.qpos_adr])
+                q = self.q.copy()
                 q[joint.qpos_adr] += 0.3
-                at = float(self.q[joint.qpos_adr])
-                add(name, joint.name, says, at, fk(alone, self.q), fk(alone, q))
+                T, elsewhere = fk(alone, self.q), fk(alone, q)
+                factors.append((joint.name, says, at, T, elsewhere))
+            for joint_name, says, at, T, elsewhere in factors:
+                after = before @ T
+                moves = elsewhere != T
+                steps.append(Step(name, joint_name, says, at, before, T, after, moves))
+                before = after
+            previous = name
         return steps
 
 

@@ -28,18 +28,16 @@ ABOUT = (
 )
 
 
-def joint_slider(
-    page: Page, joint: str, i: int, unit: str = "rad"
-) -> viser.GuiSliderHandle[float]:
-    """Add a slider that moves one joint, the i-th number of the configuration."""
+def joint_slider(page: Page, i: int, unit: str) -> viser.GuiSliderHandle[float]:
+    """Add a slider that moves the i-th joint."""
 
     def move(value: float) -> None:
         q = page.q
         q[i] = value
         page.move(q)
 
-    low, high = page.arm.limits(joint)
-    return page.slider(joint, low, high, float(page.q[i]), move, unit=unit)
+    low, high = page.model.jnt_range[i]
+    return page.slider(page.arm.joints[i], low, high, page.q[i], move, unit=unit)
 
 
 class Joints(Tab):
@@ -52,10 +50,7 @@ class Joints(Tab):
         self.buttons = page.buttons([*page.arm.named_q, RANDOM, UNDO], self.go_to)
         slides = page.model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
         self.units = ["m" if slide else "" for slide in slides]
-        self.sliders = [
-            joint_slider(page, joint, i, self.units[i])
-            for i, joint in enumerate(page.arm.joints)
-        ]
+        self.sliders = [joint_slider(page, i, u) for i, u in enumerate(self.units)]
         self.box = page.gui.add_text("q", "")
         page.host.listen(self.box, self.type)
         self.exact = page.html()
@@ -120,14 +115,8 @@ class Chain(Tab):
         self.buttons = page.buttons([BACK, NEXT, PLAY], self.press)
         self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
         self.product = page.html()
-        self.place = {
-            step.joint: int(page.model.joint(step.joint).qposadr[0])
-            for step in steps
-            if step.joint
-        }
-        self.sliders = {
-            joint: joint_slider(page, joint, i) for joint, i in self.place.items()
-        }
+        places = [page.arm.joints.index(step.joint) for step in steps if step.joint]
+        self.sliders = {i: joint_slider(page, i, "rad") for i in places}
 
     def press(self, name: str) -> None:
         """Go one factor back or on, or play them all."""
@@ -156,9 +145,9 @@ class Chain(Tab):
         if whole:  # every factor of this link is in: MuJoCo has that pose, too
             says += words.verdict(self.page.arm.difference(this.link, this.after))
         self.product.content = says
-        for joint, slider in self.sliders.items():
-            slider.visible = joint == this.joint
-            slider.value = float(q[self.place[joint]])  # type: ignore[misc]
+        for i, slider in self.sliders.items():
+            slider.visible = self.page.arm.joints[i] == this.joint
+            slider.value = float(q[i])  # type: ignore[misc]
         self.page.light(this.link, {step.link for step in done})
         self.page.host.scene.trace([step.after[:3, 3] for step in done])
 

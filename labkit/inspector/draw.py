@@ -6,14 +6,14 @@ the scene follows.
 """
 
 from collections.abc import Callable, Sequence
-from itertools import count
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 import viser
 from numpy.typing import ArrayLike, NDArray
 
-from labkit.inspector.meshes import Skin, place
+from labkit.inspector.meshes import NUMBERS, Skin, place
 from labkit.inspector.shapes import Shape
 from robo47 import se3
 from robo47.checks import Array
@@ -22,8 +22,7 @@ ROOT = "/tab"
 FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
 PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
-# The browser remembers the pose of a node that is gone: a name is never given again.
-_NUMBERS = count()
+AXES = np.stack([np.zeros((3, 3)), np.eye(3)], axis=1).astype(np.float32)
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
 COLOURS = {
     "x": (222, 70, 20),
@@ -60,7 +59,7 @@ class Sketch:
 
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
-        return f"{self.root.name}/{next(_NUMBERS)}"
+        return f"{self.root.name}/{next(NUMBERS)}"
 
     def arrows(
         self, points: ArrayLike, colour: Colour = "blue", radius: float = 0.006
@@ -119,7 +118,7 @@ class Sketch:
 
     def labels(self, texts: Sequence[str]) -> "Labels":
         """Write several texts; `show(points)` puts them there, (n, 3)."""
-        return Labels([self.label(text, np.zeros(3)) for text in texts])
+        return Labels([self.label(text, np.zeros(3)) for text in texts], texts)
 
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
         """Draw another arm; `pose({body: T_world_body})` puts its links somewhere."""
@@ -136,36 +135,47 @@ class Sketch:
 
     def target(self, T: Array, on_drag: Callable[[Array], None]) -> "Target":
         """Draw a handle at T, (4, 4), that the mouse drags; `on_drag` is given it."""
-        return Target(self.server.scene.add_transform_controls(
+        handle = self.server.scene.add_transform_controls(
             self.path(), scale=0.18, depth_test=False
-        ), T, on_drag)  # fmt: skip
+        )
+        target = Target(handle)
+        target.place(T)
+
+        @handle.on_update
+        async def _(event: viser.TransformControlsEvent) -> None:
+            position, wxyz = np.array(handle.position), np.array(handle.wxyz)
+            near = np.abs([*position, *wxyz]).max() < FARTHEST  # not NaN either
+            if near and np.linalg.norm(wxyz) > 0.5:
+                on_drag(target.T)
+
+        return target
 
 
+@dataclass
 class Labels:
     """Texts in the scene; those that would cover each other become one."""
 
-    def __init__(self, handles: list[viser.LabelHandle]) -> None:
-        self.handles, self.texts = handles, [handle.text for handle in handles]
+    handles: Sequence[viser.LabelHandle]
+    texts: Sequence[str]
 
     def show(self, points: ArrayLike) -> None:
         """Put them at points, (n, 3)."""
         first: dict[int, str] = {}
         at = np.asarray(points, dtype=np.float64)
         for i, text in enumerate(self.texts):
-            near = [k for k in first if np.linalg.norm(at[k] - at[i]) < APART]
-            key = near[0] if near else i
-            first[key] = f"{first[key]} {text}" if near else text
+            near = (k for k in first if np.linalg.norm(at[k] - at[i]) < APART)
+            key = next(near, i)
+            first[key] = f"{first[key]} {text}" if key in first else text
         for i, handle in enumerate(self.handles):
             handle.visible = i in first
             handle.text, handle.position = first.get(i, ""), at[i]
 
 
+@dataclass
 class Ellipsoid:
     """The points p with p^T A^-1 p = 1, around a point."""
 
-    def __init__(self, ball: viser.IcosphereHandle) -> None:
-        """Keep the ball of radius 1 that is stretched."""
-        self.ball = ball
+    ball: viser.IcosphereHandle  # of radius 1, which is stretched
 
     def show(self, A: ArrayLike, at: ArrayLike, scale: float = 1.0) -> None:
         """Give it its shape.
@@ -184,24 +194,11 @@ class Ellipsoid:
         self.ball.visible = True
 
 
+@dataclass
 class Target:
     """A pose that the mouse moves."""
 
-    def __init__(
-        self,
-        handle: viser.TransformControlsHandle,
-        T: Array,
-        on_drag: Callable[[Array], None],
-    ) -> None:
-        self.handle = handle
-        self.place(T)
-
-        @handle.on_update
-        async def _(event: viser.TransformControlsEvent) -> None:
-            position, wxyz = np.array(handle.position), np.array(handle.wxyz)
-            near = np.abs([*position, *wxyz]).max() < FARTHEST  # not NaN either
-            if near and np.linalg.norm(wxyz) > 0.5:
-                on_drag(self.T)
+    handle: viser.TransformControlsHandle
 
     @property
     def T(self) -> Array:
@@ -233,7 +230,7 @@ class Triad:
         scene, self.always = server.scene, letters
         self.frame = scene.add_frame(path, show_axes=False)
         colours = np.array([COLOURS[axis] for axis in "xyz"], dtype=np.uint8)
-        self.arrows = scene.add_arrows(f"{path}/axes", _ends(PLAIN), colours)
+        self.arrows = scene.add_arrows(f"{path}/axes", PLAIN * AXES, colours)
         small: dict[str, Any] = {"font_screen_scale": 0.75}
         self.letters = [
             scene.add_label(f"{path}/{name}", name, anchor="center-center", **small)
@@ -255,17 +252,12 @@ class Triad:
         self.state = visible, chosen
         length = CHOSEN if chosen else PLAIN
         self.frame.visible = visible
-        self.arrows.points = _ends(length)
+        self.arrows.points = length * AXES
         self.arrows.shaft_radius = 0.03 * length
         self.arrows.head_radius, self.arrows.head_length = 0.09 * length, 0.2 * length
         for axis, letter in zip(np.eye(3), self.letters, strict=True):
             letter.position = 1.12 * length * axis
             letter.visible = chosen or self.always
-
-
-def _ends(length: float) -> Points:
-    """Return the axes' ends, (3, 2, 3)."""
-    return np.stack([np.zeros((3, 3)), length * np.eye(3)], axis=1).astype(np.float32)
 
 
 def joined(points: ArrayLike) -> Points:

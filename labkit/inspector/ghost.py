@@ -39,36 +39,30 @@ class Ghost:
 
 @dataclass(frozen=True)
 class Seen:
-    """What the student's function said of a configuration q, (nq,)."""
+    """What the student's function said of a configuration."""
 
-    q: Array
     sentence: str  # in the student's name: how it compares, or why there is nothing
-    kind: str  # "good", "bad", or "quiet" where nothing is written yet
+    kind: str  # "good", "bad", "quiet" where nothing is written yet, "" without a file
     poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
     truth: Mapping[str, Array] = field(default_factory=dict)  # MuJoCo's of all frames
     drawn: Mapping[str, Array] = field(default_factory=dict)  # rigid, where they differ
 
 
-def nothing(q: Array, why: str) -> Seen:
-    """Return that there is no pose at q, (nq,), and why."""
-    return Seen(q, why, "quiet" if "Not written yet" in why else "bad")
+def nothing(why: str) -> Seen:
+    """Return that there is no pose, and why."""
+    return Seen(why, "quiet" if "Not written yet" in why else "bad")
 
 
 def compare(
-    ghost: Ghost,
-    q: Array,
-    poses: Mapping[str, Array],
-    problem: str,
-    truth: Mapping[str, Array],
+    ghost: Ghost, poses: Mapping[str, Array], problem: str, truth: Mapping[str, Array]
 ) -> Seen:
     """Return how what a ghost's function said differs from MuJoCo.
 
     Args:
         ghost: whose function it is.
-        q: the configuration, (nq,).
         poses: what it said, {short name: (4, 4)}.
         problem: why there are none, or fewer than asked for; else "".
-        truth: MuJoCo's poses, {short name: (4, 4)}, at q.
+        truth: MuJoCo's poses, {short name: (4, 4)}.
     """
     whose = f"YOUR {ghost.function}"
     apart = {
@@ -84,13 +78,13 @@ def compare(
         if bent := [name for name in wrong if not se3.is_pose(poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
         drawn = {name: nearest_pose(poses[name]) for name in wrong}
-        return Seen(q, f"{says}. {problem}".strip(), "bad", poses, truth, drawn)
+        return Seen(f"{says}. {problem}".strip(), "bad", poses, truth, drawn)
     if ghost.frames[-1] not in apart:
-        return nothing(q, problem or f"{whose} gave no pose")
+        return nothing(problem or f"{whose} gave no pose")
     worst = max(apart.values())
     where = "at every frame" if len(apart) == len(ghost.frames) else "here"
     says = f"{whose} agrees with MuJoCo {where}: largest difference {worst:.1e}"
-    return Seen(q, f"{says}. {problem}".rstrip(". "), "good", poses, truth)
+    return Seen(f"{says}. {problem}".rstrip(". "), "good", poses, truth)
 
 
 def _how_far(T: Array, truth: Array) -> str:

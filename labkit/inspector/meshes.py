@@ -1,7 +1,9 @@
 """Meshes in the scene: the arm, the student's, a tab's ghost or its own robot."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache, partial
+from itertools import count
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -17,6 +19,10 @@ if TYPE_CHECKING:
     from labkit.inspector.page import Page
 
 Load = Callable[[], mujoco.MjModel]
+Rgb = tuple[float, float, float]
+PLAIN: Rgb = (1, 1, 1)
+# The browser remembers the pose of a node that is gone: a name is never given again.
+NUMBERS = count()
 
 
 def place(node: viser.SceneNodeHandle, T: Array) -> None:
@@ -24,32 +30,27 @@ def place(node: viser.SceneNodeHandle, T: Array) -> None:
     node.wxyz, node.position = se3.R_to_quat(T[:3, :3]), T[:3, 3]
 
 
+@dataclass
 class Skin:
     """The meshes of an arm, each hanging from a node that is its body."""
 
-    def __init__(
-        self,
-        server: viser.ViserServer,
-        path: str,
-        colour: tuple[int, int, int] | None = None,
-        opacity: float | None = None,
-    ) -> None:
-        """Begin bare; without a colour the meshes have their own, or are solid."""
-        self.server, self.path = server, path
-        self.colour, self.opacity = colour, opacity
-        self.bodies: dict[str, viser.FrameHandle] = {}
-        self.meshes: list[tuple[viser.MeshHandle, Shape]] = []
-        self.posed: Mapping[str, Array | None] = {}
+    server: viser.ViserServer
+    path: str
+    colour: tuple[int, int, int] | None = None  # None: the meshes have their own
+    opacity: float | None = None  # None: they are solid
+    bodies: dict[str, viser.FrameHandle] = field(default_factory=dict)
+    meshes: list[tuple[viser.MeshHandle, Shape]] = field(default_factory=list)
+    posed: Mapping[str, Array | None] = field(default_factory=dict)
 
     def put_on(self, made: Sequence[Shape]) -> None:
         """Replace its meshes."""
         scene, old, self.meshes = self.server.scene, self.meshes, []
-        for i, shape in enumerate(made):
+        for shape in made:
             path = f"{self.path}/{shape.body}"
             if shape.body not in self.bodies:
                 self.bodies[shape.body] = scene.add_frame(path, show_axes=False)
             mesh = scene.add_mesh_simple(
-                f"{path}/{len(made)}_{i}", shape.vertices.astype(np.float32),
+                f"{path}/{next(NUMBERS)}", shape.vertices.astype(np.float32),
                 shape.faces, color=self.colour or _rgb(shape), opacity=self.opacity,
             )  # fmt: skip
             self.meshes.append((mesh, shape))
@@ -79,9 +80,7 @@ class Skin:
             for name, body in found.items()
         }
 
-    def look(
-        self, opacity: float | None, shade: tuple[float, float, float] = (1, 1, 1)
-    ) -> None:
+    def look(self, opacity: float | None, shade: Rgb = PLAIN) -> None:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color, mesh.opacity = _rgb(shape, shade), opacity
@@ -124,8 +123,6 @@ def _looks(dressed: Load, simple: bool) -> list[Shape]:
     return coarse + [shape for shape in shapes(model) if shape.body not in links]
 
 
-def _rgb(
-    shape: Shape, shade: tuple[float, float, float] = (1, 1, 1)
-) -> tuple[int, int, int]:
+def _rgb(shape: Shape, shade: Rgb = PLAIN) -> tuple[int, int, int]:
     r, g, b = (int(255 * c * s) for c, s in zip(shape.rgba[:3], shade, strict=True))
     return r, g, b

@@ -83,7 +83,8 @@ class Page:
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
-        self.host.explain({what: rgb(colour) for what, colour in colours.items()})
+        told = {what: rgb(colour) for what, colour in colours.items()}
+        self.host.legend.content = words.legend(told)
 
     # The student's functions, and what takes time
 

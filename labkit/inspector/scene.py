@@ -33,7 +33,6 @@ SEE_THROUGH = 0.5  # opacity
 GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
 HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR = (214, 40, 40)
-GHOST = "/yours", GHOST_COLOUR, 0.6
 AXIS = 0.3  # metres of a joint's axis, to both sides
 SHORT, FAR = 1e-6, 1e6  # metres of a ray
 
@@ -57,21 +56,20 @@ class ArmScene:
             for i, name in enumerate(arm.names)
         }
         self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
-        self.skin, self.ghost = Skin(server, "/arm"), Skin(server, *GHOST)
+        self.skin = Skin(server, "/arm")
+        self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
         draw, nowhere = Sketch(server, root="/lines"), np.zeros((1, 2, 3))
         self.way = draw.lines(nowhere, HIGHLIGHT)
         self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
-        self.opaque, self.agrees = False, False
         self.coarse: list[Shape] = []
         self.update()
 
     def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
         """Put meshes on the arm, and on the ghosts, too."""
         self.skin.put_on(shapes)
-        self.look()
         if ghosts:
             self.coarse = shapes
             self.ghost.put_on(shapes)
@@ -82,7 +80,7 @@ class ArmScene:
         bodies = () if self.hidden else self.skin.bodies
         self.skin.pose({name: self.arm.by_mujoco[f"body:{name}"] for name in bodies})
         for name, triad in self.triads.items():
-            triad.place(self.arm.by_library[self.arm.names[name]])
+            triad.place(self.arm.by_library[name])
 
     def hide(self, hidden: bool = True) -> None:
         """Draw no arm and no frames, or draw them again."""
@@ -128,23 +126,20 @@ class ArmScene:
         if self.way.visible:
             self.way.points = joined([np.zeros(3), *origins])
 
-    def look(self, *, opaque: bool | None = None, agrees: bool | None = None) -> None:
-        """Make the arm solid or see-through, and green or not; None leaves it so."""
-        self.opaque = self.opaque if opaque is None else opaque
-        self.agrees = self.agrees if agrees is None else agrees
-        if self.opaque:
+    def look(self, solid: bool, agrees: bool) -> None:
+        """Make the arm solid, or see-through and green or not."""
+        if solid:
             self.skin.look(None)
         else:
-            self.skin.look(SEE_THROUGH, GREEN if self.agrees else GREY)
+            self.skin.look(SEE_THROUGH, GREEN if agrees else GREY)
 
 
 class Pointed:
     """The link that was clicked: its name, and the axis that its joint turns about."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        self.server, self.arm = server, arm
-        self.model: mujoco.MjModel | None = None
-        self.body = 0
+        self.arm, self.body = arm, 0
+        self.watch(arm.model)
         draw = Sketch(server, root="/pointed")
         self.line = draw.lines(np.zeros((1, 2, 3)), "purple", 3.0)
         self.line.visible = False
@@ -163,14 +158,13 @@ class Pointed:
 
     def show(self) -> None:
         """Name what was clicked, where it is now; or nothing."""
-        self.label.visible = self.line.visible = bool(self.body)
-        if not self.body or self.model is None:
+        joint = int(self.model.body_jntadr[self.body])
+        self.label.visible, self.line.visible = bool(self.body), joint >= 0
+        if not self.body:
             return
         self._pose()
         name = self.model.body(self.body).name
         self.label.position = self.data.xpos[self.body]
-        joint = int(self.model.body_jntadr[self.body])
-        self.line.visible = joint >= 0
         if joint < 0:
             self.label.text = f"{name}: no joint of its own"
             return
@@ -184,7 +178,7 @@ class Pointed:
         """Return the id of the body that a ray meets first, (3,) each; 0 for none."""
         start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)
         near = np.abs([start, ray]).max() < FAR  # not NaN either
-        if self.model is None or not near or np.linalg.norm(ray) < SHORT:
+        if not near or np.linalg.norm(ray) < SHORT:
             return 0  # no browser says that: MuJoCo would stop over it
         self._pose()
         simple = np.isin(self.model.geom_group, COLLISION_GROUPS).any()
@@ -195,7 +189,6 @@ class Pointed:
         return int(self.model.geom_bodyid[geom[0]]) if geom[0] >= 0 else 0
 
     def _pose(self) -> None:
-        assert self.model is not None
         self.data.qpos[:] = self.arm.q
         mujoco.mj_kinematics(self.model, self.data)
 

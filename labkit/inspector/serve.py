@@ -69,7 +69,7 @@ def serve(
     with contextlib.ExitStack() as ends:
         ends.callback(server.stop)
         sandbox = ends.enter_context(Sandbox())
-        student = Student(day, arm, tabs.ghost, sandbox)
+        student = Student(day, arm, tabs.ghost, sandbox, day.work)
         try:
             server._websock_server.get_message_buffer().max_window_size = WINDOW
             page = on_loop(

@@ -17,7 +17,7 @@ from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
-Rgba = tuple[float, float, float, float]
+Rgba = tuple[float, ...]
 
 
 class Shape(NamedTuple):
@@ -37,15 +37,21 @@ def shapes(
     Planes and height fields are left out; collision shapes are some 60 times simpler.
     """
     parts: dict[tuple[str, Rgba], tuple[Any, Any]] = {}
-    for geom in range(model.ngeom):
-        made = _made(model, geom) if model.geom_group[geom] in groups else None
-        if made is not None:
-            body = model.body(model.geom_bodyid[geom]).name
-            key = body, _colour(model, geom)
-            vertices, faces = parts.setdefault(key, ([], []))
-            R = se3.quat_to_R(model.geom_quat[geom])
-            vertices.append(made.vertices @ R.T + model.geom_pos[geom])
-            faces.append(made.faces)
+    for geom in np.flatnonzero(np.isin(model.geom_group, groups)):
+        kind = mujoco.mjtGeom(model.geom_type[geom])
+        if kind == mujoco.mjtGeom.mjGEOM_MESH:
+            made = _mesh(model, model.geom_dataid[geom])
+        elif kind in _PRIMITIVES:
+            made = _PRIMITIVES[kind](model.geom_size[geom])
+        else:  # an endless one
+            continue
+        body, material = model.geom_bodyid[geom], model.geom_matid[geom]
+        rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
+        key = model.body(body).name, tuple(rgba.tolist())
+        vertices, faces = parts.setdefault(key, ([], []))
+        R = se3.quat_to_R(model.geom_quat[geom])
+        vertices.append(made.vertices @ R.T + model.geom_pos[geom])
+        faces.append(made.faces)
     append: Any = trimesh.util.append_faces
     return [Shape(*key, *append(*part)) for key, part in parts.items()]
 
@@ -92,21 +98,6 @@ def _distinct(rows: Array) -> list[NDArray[np.intp]]:
     rows = (rows - rows.min(axis=0)).astype(np.int64)
     keys = np.ravel_multi_index(tuple(rows.T), tuple(rows.max(axis=0) + 1))
     return [*np.unique(keys, True, True, True)[1:]]
-
-
-def _colour(model: mujoco.MjModel, geom: int) -> Rgba:
-    material = model.geom_matid[geom]
-    rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
-    r, g, b, a = (float(x) for x in rgba)
-    return r, g, b, a
-
-
-def _made(model: mujoco.MjModel, geom: int) -> trimesh.Trimesh | None:
-    """Return a geom in its own frame; None for an endless shape."""
-    kind = mujoco.mjtGeom(model.geom_type[geom])
-    if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        return _mesh(model, model.geom_dataid[geom])
-    return _PRIMITIVES[kind](model.geom_size[geom]) if kind in _PRIMITIVES else None
 
 
 def _mesh(model: mujoco.MjModel, mesh: int) -> trimesh.Trimesh:

@@ -4,9 +4,11 @@ Its methods wait for the sandbox: call them on a thread. Nothing of the student'
 in this process.
 """
 
-import threading
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
 from pathlib import Path
+from threading import RLock
 from typing import Any
 
 import numpy as np
@@ -25,35 +27,22 @@ from robo47.paths import shown
 AGAIN = " Save the file to have it asked again."
 
 
+@dataclass
 class Student:
-    """The student's file of a day, for many questions; opened anew after a save."""
+    """The student's file of a day, for many questions; opened by `look`, and anew."""
 
-    def __init__(
-        self,
-        day: Day,
-        arm: Arm,
-        ghost: Ghost | None,
-        sandbox: Sandbox,
-        script: Path | None = None,
-        seconds: float = 2.0,
-    ) -> None:
-        """Open nothing yet; `look` does.
-
-        Args:
-            day: whose functions they are.
-            arm: the robot of the questions.
-            ghost: what to ask for the arm's poses; None where only the day's tabs ask.
-            sandbox: where the file runs.
-            script: the file, there or not; the one in work/ unless given.
-            seconds: for one call. Whoever takes longer is asked again after a save.
-        """
-        self.day, self.arm, self.ghost = day, arm, ghost
-        self.sandbox, self.script, self.seconds = sandbox, script or day.work, seconds
-        self.version = 0  # of the file: another one after each save
-        self.problem = ""  # why the file is not asked, in a sentence
-        self._lock = threading.RLock()  # a session answers one thread at a time
-        self._asker: Session | None = None
-        self._stamp: tuple[int, ...] | None = ()  # never looked
+    day: Day  # whose functions they are
+    arm: Arm  # the robot of the questions
+    ghost: Ghost | None  # what to ask for the arm's poses; None where only tabs ask
+    sandbox: Sandbox  # where the file runs
+    script: Path  # the file, there or not
+    seconds: float = 2.0  # for one call; who takes longer is asked again after a save
+    version: int = 0  # of the file: another one after each save
+    problem: str = ""  # why the file is not asked, in a sentence
+    # A session answers one thread at a time.
+    _lock: AbstractContextManager[Any] = field(default_factory=RLock)
+    _asker: Session | None = None
+    _stamp: tuple[int, ...] | None = ()  # never looked
 
     @property
     def there(self) -> bool:
@@ -116,10 +105,10 @@ class Student:
         """Return what the ghost's function gives at q, (nq,), beside MuJoCo's."""
         if not self.there:
             says = f"No {shown(self.script)} yet: make start DAY={self.day.number}. "
-            return Seen(q, says + "Shown is the kit's library.", "quiet")
+            return Seen(says + "Shown is the kit's library.", "quiet")
         ghost = self.ghost
         if ghost is None or self._asker is None:
-            return nothing(q, self.problem)
+            return nothing(self.problem)
         try:
             poses, why = self._poses(ghost.frames, ghost.questions(self.arm.model, q))
             if not poses and ghost.whole is not None:
@@ -128,8 +117,8 @@ class Student:
                 poses, why = self._poses(end, [alone])
                 why = why or several
         except Exception as error:  # the day's: the page goes on
-            return nothing(q, f"not asked: {type(error).__name__}: {error}")
-        return compare(ghost, q, poses, self.problem or why, self.arm.poses_at(q))
+            return nothing(f"not asked: {type(error).__name__}: {error}")
+        return compare(ghost, poses, self.problem or why, self.arm.poses_at(q))
 
     def _poses(
         self, frames: Sequence[str], some: Sequence[tuple[Any, ...]]

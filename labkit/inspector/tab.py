@@ -66,8 +66,8 @@ def day_tabs(day: Day) -> DayTabs:
     where = f"{shown(day.own / FILE)}.py"
     try:
         module = day.module(FILE)
-    except Exception as error:
-        why = f"{type(error).__name__}: {error}"
+    except ModuleNotFoundError as error:
+        why = f"ModuleNotFoundError: {error}"
         raise Robo47Error(f"{where} does not load: {why}") from error
     ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
     if not isinstance(tabs, list | tuple):

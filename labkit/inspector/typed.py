@@ -91,7 +91,6 @@ def read_address(query: str, nq: int) -> tuple[Array | None, str, str]:
     try:
         q = np.array([float(x) for x in given.get("q", [""])[0].split(",")])
     except ValueError:
-        return None, frame, tab
-    if q.shape != (nq,) or not (np.abs(q) <= FARTHEST).all():
-        return None, frame, tab
-    return q, frame, tab
+        q = np.empty(0)
+    there = q.shape == (nq,) and bool((np.abs(q) <= FARTHEST).all())
+    return q if there else None, frame, tab

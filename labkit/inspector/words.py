@@ -88,9 +88,9 @@ def proof(arm: Arm, name: str, seen: Seen | None) -> str:
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
     if seen is None or name not in seen.poses:
-        library = arm.by_library[arm.names[name]]
+        library = arm.by_library[name]
         pose = matrix(f"T_world_{name}, robo47.kinematics", library, "library")
-        return truth + pose + verdict(arm.difference(name))
+        return truth + pose + verdict(arm.difference(name, library))
     yours = seen.poses[name]
     apart = np.abs(yours - seen.truth[name])
     pose = matrix(f"T_world_{name}, YOURS", yours, "yours", ~(apart < AGREES))

@@ -17,7 +17,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.fast.arm_state import as_one
 from robo47.fast.vectors import times
-from robo47.panda import ARM_JOINTS
+from robo47.panda.loading import ARM_JOINTS
 from robo47.screws import screw_axis
 
 # Where the arm ends, by entry: the same point, turned by 180 degrees about z.
@@ -29,9 +29,7 @@ class Inertias(NamedTuple):
 
     masses: Array  # kilograms, (n,)
     coms: Array  # centres of mass in the links' own frames, metres, (n, 3)
-    inertias: (
-        Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
-    )
+    inertias: Array  # about these centres, in the links' axes, kg m^2, (n, 3, 3)
 
     def carrying(self, carry: Callable[..., Array], *load: Any) -> "Inertias":
         """Return the same bodies, the last one with a load that carry makes part of it.
