@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Exchange, Question
+from labkit.base.exchange import Exchange
 from labkit.judge import near_miss, problems
 from labkit.judge.answers import (
     InTurn,
@@ -21,7 +21,6 @@ from labkit.judge.answers import (
     largest,
     matches,
     off_by,
-    own,
     parts,
     plain,
     worst_part,
@@ -54,7 +53,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
-    S = problems.read(replies(asked.main), asked.ask, source)
+    S = problems.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
     if found := problems.of_another_size(asked) or problems.kept_state(asked, source):
@@ -83,7 +82,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
-    S = problems.read(replies(good), asked.ask, "") if good else found
+    S = problems.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
     T = right_answers(asked.ask, good)
@@ -115,7 +114,7 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
-        S = problems.read(replies(asked.fresh), ask, "")
+        S = problems.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
             gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
@@ -135,7 +134,7 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     """Return whether answers to held-out questions give the mistake away."""
-    S = problems.read(replies(exchanges), ask, "")
+    S = problems.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
@@ -146,24 +145,19 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
-    assert ask.accept is not None
-    fresh = problems.read(replies(asked.fresh), ask, "")
+    fresh = problems.read(asked.fresh, ask)
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
-    questions = [exchange.question for exchange in (*asked.main, *asked.fresh)]
-    wrong: list[tuple[Question, Finding]] = []
-    for question, answer in zip(questions, problems.answers(asked), strict=True):
-        if why := ask.accept(*map(own, question.args), answer):
-            found = why if isinstance(why, Finding) else Finding("not-accepted", why)
-            wrong.append((question, found))
+    wrong = list(problems.refused(asked))
     if not wrong:
         return _second_look(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
-    question, found = wrong[0]
-    given = in_words(question, names)
+    first, found = wrong[0]
+    given = in_words(first.question, names)
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f"For {often} of {len(questions)} inputs{_first([1], [given], 'first for')}"
+    where = f"For {often} of {len(asked.main) + len(asked.fresh)} inputs"
+    where += _first([1], [given], "first for")
     return Verdict("wrong", found.slug, f"{found.message} ({where}.)")
 
 

@@ -142,23 +142,16 @@ class Vector(Kind):
         return f"a vector of {self.shape[0]} numbers".replace(" of None numbers", "")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        return (
-            one_factor(self, S, T)
-            or self._few(S, T)
-            or Finding("off", f"It is off by up to {self.apart(S, T)}.")
-        )
-
-    def _few(self, S: Array, T: Array) -> Finding | None:
+        if found := one_factor(self, S, T):
+            return found
         off = np.abs(S - T).max(axis=0) > NEAR * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
-            return None
+            return Finding("off", f"It is off by up to {self.apart(S, T)}.")
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
-        return Finding(
-            "few-entries-off",
-            f"All entries are right but {where}: up to {self.apart(S, T)} off.",
-        )
+        says = f"All entries are right but {where}: up to {self.apart(S, T)} off."
+        return Finding("few-entries-off", says)
 
 
 def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
@@ -268,14 +261,29 @@ class Pose(Kind):
         return " and ".join(p for p in parts if p != "0") or "0"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        return few_entries(self, S, T, 3) or _pose_wrong(S, T)
+        if found := few_entries(self, S, T, 3):
+            return found
+        (R, t), (R_true, t_true) = split(S), split(T)
+        if (off := _bottom(S)).max() > NEAR:
+            row = ", ".join(f"{x:.3g}" for x in S[np.argmax(off), 3])
+            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
+            return Finding("bottom-row", says)
+        t_off = say_mm(millimetres(t, t_true))
+        if difference(R, R_true).max() <= NEAR and t_off != "0":
+            says = "R is right everywhere; the translation is not: up to"
+            return Finding("translation-off", f"{says} {t_off} off.")
+        slug, message = rotation_wrong(R, R_true)
+        if t_off == "0":
+            return Finding(slug, f"The translation is right. {message}")
+        slug = "pose-off" if slug == "rotation-off" else slug
+        return Finding(slug, f"{message} The translation is up to {t_off} off too.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         (R, t), (R_T, t_T) = split(S), split(T)
         moved = say_range(millimetres(t, t_T), say_mm)
         return (
             *Rotation().measured(R, R_T),
-            f"t off by {moved}; bottom row by {_bottom(S):.2g}",
+            f"t off by {moved}; bottom row by {_bottom(S).max():.2g}",
         )
 
 
@@ -312,32 +320,11 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     )
 
 
-def _pose_wrong(S: Array, T: Array) -> Finding:
-    (R, t), (R_true, t_true) = split(S), split(T)
-    if _bottom(S) > NEAR:
-        row = S[np.argmax(np.abs(S[:, 3] - [0, 0, 0, 1]).max(axis=1)), 3]
-        numbers = ", ".join(f"{x:.3g}" for x in row)
-        return Finding(
-            "bottom-row",
-            f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
-        )
-    t_off = say_mm(millimetres(t, t_true))
-    if difference(R, R_true).max() <= NEAR and t_off != "0":
-        return Finding(
-            "translation-off",
-            f"R is right everywhere; the translation is not: up to {t_off} off.",
-        )
-    slug, message = rotation_wrong(R, R_true)
-    if t_off == "0":
-        return Finding(slug, f"The translation is right. {message}")
-    slug = "pose-off" if slug == "rotation-off" else slug
-    return Finding(slug, f"{message} The translation is up to {t_off} off too.")
-
-
 def _skew(R: Array) -> float:
     """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
     return float(np.abs(R @ R.mT - np.eye(3)).max())
 
 
-def _bottom(S: Array) -> float:
-    return float(np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max())
+def _bottom(S: Array) -> Array:
+    """Return how far each bottom row of S, (n, 4, 4), is from that of a pose, (n,)."""
+    return np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)

@@ -2,7 +2,7 @@
 
 import linecache
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from labkit.judge.answers import (
     gaps,
     own,
     parts,
+    plain,
     typed,
     worst_part,
 )
@@ -46,27 +47,24 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
     """
     match reply.kind:
         case "stopped":
-            says = f"{function} did not return: {reply.error}."
-            return Verdict("wrong", "stopped", says)
+            slug, says = "stopped", f"{function} did not return: {reply.error}."
         case "unsendable":
-            return Verdict("wrong", "not-an-array", f"{function}: {reply.error}.")
+            slug, says = "not-an-array", f"{function}: {reply.error}."
         case "huge":
-            says = f"I{reply.error[1:]}; nothing here comes near that. Is something "
-            says += "divided by almost zero?"
-            return Verdict("wrong", "huge-numbers", says)
+            slug, says = "huge-numbers", f"I{reply.error[1:]}; nothing here comes near "
+            says += "that. Is something divided by almost zero?"
         case "missing":
-            says = f"The file has no function {function}."
+            slug, says = "missing", f"The file has no function {function}."
             says += f" To put its gap back: make start RESET={task}." if task else ""
-            return Verdict("wrong", "missing", says)
+        case "BdbQuit":
+            slug, says = "breakpoint", f"It stops in the debugger (line {reply.line}): "
+            says += "take breakpoint() out."
+        case "RefusedError":
+            return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "waits":
             stopped = reply.error.removeprefix("task ")
             says = f"Not asked: it builds on task {stopped}, which did not return."
             return Verdict("todo", "waits", says, follows=stopped)
-        case "BdbQuit":
-            says = f"It stops in the debugger (line {reply.line}): take breakpoint()"
-            return Verdict("wrong", "breakpoint", f"{says} out.")
-        case "RefusedError":
-            return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "NotImplementedError":
             named = re.search(r"task (\d+\.\d+)", reply.error)
             if named and named[1] != task:
@@ -74,7 +72,9 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
                 return Verdict("todo", "waits", says, follows=named[1])
             says = f"Not written yet: {reply.error or 'the task is still to do.'}"
             return Verdict("todo", "unwritten", says)
-    return None
+        case _:
+            return None
+    return Verdict("wrong", slug, says)
 
 
 def stops_with(reply: Reply, often: str = "") -> str:
@@ -131,37 +131,43 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why
 
 
-def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
+def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
     """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
 
     Args:
-        replies: one per question.
+        exchanges: the questions, with their replies.
         ask: the function's row.
         source: the student's file, for the slips that show in it.
     """
-    if broken := [reply for reply in replies if reply.kind]:
+    replied = replies(exchanges)
+    if broken := [reply for reply in replied if reply.kind]:
         text = f"{broken[0].kind}: {broken[0].error}"
         for slip in ask.slips:
             if re.search(slip.error, text) and re.search(slip.source, source):
                 return Finding(slip.slug, slip.says)
-        often = f", in {len(broken)} of {len(replies)} calls"
+        often = f", in {len(broken)} of {len(replied)} calls"
         return Finding("raises", stops_with(broken[0], often))
-    if nothing := sum(reply.value is None for reply in replies):
+    if nothing := sum(reply.value is None for reply in replied):
         says = "It returns nothing (None): the result is worked out, but not handed "
         says += "back."
-        if nothing < len(replies):
-            says = f"It returns None for {nothing} of {len(replies)} inputs."
+        if nothing < len(replied):
+            says = f"It returns None for {nothing} of {len(replied)} inputs."
         return Finding("nothing-returned", says)
-    columns = _columns(replies, ask.kinds)
+    columns = _columns(replied, ask.kinds)
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
-def answers(asked: Asked) -> Iterator[Any]:
-    """Yield the answers that `read` has read, none of them filled up, for `accept`."""
-    columns = _columns(replies([*asked.main, *asked.fresh]), asked.ask.kinds)
-    for row in zip(*columns, strict=True):
-        parts = [np.asarray(part, dtype=np.float64)[()] for part in row]
-        yield parts[0] if len(parts) == 1 else tuple(parts)
+def refused(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
+    """Yield the calls that a function with many right answers got wrong, and why."""
+    if not (accept := asked.ask.accept):
+        return
+    for one in (*asked.main, *asked.fresh):
+        S = read([one], asked.ask)
+        if isinstance(S, Finding):
+            continue
+        answer = plain(tuple(part[0] for part in S))
+        if why := accept(*map(own, one.question.args), answer):
+            yield one, why if isinstance(why, Finding) else Finding("not-accepted", why)
 
 
 def of_another_size(asked: Asked) -> Finding | None:
@@ -283,7 +289,12 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
             continue
         if found := _broken(some, names) or _wrong(asked, some, held, names):
             return found
-    return _refused(asked, names) or ("", ())
+    for one, _ in refused(asked):
+        assert one.reply
+        yours = (f"yours: {_matrix(one.reply.value)}",)
+        says = f"{typed(one.question, names)} is such a call."
+        return says, _given(one.question, names) + yours
+    return "", ()
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -304,7 +315,7 @@ def _wrong(
     ask = asked.ask
     if not exchanges or not (ask.truth or held):
         return None
-    S = read(replies(exchanges), ask, "")
+    S = read(exchanges, ask)
     if isinstance(S, Finding):
         return None
     T = right_answers(ask, exchanges, held)
@@ -323,19 +334,6 @@ def _wrong(
     for word, one in (("yours", S), ("right", T)):
         whole += [f"{word}: {_matrix(values[i])}" for values in one]
     return says, tuple(whole)
-
-
-def _refused(asked: Asked, names: Sequence[str]) -> Failing | None:
-    """Return the first call that a function with many right answers got wrong."""
-    ask = asked.ask
-    for one in [*asked.main, *asked.fresh] if ask.accept else []:
-        if not one.reply or isinstance(read([one.reply], ask, ""), Finding):
-            continue
-        if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
-            yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
-            says = f"{typed(one.question, names)} is such a call."
-            return says, _given(one.question, names) + yours
-    return None
 
 
 def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:

@@ -186,7 +186,6 @@ class Row:
             mistakes: whose `redo` takes the right answer.
             but: slugs that make no difference here.
         """
-
         for one in mistakes:
             if one.slug not in but:
 
